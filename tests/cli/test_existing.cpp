@@ -129,7 +129,7 @@ TEST_CASE("points of other programs are put on the mesh, and pairs too close are
     {
         tools::AtomicFile file((folder / "c.ply").string());
         tools::write_samples(file, tools::sample_target((folder / "c.ply").string(), "", false),
-                             moved.header, moved.rows, 3, moved.extra);
+                             moved.header, moved.rows, 3, {moved.extra});
         file.commit();
     }
     CHECK(run(folder, {"verify", "builtin:plate:4", "c.ply"}).status == 1);

@@ -1,6 +1,8 @@
 // glTF files: what is read of them, and that hostile ones are refused.
 #include "files/mesh_file.hpp"
+#include "files/output_file.hpp"
 #include "files/part_columns.hpp"
+#include "files/sample_fields.hpp"
 
 #include "mesh_facts.hpp"
 #include "test_files.hpp"
@@ -83,6 +85,77 @@ TEST_CASE("glTF meshes are read from text and binary files") {
     const MeshFile binary = read_mesh(folder.write("a.GLB", binary_of({})).string());
     CHECK(binary.positions == kSquare);
     CHECK(binary.triangles == mesh.triangles);
+}
+
+TEST_CASE("attributes of glTF are those of corners, whatever primitives share") {
+    Parts parts;
+    // Colours in bytes, a label, and a normal along x; a mirrored node that is flat along x.
+    parts.nodes = R"("scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0, "scale": [-2, 1, 1]}],)";
+    parts.primitives = R"([{"attributes": {"POSITION": 0, "COLOR_0": 2, "_LABEL": 3, "NORMAL": 4},
+                            "indices": 1},
+                           {"attributes": {"POSITION": 0, "COLOR_0": 2, "NORMAL": 4}, "indices": 1}])";
+    parts.accessors =
+        R"([{"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3"},
+            {"bufferView": 1, "componentType": 5123, "count": 6, "type": "SCALAR"},
+            {"bufferView": 2, "componentType": 5121, "count": 4, "type": "VEC3", "normalized": true},
+            {"bufferView": 3, "componentType": 5121, "count": 4, "type": "SCALAR"},
+            {"bufferView": 4, "componentType": 5126, "count": 4, "type": "VEC3"}])";
+    parts.views =
+        R"([{"buffer": 0, "byteLength": 48}, {"buffer": 0, "byteOffset": 48, "byteLength": 12},
+                      {"buffer": 0, "byteOffset": 60, "byteLength": 12},
+                      {"buffer": 0, "byteOffset": 72, "byteLength": 4},
+                      {"buffer": 0, "byteOffset": 76, "byteLength": 48}])";
+    parts.buffer = R"("uri": "mesh.bin", "byteLength": 124)";
+    const std::string buffer = kBuffer + std::string("\xff\0\0\0\xff\0\0\0\xff\0\0\0", 12) +
+                               std::string("\1\2\3\4", 4) +
+                               bytes_of_values<float>({1, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0});
+    const TemporaryFolder folder;
+    folder.write("mesh.bin", buffer);
+    MeshSources sources;
+    sources.mesh = folder.write("a.gltf", text_of(parts)).string();
+    sources.fields = parse_fields("color");
+    sources.fields.normals = true;
+    const MeshFile mesh = read_mesh(sources);
+    SampleRow row;
+    row.face = 1; // Of corners 0, 3 and 2, as it is turned over.
+    row.bary[1] = row.bary[2] = 0.5F;
+    CHECK(sample_fields(mesh, std::vector{row})[0].values == std::vector<double>{0, 0, 0.5, 1});
+    const Vec3 normal = file_normal(mesh, row);
+    CHECK(normal.x < 0);
+    CHECK(normal.y == 0);
+    sources.fields = parse_fields("_LABEL");
+    check_fails(ExitCode::bad_input, "triangle 2: vertex 0 has no value of '_LABEL'",
+                [&] { read_mesh(sources); });
+    sources.fields = parse_fields("all");
+    CHECK(read_mesh(sources).fields.size() == 1);
+}
+
+TEST_CASE("frames of samples are instances in glTF, which the reader places") {
+    const TemporaryFolder folder;
+    SampleRow row, moved;
+    row.bary[0] = moved.bary[0] = 1;
+    moved.position[0] = 1e9; // Floats are relative to the node.
+    moved.position[1] = 4;
+    const std::vector<SampleField> fields{
+        {"color", {"red", "green", "blue"}, false, true, {1, 0, 0, 0, 1, 0}},
+        {"frames", {"qx", "qy", "qz", "qw"}, false, false, {0, 0, 1, 0, 0, 0, 0, 1}, true}};
+    for (const char* const name : {"a.glb", "a.gltf"}) {
+        AtomicFile file(folder / name);
+        write_samples(file, sample_target(folder / name), {{{"min_distance", "4"}}},
+                      std::vector{row, moved}, 3, {{}, fields});
+        file.commit();
+        const MeshFile mesh = read_mesh((folder / name).string());
+        REQUIRE(mesh.triangle_count() == 2);
+        CHECK(mesh.positions[0] == doctest::Approx(-2)); // Turned by half a turn, scaled by 2.
+        CHECK(mesh.positions[9] == doctest::Approx(1e9 + 2));
+        CHECK(mesh.positions[10] == doctest::Approx(4));
+    }
+    CHECK(contains(bytes_of(folder / "a.gltf"), "COLOR_0"));
+    const std::vector<SampleField> large{{"label", {"label"}, true, false, {16777217}}};
+    AtomicFile file(folder / "b.glb");
+    check_fails(ExitCode::usage, "the attribute 'label' has a 16777217", [&] {
+        write_samples(file, sample_target(folder / "b.glb"), {}, std::vector{row}, 3, {{}, large});
+    });
 }
 
 TEST_CASE("glTF strips, fans and bare vertices make triangles that face one way") {

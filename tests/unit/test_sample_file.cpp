@@ -85,7 +85,7 @@ TEST_CASE("columns of parts are written last and kept") {
         for (const char* const name : {"a.ply", "a.csv", "a.npz", "a.pcd"}) {
             CAPTURE(name);
             AtomicFile file(folder / name);
-            write_samples(file, sample_target(folder / name, {}, is_text), {}, rows, 3, extra);
+            write_samples(file, sample_target(folder / name, {}, is_text), {}, rows, 3, {extra});
             file.commit();
             const SampleFile back = read_samples(folder / name);
             REQUIRE(back.extra.size() == 2);

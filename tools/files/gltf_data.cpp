@@ -68,6 +68,10 @@ bool is_inside(const std::string& name) {
 
 } // namespace
 
+bool GltfAccessor::is_whole() const {
+    return component_type != kFloat && !is_normalized;
+}
+
 double GltfAccessor::divisor() const {
     const auto largest = [](auto value) {
         return static_cast<double>(std::numeric_limits<decltype(value)>::max());

@@ -22,6 +22,8 @@ struct GltfAccessor {
 
     /// What its integers are divided by.
     double divisor() const;
+    /// True for integers that stand for themselves.
+    bool is_whole() const;
 };
 
 /// Reads accessors, and of the buffers only those that they need. Buffers are in the file, in the

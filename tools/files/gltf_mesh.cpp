@@ -1,6 +1,7 @@
 #include "files/gltf_mesh.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -19,6 +20,67 @@ std::vector<glm::dvec3> to_points(const std::vector<double>& numbers) {
         points.emplace_back(numbers[i], numbers[i + 1], numbers[i + 2]);
     }
     return points;
+}
+
+constexpr const char* kNormals = "NORMAL";
+
+/// Types of accessors of 1 to 4 numbers.
+constexpr const char* kTypes[] = {"SCALAR", "VEC2", "VEC3", "VEC4"};
+
+std::size_t components_of(std::string_view type) {
+    return static_cast<std::size_t>(std::ranges::find(kTypes, type) - std::begin(kTypes)) + 1;
+}
+
+/// True for what may be interpolated: colours, texture coordinates, and attributes of the user.
+bool is_attribute(std::string_view name) {
+    return name.starts_with("COLOR_") || name.starts_with("TEXCOORD_") || name.starts_with('_');
+}
+
+/// "color" and "uv" for the first sets, "color1" for the next; others as in the file.
+std::string field_name(std::string_view name) {
+    for (const auto& [prefix, field] :
+         {std::pair<std::string_view, std::string_view>{"COLOR_", kColourField},
+          {"TEXCOORD_", kUvField}}) {
+        if (name.starts_with(prefix)) {
+            const std::string_view set = name.substr(prefix.size());
+            return std::string(field) + (set == "0" ? "" : std::string(set));
+        }
+    }
+    return std::string(name);
+}
+
+MeshField field_of(std::string_view name, const GltfAccessor& about) {
+    const std::string called = field_name(name);
+    const std::string set =
+        called.substr(std::min(called.find_first_of("0123456789"), called.size()));
+    if (name.starts_with("COLOR_")) {
+        MeshField field = make_colours(MeshField::Of::corners, 4);
+        field.name = called;
+        for (std::string& component : field.components) {
+            component += set;
+        }
+        return field;
+    }
+    MeshField field = make_field(called, MeshField::Of::corners, about.components);
+    if (name.starts_with("TEXCOORD_") && about.components == 2) {
+        field.components = {"u" + set, "v" + set};
+        field.is_from_top = true;
+    }
+    field.is_whole = about.is_whole();
+    return field;
+}
+
+bool is_not_zero(double weight) {
+    return weight != 0;
+}
+
+/// Colours of three numbers are opaque.
+std::vector<double> with_alpha(const std::vector<double>& colours) {
+    std::vector<double> result;
+    for (std::size_t i = 0; i + 2 < colours.size(); i += 3) {
+        result.insert(result.end(), {colours[i], colours[i + 1], colours[i + 2], 1});
+    }
+    return result;
 }
 
 /// Its number; a damaged one is none, as materials do not change the surface.
@@ -66,8 +128,8 @@ void GltfMeshReader::add_primitive(const GltfJson& primitive, std::uint32_t numb
         mesh.vertices.push_back(read_vertices(source));
     }
     const std::size_t vertices = mesh.vertices[known->second].points.size();
-    mesh.primitives.push_back(
-        {number, known->second, corners_of(source, mode, vertices), material_of(primitive)});
+    mesh.primitives.push_back({number, known->second, corners_of(source, mode, vertices),
+                               material_of(primitive), read_fields(source, vertices)});
 }
 
 /// A primitive may bear the same data as they are, for readers that know no compression; these are
@@ -83,7 +145,8 @@ void GltfMeshReader::decode_draco(Source& source) {
     }
     std::vector<std::uint32_t> wanted;
     for (const auto& [name, unused] : ids->items()) {
-        if (name == "POSITION" || name.starts_with("JOINTS_") || name.starts_with("WEIGHTS_")) {
+        if (name == "POSITION" || name.starts_with("JOINTS_") || name.starts_with("WEIGHTS_") ||
+            is_wanted(name)) {
             wanted.push_back(
                 static_cast<std::uint32_t>(document_.index(*ids, name.c_str(), place_)));
             source.draco_ids[name] = wanted.back();
@@ -128,8 +191,7 @@ std::vector<double> GltfMeshReader::attribute(const Source& source, const std::s
     }
     const auto found =
         std::ranges::find(source.draco.attributes, id->second, &DracoMesh::Attribute::id);
-    const std::size_t components = type == "VEC3" ? 3 : 4;
-    if (found == source.draco.attributes.end() || found->components != components) {
+    if (found == source.draco.attributes.end() || found->components != components_of(type)) {
         document_.fail(place_ + ": its " + name + " in Draco's data is not of type " +
                        std::string(type));
     }
@@ -139,6 +201,52 @@ std::vector<double> GltfMeshReader::attribute(const Source& source, const std::s
         value /= divisor;
     }
     return values;
+}
+
+std::vector<double> GltfMeshReader::attribute(const Source& source, const std::string& name,
+                                              std::uint64_t accessor) {
+    const std::size_t components = data_.describe(accessor, place_).components;
+    return attribute(source, name, accessor, kTypes[components - 1]);
+}
+
+bool GltfMeshReader::is_wanted(const std::string& name) const {
+    return name == kNormals ? fields_.normals : is_attribute(name) && fields_.has(field_name(name));
+}
+
+std::vector<GltfField> GltfMeshReader::read_fields(const Source& source, std::size_t vertices) {
+    std::vector<GltfField> fields;
+    if (!fields_.are_given() && !fields_.normals) {
+        return fields;
+    }
+    for (const auto& [name, unused] : source.attributes.items()) {
+        const bool are_normals = name == kNormals;
+        if (!are_normals && !is_attribute(name)) {
+            continue;
+        }
+        const std::uint64_t accessor = document_.index(source.attributes, name.c_str(), place_);
+        const GltfAccessor about = data_.describe(accessor, place_);
+        if (about.components > std::size(kTypes) ||
+            (name.starts_with("COLOR_") && about.components < 3)) {
+            continue; // Matrices, and what are no colours.
+        }
+        if (are_normals && fields_.normals && std::ranges::any_of(weights_, is_not_zero) &&
+            !document_.array(source.primitive, "targets", place_).empty()) {
+            document_.fail(place_ +
+                           ": normals of morph targets are not read; use --normals smooth");
+        }
+        GltfField& field = fields.emplace_back(GltfField{field_of(name, about), name, are_normals});
+        if (!is_wanted(name)) {
+            continue;
+        }
+        field.field.values = attribute(source, name, accessor);
+        if (field.field.values.size() != about.components * vertices) {
+            document_.fail(place_ + ": has " + name + " for another number of vertices");
+        }
+        if (field.field.is_colour && about.components == 3) {
+            field.field.values = with_alpha(field.field.values);
+        }
+    }
+    return fields;
 }
 
 GltfVertices GltfMeshReader::read_vertices(const Source& source) {

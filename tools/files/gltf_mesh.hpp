@@ -13,6 +13,7 @@
 #include "files/draco_mesh.hpp"
 #include "files/gltf_data.hpp"
 #include "files/gltf_json.hpp"
+#include "files/mesh_fields.hpp"
 
 namespace geodisk::tools {
 
@@ -25,11 +26,19 @@ struct GltfVertices {
     std::vector<double> weights;
 };
 
+/// Values that an attribute has at the vertices of a primitive.
+struct GltfField {
+    MeshField field;          ///< Without values if they are not wanted.
+    std::string accessor;     ///< Name in the file.
+    bool are_normals = false; ///< Which nodes turn.
+};
+
 struct GltfPrimitive {
     std::uint32_t number = 0;           ///< In its mesh.
     std::size_t vertices = 0;           ///< Index of its GltfVertices.
     std::vector<std::uint32_t> corners; ///< Three of these vertices for each triangle.
     std::optional<std::uint32_t> material;
+    std::vector<GltfField> fields; ///< All that it has.
 };
 
 struct GltfMesh {
@@ -42,8 +51,8 @@ struct GltfMesh {
 /// positions share vertices. Throws UserError(bad_input) naming mesh and primitive.
 class GltfMeshReader {
   public:
-    GltfMeshReader(const GltfDocument& document, GltfData& data)
-        : document_(document), data_(data) {}
+    GltfMeshReader(const GltfDocument& document, GltfData& data, const WantedFields& fields)
+        : document_(document), data_(data), fields_(fields) {}
 
     /// Reads mesh `index` with its morph targets by `weights`, or by its own for none.
     GltfMesh read(std::uint64_t index, std::vector<double> weights);
@@ -62,15 +71,21 @@ class GltfMeshReader {
     void decode_draco(Source& source);
     Key key_of(const Source& source) const;
     GltfVertices read_vertices(const Source& source);
+    std::vector<GltfField> read_fields(const Source& source, std::size_t vertices);
+    bool is_wanted(const std::string& name) const;
     void read_joints(const Source& source, GltfVertices& vertices);
     void move_targets(const Source& source, std::vector<glm::dvec3>& points);
     std::vector<double> attribute(const Source& source, const std::string& name,
                                   std::uint64_t accessor, std::string_view type);
+    /// The same of any type.
+    std::vector<double> attribute(const Source& source, const std::string& name,
+                                  std::uint64_t accessor);
     std::vector<std::uint32_t> corners_of(const Source& source, std::uint64_t mode,
                                           std::size_t vertices);
 
     const GltfDocument& document_;
     GltfData& data_;
+    const WantedFields& fields_;
     std::string place_;           ///< The primitive that is being read, for messages.
     std::vector<double> weights_; ///< Of morph targets.
     std::map<Key, std::size_t> known_;

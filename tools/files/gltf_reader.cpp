@@ -2,6 +2,7 @@
 #include <array>
 #include <limits>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -124,6 +125,13 @@ class Placing {
         const glm::dvec4 placed = *matrix * glm::dvec4(vertices.points[i], 1);
         return glm::dvec3(placed);
     }
+    /// Returns a normal at a point that place() knows; of any length.
+    glm::dvec3 turn(const GltfVertices& vertices, std::size_t i, const glm::dvec3& normal) const {
+        const glm::dmat3 m(matrix_of(vertices, i).value_or(transform_));
+        const glm::dmat3 cofactors(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]),
+                                   glm::cross(m[0], m[1]));
+        return (glm::determinant(m) < 0 ? -1.0 : 1.0) * (cofactors * normal);
+    }
     /// True if most of the points so far were mirrored.
     bool is_mirrored() const { return mirrored_ > 0; }
 
@@ -161,15 +169,21 @@ class Placing {
 
 class GltfReader {
   public:
-    GltfReader(const Path& path, Chunks&& chunks)
+    GltfReader(const Path& path, Chunks&& chunks, const WantedFields& fields)
         : document_(path, std::move(chunks.json)), data_(document_, chunks.binary),
-          scene_(document_, data_), meshes_(document_, data_) {}
+          scene_(document_, data_), meshes_(document_, data_, fields) {}
 
     PolygonMesh read() && {
         mesh_.names = {"triangle ", "vertex ", {}, {}, 0};
         check_extensions();
         for (const GltfPlacement& placement : scene_.placements()) {
             add_mesh(placement);
+        }
+        for (MeshField& field : mesh_.fields) {
+            pad(field);
+        }
+        if (mesh_.normals) {
+            pad(*mesh_.normals);
         }
         mesh_.part_names = {names_of("materials"), {}, names_of("nodes"), scene_.nodes_above()};
         warn();
@@ -240,6 +254,7 @@ class GltfReader {
         for (const GltfPrimitive& primitive : mesh.primitives) {
             const auto [first, is_mirrored] = placed[primitive.vertices];
             const auto part = static_cast<std::uint32_t>(mesh_.parts.size());
+            add_fields(placement, mesh, primitive, transform, is_mirrored);
             mesh_.parts.push_back(
                 {placement.node, placement.mesh, primitive.number, primitive.material, {}});
             for (std::size_t i = 0; i + 2 < primitive.corners.size(); i += 3) {
@@ -253,12 +268,86 @@ class GltfReader {
         }
     }
 
+    /// Corners of primitives without the attribute have no value.
+    void pad(MeshField& field) const {
+        if (!field.values.empty()) {
+            field.corners.resize(mesh_.corners.size(), MeshField::kNone);
+        }
+    }
+
+    MeshField& field_like(const GltfField& given, const std::string& place) {
+        if (given.are_normals) {
+            return mesh_.normals ? *mesh_.normals
+                                 : mesh_.normals.emplace(without_values(given.field));
+        }
+        const auto known = std::ranges::find(mesh_.fields, given.field.name, &MeshField::name);
+        if (known == mesh_.fields.end()) {
+            return mesh_.fields.emplace_back(without_values(given.field));
+        }
+        if (known->components != given.field.components) {
+            document_.fail(place + ": " + given.accessor +
+                           " has another number of components than in a primitive before");
+        }
+        known->is_whole = known->is_whole && given.field.is_whole;
+        return *known;
+    }
+
+    static MeshField without_values(MeshField field) {
+        field.values.clear();
+        return field;
+    }
+
+    /// Adds the attributes of the corners of a primitive that come next.
+    void add_fields(const GltfPlacement& placement, const GltfMesh& mesh,
+                    const GltfPrimitive& primitive, const glm::dmat4& transform, bool is_mirrored) {
+        const std::string place = "mesh " + std::to_string(placement.mesh) + ", primitive " +
+                                  std::to_string(primitive.number);
+        for (const GltfField& given : primitive.fields) {
+            if (given.are_normals && given.field.values.empty()) {
+                continue;
+            }
+            MeshField& field = field_like(given, place);
+            if (given.field.values.empty()) {
+                continue;
+            }
+            field.corners.resize(mesh_.corners.size(), MeshField::kNone);
+            const std::size_t first = field.values.size() / field.components.size();
+            const std::vector<double>& values = given.field.values;
+            field.values.insert(field.values.end(), values.begin(), values.end());
+            if (given.are_normals) {
+                turn_normals(placement, mesh.vertices[primitive.vertices], transform,
+                             std::span(field.values).last(values.size()));
+            }
+            for (std::size_t i = 0; i + 2 < primitive.corners.size(); i += 3) {
+                for (const std::size_t k : {0u, is_mirrored ? 2u : 1u, is_mirrored ? 1u : 2u}) {
+                    field.corners.push_back(
+                        static_cast<std::uint32_t>(first + primitive.corners[i + k]));
+                }
+            }
+        }
+    }
+
+    void turn_normals(const GltfPlacement& placement, const GltfVertices& vertices,
+                      const glm::dmat4& transform, std::span<double> normals) {
+        const Placing placing = placing_of(placement, transform);
+        for (std::size_t i = 0; i < vertices.points.size(); ++i) {
+            double* const n = &normals[3 * i];
+            const glm::dvec3 turned = placing.turn(vertices, i, {n[0], n[1], n[2]});
+            n[0] = turned.x;
+            n[1] = turned.y;
+            n[2] = turned.z;
+        }
+    }
+
+    Placing placing_of(const GltfPlacement& placement, const glm::dmat4& transform) {
+        return placement.skin ? Placing(transform, scene_.joint_matrices(*placement.skin))
+                              : Placing(transform);
+    }
+
     /// Returns whether they are mirrored.
     bool add_vertices(const GltfPlacement& placement, const GltfVertices& vertices,
                       const glm::dmat4& transform) {
-        Placing placing = placement.skin
-                              ? Placing(transform, scene_.joint_matrices(*placement.skin))
-                              : Placing(transform);
+        Placing placing = placing_of(placement, transform);
         mesh_.positions.reserve(mesh_.positions.size() + 3 * vertices.points.size());
         for (std::size_t i = 0; i < vertices.points.size(); ++i) {
             const std::optional<glm::dvec3> point = placing.place(vertices, i);
@@ -292,9 +381,9 @@ class GltfReader {
 
 } // namespace
 
-PolygonMesh read_gltf(const Path& path) {
+PolygonMesh read_gltf(const Path& path, const WantedFields& fields) {
     const std::string bytes = read_text(path);
-    return GltfReader(path, chunks_of(path, bytes)).read();
+    return GltfReader(path, chunks_of(path, bytes), fields).read();
 }
 
 } // namespace geodisk::tools

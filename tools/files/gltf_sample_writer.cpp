@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <ostream>
 #include <streambuf>
 #include <vector>
@@ -10,8 +11,12 @@
 
 #include "files/block_writer.hpp"
 #include "files/byte_order.hpp"
+#include "files/mesh_fields.hpp"
+#include "files/sample_instances.hpp"
 #include "files/sample_writers.hpp"
+#include "program/exact_text.hpp"
 #include "program/failure.hpp"
+#include "program/human_text.hpp"
 #include "program/safe_text.hpp"
 
 namespace geodisk::tools {
@@ -29,6 +34,10 @@ void check_indices(std::size_t rows, const IndexOf& index_of) {
     }
 }
 
+/// Types of accessors of 1 to 4 numbers.
+constexpr int kTypes[] = {TINYGLTF_TYPE_SCALAR, TINYGLTF_TYPE_VEC2, TINYGLTF_TYPE_VEC3,
+                          TINYGLTF_TYPE_VEC4};
+
 std::string upper_case(std::string text) {
     std::ranges::transform(text, text.begin(), [](char c) {
         return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
@@ -36,17 +45,36 @@ std::string upper_case(std::string text) {
     return text;
 }
 
-/// Collects the attributes of the points, all of them of floats.
-class Points {
+/// Returns the name that glTF has for an attribute: its own begin without '_'.
+std::string attribute_name(const std::string& name) {
+    return name == kColourField    ? "COLOR_0"
+           : name == kUvField      ? "TEXCOORD_0"
+           : name.starts_with('_') ? upper_case(name)
+                                   : '_' + upper_case(name);
+}
+
+/// Throws for integers that a float does not hold exactly.
+void check_integers(const SampleField& field) {
+    constexpr double kMost = 1 << 24;
+    for (const double value : field.values) {
+        if (field.is_whole && std::abs(value) > kMost) {
+            fail_usage("glTF holds integers up to 16,777,216, and the attribute " +
+                       in_quotes(field.name) + " has a " + exact_text(value) +
+                       "; use .ply, .csv or .npz");
+        }
+    }
+}
+
+/// Adds accessors of floats to a file.
+class FloatAccessors {
   public:
-    Points(tinygltf::Model& model, std::size_t count) : model_(model), count_(count) {
+    FloatAccessors(tinygltf::Model& model, std::size_t count) : model_(model), count_(count) {
         model_.buffers.resize(1);
-        primitive_.mode = TINYGLTF_MODE_POINTS;
     }
 
-    /// `value(i, k)` is component k of point i.
+    /// Returns the number of an accessor; `value(i, k)` is component k of point i.
     template <class Value>
-    void add(const std::string& name, std::size_t components, const Value& value) {
+    int add(std::size_t components, const Value& value) {
         UninitializedVector<float> numbers(count_ * components);
         for_rows(count_, [&](std::size_t i) {
             for (std::size_t k = 0; k < components; ++k) {
@@ -57,20 +85,14 @@ class Points {
         accessor.bufferView = static_cast<int>(model_.bufferViews.size());
         accessor.componentType = TINYGLTF_COMPONENT_TYPE_FLOAT;
         accessor.count = count_;
-        accessor.type = components == 3 ? TINYGLTF_TYPE_VEC3 : TINYGLTF_TYPE_SCALAR;
+        accessor.type = kTypes[components - 1];
         set_bounds(accessor, numbers, components);
-        primitive_.attributes[name] = static_cast<int>(model_.accessors.size());
         model_.bufferViews.push_back(append(numbers));
         model_.accessors.push_back(std::move(accessor));
-    }
-    /// The same for numbers of faces, one of each point.
-    template <class IndexOf>
-    void add_indices(const std::string& name, const IndexOf& index_of) {
-        check_indices(count_, index_of);
-        add(name, 1, [&](std::size_t i, std::size_t) { return static_cast<float>(index_of(i)); });
+        return static_cast<int>(model_.accessors.size() - 1);
     }
 
-    const tinygltf::Primitive& primitive() const { return primitive_; }
+    std::size_t count() const { return count_; }
 
   private:
     static void set_bounds(tinygltf::Accessor& accessor, std::span<const float> numbers,
@@ -104,6 +126,31 @@ class Points {
 
     tinygltf::Model& model_;
     std::size_t count_;
+};
+
+/// Collects the attributes of the points, all of them of floats.
+class Points {
+  public:
+    Points(tinygltf::Model& model, std::size_t count) : accessors_(model, count) {
+        primitive_.mode = TINYGLTF_MODE_POINTS;
+    }
+
+    /// `value(i, k)` is component k of point i.
+    template <class Value>
+    void add(const std::string& name, std::size_t components, const Value& value) {
+        primitive_.attributes[name] = accessors_.add(components, value);
+    }
+    /// The same for numbers of faces, one of each point.
+    template <class IndexOf>
+    void add_indices(const std::string& name, const IndexOf& index_of) {
+        check_indices(accessors_.count(), index_of);
+        add(name, 1, [&](std::size_t i, std::size_t) { return static_cast<float>(index_of(i)); });
+    }
+
+    const tinygltf::Primitive& primitive() const { return primitive_; }
+
+  private:
+    FloatAccessors accessors_;
     tinygltf::Primitive primitive_;
 };
 
@@ -134,7 +181,7 @@ void add_surface(Points& points, std::span<const SampleRow> rows, const SampleLa
         points.add("_RADIUS", 1,
                    [&](std::size_t i, std::size_t) { return static_cast<float>(rows[i].radius); });
     }
-    for (const ExtraColumn& column : layout.extra) {
+    for (const ExtraColumn& column : layout.further.numbers) {
         points.add_indices('_' + upper_case(column.name),
                            [&](std::size_t i) { return column.values[i]; });
     }
@@ -142,6 +189,49 @@ void add_surface(Points& points, std::span<const SampleRow> rows, const SampleLa
         points.add_indices("_POLYGON_INDEX",
                            [&](std::size_t i) { return rows[i].polygon.value_or(0); });
     }
+    const SampleField* const frames = find_frames(layout.further);
+    for (const SampleField& field : layout.further.fields) {
+        if (&field == frames) {
+            continue; // Which turn instances.
+        }
+        check_integers(field);
+        const std::size_t size = field.components.size();
+        points.add(attribute_name(field.name), size, [&](std::size_t i, std::size_t k) {
+            return static_cast<float>(field.values[i * size + k]);
+        });
+    }
+}
+
+/// Adds a node that places a triangle at each point, turned by the frames, scaled by the radius.
+void add_instances(tinygltf::Model& model, const tinygltf::Node& points, int positions,
+                   std::span<const SampleRow> rows, const SampleHeader& header,
+                   const SampleLayout& layout) {
+    constexpr const char* kExtension = "EXT_mesh_gpu_instancing";
+    const SampleField& frames = *find_frames(layout.further);
+    FloatAccessors instances(model, rows.size());
+    const int turns = instances.add(4, [&](std::size_t i, std::size_t k) {
+        return static_cast<float>(frames.values[4 * i + k]);
+    });
+    const auto radius = common_radius(header, layout);
+    const int scales =
+        instances.add(3, [&](std::size_t i, std::size_t) { return scale_of(rows[i], radius); });
+    Points corners(model, kMarker.size());
+    corners.add("POSITION", 3, [](std::size_t i, std::size_t k) { return kMarker[i][k]; });
+    tinygltf::Mesh mesh;
+    mesh.name = "sample";
+    mesh.primitives.push_back(corners.primitive());
+    mesh.primitives[0].mode = TINYGLTF_MODE_TRIANGLES;
+    tinygltf::Node node;
+    node.translation = points.translation;
+    node.mesh = static_cast<int>(model.meshes.size());
+    tinygltf::Value::Object attributes{{"TRANSLATION", tinygltf::Value(positions)},
+                                       {"ROTATION", tinygltf::Value(turns)},
+                                       {"SCALE", tinygltf::Value(scales)}};
+    node.extensions.emplace(kExtension, tinygltf::Value(tinygltf::Value::Object{
+                                            {"attributes", tinygltf::Value(attributes)}}));
+    model.extensionsUsed.emplace_back(kExtension);
+    model.meshes.push_back(std::move(mesh));
+    model.nodes.push_back(std::move(node));
 }
 
 /// A node with all points.
@@ -197,7 +287,14 @@ void write_gltf(AtomicFile& file, const SampleHeader& header, std::span<const Sa
     model.defaultScene = 0;
     if (!rows.empty()) { // No accessor may be empty.
         model.nodes.push_back(add_points(model, rows, target, layout));
-        model.scenes[0].nodes.push_back(0);
+        if (find_frames(layout.further) != nullptr) {
+            const tinygltf::Node points = model.nodes[0];
+            const int positions = model.meshes[0].primitives[0].attributes.at("POSITION");
+            add_instances(model, points, positions, rows, header, layout);
+        }
+        for (std::size_t i = 0; i < model.nodes.size(); ++i) {
+            model.scenes[0].nodes.push_back(static_cast<int>(i));
+        }
     }
     const bool is_binary = target.format == SampleFormat::glb;
     FileBuffer buffer(file);

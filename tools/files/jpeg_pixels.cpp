@@ -3,7 +3,7 @@
 
 #include <jpeglib.h>
 
-#include "files/grey_pixels.hpp"
+#include "files/image_pixels.hpp"
 #include "program/failure.hpp"
 
 namespace geodisk::tools {
@@ -52,7 +52,7 @@ struct JpegReader {
 };
 
 /// False on an error, which `reader` has the text of.
-bool decode(JpegReader& reader, const std::string& bytes, GreyPixels& pixels,
+bool decode(JpegReader& reader, const std::string& bytes, PixelKind kind, ImagePixels& pixels,
             std::vector<unsigned char>& row) {
     jpeg_decompress_struct& jpeg = reader.jpeg;
     if (setjmp(reader.on_error) != 0) {
@@ -66,13 +66,13 @@ bool decode(JpegReader& reader, const std::string& bytes, GreyPixels& pixels,
         JpegReader::fail_with(reinterpret_cast<j_common_ptr>(&jpeg),
                               "it has more than 2^26 pixels");
     }
-    jpeg.out_color_space = JCS_GRAYSCALE;
+    jpeg.out_color_space = kind == PixelKind::grey ? JCS_GRAYSCALE : JCS_RGB;
     jpeg.dct_method = JDCT_ISLOW; // The same bits everywhere.
     jpeg_start_decompress(&jpeg);
     pixels.width = jpeg.output_width;
     pixels.height = jpeg.output_height;
-    row.resize(pixels.width);
-    pixels.values.reserve(std::size_t{pixels.width} * pixels.height);
+    row.resize(std::size_t{pixels.width} * (kind == PixelKind::grey ? 1 : 3));
+    pixels.values.reserve(row.size() * pixels.height);
     while (jpeg.output_scanline < jpeg.output_height) {
         JSAMPROW rows[1] = {row.data()};
         jpeg_read_scanlines(&jpeg, rows, 1);
@@ -86,18 +86,18 @@ bool decode(JpegReader& reader, const std::string& bytes, GreyPixels& pixels,
 
 } // namespace
 
-GreyPixels decode_jpeg(const Path& path, const std::string& bytes) {
+ImagePixels decode_jpeg(const Path& path, const std::string& bytes, PixelKind kind) {
     JpegReader reader;
     reader.jpeg.err = jpeg_std_error(&reader.errors);
     reader.errors.error_exit = JpegReader::fail;
     reader.errors.emit_message = JpegReader::hear;
     reader.progress.progress_monitor = JpegReader::count_scans;
     reader.jpeg.client_data = &reader;
-    GreyPixels pixels;
+    ImagePixels pixels;
     std::vector<unsigned char> row;
     bool is_read = false;
     try {
-        is_read = decode(reader, bytes, pixels, row);
+        is_read = decode(reader, bytes, kind, pixels, row);
     } catch (...) {
         jpeg_destroy_decompress(&reader.jpeg);
         throw;

@@ -298,6 +298,7 @@ MeshFile to_triangles(const MeshSources& sources, PolygonMesh&& polygons) {
     }
     check_size(path, polygons);
     split_polygons(polygons, mesh);
+    take_fields(path, sources.fields, polygons, mesh);
     take_parts(polygons, mesh);
     take_properties(polygons, mesh);
     mesh.positions = std::move(polygons.positions);
@@ -390,6 +391,7 @@ MeshFile read_mesh(const MeshSources& sources) {
         }
         check_no_attributes(sources);
         check_no_uvs(sources);
+        check_no_fields(path, sources.fields);
         MeshFile mesh = read_builtin(std::string_view(path).substr(kBuiltin.size()));
         if (sources.weld) {
             weld_mesh(path, mesh, *sources.weld);
@@ -401,25 +403,26 @@ MeshFile read_mesh(const MeshSources& sources) {
         sources.format.empty() ? lower_extension(path) : '.' + sources.format;
     if (extension == ".obj") {
         check_no_attributes(sources);
-        return to_triangles(sources, read_obj(path, sources.has_uvs, sources.progress));
+        return to_triangles(sources,
+                            read_obj(path, sources.has_uvs, sources.fields, sources.progress));
     }
     if (extension == ".ply") {
         const bool has_other_source = !sources.coordinates.empty() || !sources.edge_lengths.empty();
         const PlyWanted wanted{!has_other_source, sources.attributes, sources.properties,
-                               sources.has_uvs};
+                               sources.has_uvs, sources.fields};
         return to_triangles(sources, read_ply(path, wanted, sources.progress));
     }
     check_no_attributes(sources);
     check_no_uvs(sources);
     if (extension == ".off") {
-        return to_triangles(sources, read_off(path, sources.progress));
+        return to_triangles(sources, read_off(path, sources.fields, sources.progress));
     }
     if (extension == ".stl") {
         const MeshSources with_weld = joined(sources);
         return to_triangles(with_weld, read_stl(path, sources.progress));
     }
     if (extension == ".gltf" || extension == ".glb") {
-        return to_triangles(sources, read_gltf(path));
+        return to_triangles(sources, read_gltf(path, sources.fields));
     }
     if (!sources.format.empty()) {
         fail_usage("--mesh-format: " + in_quotes(sources.format) +

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "files/mesh_fields.hpp"
 #include "files/reading_progress.hpp"
 #include "geometry/mesh.hpp"
 #include "program/arguments.hpp"
@@ -22,6 +23,7 @@ struct MeshSources {
     std::string edge_lengths; ///< See EdgeLengths, numbered as the mesh is. Or "".
     std::vector<std::string> attributes;   ///< Scalar vertex properties of a PLY file to read.
     std::vector<std::string> properties{}; ///< Scalar properties of faces or vertices to read.
+    WantedFields fields{};                 ///< Attributes to interpolate at samples.
     /// Join vertices no farther apart; with a length of 0, those in one place,
     /// as of STL in any case.
     std::optional<Length> weld = std::nullopt;

@@ -1,14 +1,14 @@
 // In place of the decoders, where geodisk is built without the libraries for images.
-#include "files/grey_pixels.hpp"
+#include "files/image_pixels.hpp"
 #include "program/failure.hpp"
 
 namespace geodisk::tools {
 
-GreyPixels decode_png(const Path& path, const std::string& /*bytes*/) {
+ImagePixels decode_png(const Path& path, const std::string& /*bytes*/, PixelKind /*kind*/) {
     fail_input(path, "this geodisk was built without libpng, which PNG images need");
 }
 
-GreyPixels decode_jpeg(const Path& path, const std::string& /*bytes*/) {
+ImagePixels decode_jpeg(const Path& path, const std::string& /*bytes*/, PixelKind /*kind*/) {
     fail_input(path, "this geodisk was built without libjpeg, which JPEG images need");
 }
 

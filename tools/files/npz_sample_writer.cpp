@@ -38,6 +38,22 @@ class Arrays {
             [&](std::size_t i, std::size_t k) { return static_cast<double>(value_of(i, k)); });
     }
 
+    /// Adds a column, or a table if the attribute has several components.
+    void add_field(const SampleField& field) {
+        const std::size_t size = field.components.size();
+        const std::string shape = size == 1 ? column_shape(rows_) : table_shape(rows_, size);
+        const auto value_of = [&](std::size_t i, std::size_t k) {
+            return field.values[i * size + k];
+        };
+        if (field.is_whole) {
+            add(field.name, "<i4", shape, size, [&](std::size_t i, std::size_t k) {
+                return static_cast<std::int32_t>(value_of(i, k));
+            });
+        } else {
+            add(field.name, "<f8", shape, size, value_of);
+        }
+    }
+
   private:
     template <class ValueOf>
     void add(const std::string& name, const std::string& type, const std::string& shape,
@@ -88,12 +104,15 @@ void add_surface_arrays(Arrays& arrays, std::span<const SampleRow> rows,
     if (layout.has_radius) {
         arrays.add("radius", "<f8", [&](std::size_t i) { return rows[i].radius; });
     }
-    for (const ExtraColumn& column : layout.extra) {
+    for (const ExtraColumn& column : layout.further.numbers) {
         arrays.add(column.name, "<u4", [&](std::size_t i) { return column.values[i]; });
     }
     if (layout.has_polygon) {
         arrays.add("polygon_index", "<u4",
                    [&](std::size_t i) { return rows[i].polygon.value_or(0); });
+    }
+    for (const SampleField& field : layout.further.fields) {
+        arrays.add_field(field);
     }
 }
 

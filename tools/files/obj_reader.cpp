@@ -146,9 +146,10 @@ class ObjParts {
 
 class ObjReader {
   public:
-    ObjReader(const Path& path, std::string_view bytes, bool has_uvs,
+    ObjReader(const Path& path, std::string_view bytes, bool has_uvs, const WantedFields& fields,
               const ReadingProgress& progress)
-        : path_(path), lines_(bytes, progress), has_uvs_(has_uvs) {
+        : path_(path), lines_(bytes, progress), has_uvs_(has_uvs || fields.has(kUvField)),
+          has_normals_(fields.normals), has_colours_(fields.has(kColourField)) {
         mesh_.names.first_vertex = 1;
     }
 
@@ -167,13 +168,15 @@ class ObjReader {
             } else if (keyword == "vt") {
                 add_uv();
             } else if (keyword == "vn") {
-                unused_normals_.add_record();
+                add_normal();
             } else {
                 parts_.take(tokens_);
             }
         }
-        check_uvs();
+        check_indices("texture", mesh_.corner_uvs, uv_count_);
+        check_indices("normal", normals_.corners, normal_count_);
         warn_of_indices();
+        give_fields();
         parts_.give(mesh_);
         return std::move(mesh_);
     }
@@ -228,17 +231,41 @@ class ObjReader {
         if (tokens_.size() < 4) {
             fail("a vertex needs 3 coordinates");
         }
+        const std::size_t vertex = mesh_.names.vertex_lines.size();
+        const bool has_colour = tokens_.size() >= 7;
         for (std::size_t i = 1; i < tokens_.size(); ++i) { // Weight or colour may follow x y z.
             const double value = number(tokens_[i]);
             if (i <= 3) {
                 mesh_.positions.push_back(value);
+            } else if (has_colours_ && has_colour && i <= 6) {
+                colours_.values.push_back(value);
             }
         }
+        if (has_colour && has_colours_) {
+            vertex_colours_.resize(vertex, kNone);
+            vertex_colours_.push_back(colour_count_);
+        }
+        colour_count_ += has_colour ? 1 : 0;
         mesh_.names.vertex_lines.push_back(line_);
+    }
+
+    void add_normal() {
+        unused_normals_.add_record();
+        ++normal_count_;
+        if (!has_normals_) {
+            return;
+        }
+        if (tokens_.size() < 4) {
+            fail("a normal needs 3 coordinates");
+        }
+        for (std::size_t i = 1; i <= 3; ++i) {
+            normals_.values.push_back(number(tokens_[i]));
+        }
     }
 
     void add_uv() {
         unused_uvs_.add_record();
+        ++uv_count_;
         if (!has_uvs_) {
             return;
         }
@@ -283,12 +310,17 @@ class ObjReader {
         }
         mesh_.corners.push_back(resolve("vertex", parts[0], mesh_.names.vertex_lines.size()));
         if (has_uvs_) {
-            mesh_.corner_uvs.push_back(
-                parts[1].empty() ? kNone : resolve("texture", parts[1], mesh_.uvs.size() / 2));
+            mesh_.corner_uvs.push_back(parts[1].empty() ? kNone
+                                                        : resolve("texture", parts[1], uv_count_));
         } else {
             add_unused(unused_uvs_, parts[1]);
         }
-        add_unused(unused_normals_, parts[2]);
+        if (has_normals_) {
+            normals_.corners.push_back(
+                parts[2].empty() ? kNone : resolve("normal", parts[2], normal_count_));
+        } else {
+            add_unused(unused_normals_, parts[2]);
+        }
     }
 
     /// From 0. One of `count` records so far, or of those that follow.
@@ -314,18 +346,45 @@ class ObjReader {
         }
     }
 
-    void check_uvs() const {
+    /// Checks the indices of corners, now that the number of records is known.
+    void check_indices(const std::string& what, const std::vector<std::uint32_t>& corners,
+                       std::size_t count) const {
         std::size_t face = 0;
-        for (std::size_t i = 0; i < mesh_.corner_uvs.size(); ++i) {
+        for (std::size_t i = 0; i < corners.size(); ++i) {
             while (i >= mesh_.face_ends[face]) {
                 ++face;
             }
-            if (mesh_.corner_uvs[i] != kNone && mesh_.corner_uvs[i] >= mesh_.uvs.size() / 2) {
+            if (corners[i] != kNone && corners[i] >= count) {
                 fail_at(mesh_.names.face_lines[face],
-                        "texture index " + std::to_string(mesh_.corner_uvs[i] + std::int64_t{1}) +
+                        what + " index " + std::to_string(corners[i] + std::int64_t{1}) +
                             " is out of range");
             }
         }
+    }
+
+    /// Puts the attributes that the file has into the mesh.
+    void give_fields() {
+        if (colour_count_ > 0) {
+            give_colours();
+        }
+        if (uv_count_ > 0) {
+            mesh_.fields.push_back(make_uvs());
+        }
+        if (has_normals_ && normal_count_ > 0) {
+            mesh_.normals = std::move(normals_);
+        }
+    }
+
+    /// By corners, as some vertices may have no colour.
+    void give_colours() {
+        for (const std::uint32_t vertex : mesh_.corners) {
+            if (has_colours_) {
+                colours_.corners.push_back(vertex < vertex_colours_.size() ? vertex_colours_[vertex]
+                                                                           : kNone);
+            }
+        }
+        scale_colours(colours_);
+        mesh_.fields.push_back(std::move(colours_));
     }
 
     void warn_of_indices() {
@@ -346,7 +405,12 @@ class ObjReader {
     std::string joined_; ///< A line that is continued.
     std::uint32_t line_ = 0;
     std::vector<std::string_view> tokens_;
-    bool has_uvs_;
+    bool has_uvs_, has_normals_, has_colours_; ///< What to read.
+    MeshField colours_ = make_colours(MeshField::Of::corners, 3);
+    MeshField normals_ = make_field("normal", MeshField::Of::corners, 3);
+    std::vector<std::uint32_t> vertex_colours_; ///< Index of each, or kNone.
+    std::uint32_t colour_count_ = 0;
+    std::size_t uv_count_ = 0, normal_count_ = 0; ///< Records so far.
     PolygonMesh mesh_;
     ObjParts parts_;
     UnusedIndices unused_uvs_, unused_normals_;
@@ -354,14 +418,15 @@ class ObjReader {
 
 } // namespace
 
-PolygonMesh read_obj(const Path& path, bool has_uvs, const ReadingProgress& progress) {
+PolygonMesh read_obj(const Path& path, bool has_uvs, const WantedFields& fields,
+                     const ReadingProgress& progress) {
     std::string bytes = read_text(path);
     const std::size_t nuls = drop_final_nuls(bytes);
     if (bytes.empty()) {
         fail_input(path, "is empty");
     }
     refuse_other_mesh(path, bytes, ".obj");
-    PolygonMesh mesh = ObjReader(path, bytes, has_uvs, progress).read();
+    PolygonMesh mesh = ObjReader(path, bytes, has_uvs, fields, progress).read();
     warn_of_final_nuls(mesh, nuls);
     return mesh;
 }

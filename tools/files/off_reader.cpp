@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <limits>
 #include <optional>
 #include <string>
@@ -18,8 +19,9 @@ namespace {
 
 class OffReader {
   public:
-    OffReader(const Path& path, std::string_view bytes, const ReadingProgress& progress)
-        : path_(path), bytes_(bytes), lines_(bytes, progress) {}
+    OffReader(const Path& path, std::string_view bytes, const WantedFields& fields,
+              const ReadingProgress& progress)
+        : path_(path), bytes_(bytes), lines_(bytes, progress), fields_(fields) {}
 
     PolygonMesh read() && {
         read_header();
@@ -35,6 +37,7 @@ class OffReader {
         }
         add_warning(mesh_.warnings, "trailing_data", left, "", "line after the last face ignored",
                     "lines after the last face ignored");
+        give_fields();
         return std::move(mesh_);
     }
 
@@ -68,7 +71,12 @@ class OffReader {
     void take_keyword() {
         std::string_view rest = tokens_[0];
         for (const std::string_view part : {"ST", "C", "N", "C"}) { // Some write NCOFF.
-            rest.remove_prefix(rest.starts_with(part) ? part.size() : 0);
+            if (rest.starts_with(part)) {
+                rest.remove_prefix(part.size());
+                has_uvs_ |= part == "ST";
+                has_normals_ |= part == "N";
+                has_colours_ |= part == "C";
+            }
         }
         if (rest == "4OFF" || rest == "4nOFF") {
             fail(in_quotes(tokens_[0]) + " has 4-D vertices (homogeneous: x y z w), which are not "
@@ -154,7 +162,67 @@ class OffReader {
             }
             mesh_.positions.push_back(*value);
         }
+        read_attributes();
         mesh_.names.vertex_lines.push_back(lines_.number());
+    }
+
+    /// Reads what follows the coordinates: a normal, a colour, and texture coordinates.
+    void read_attributes() {
+        const bool any = (has_normals_ && fields_.normals) ||
+                         (has_colours_ && fields_.has(kColourField)) ||
+                         (has_uvs_ && fields_.has(kUvField));
+        if (!any) {
+            return;
+        }
+        const std::size_t normal = mesh_.dimension, colour = normal + (has_normals_ ? 3 : 0);
+        const std::size_t others = colour + (has_uvs_ ? 2 : 0);
+        const std::size_t components = tokens_.size() - std::min(tokens_.size(), others);
+        colour_size_ = colour_size_ == 0 ? components : colour_size_;
+        if (tokens_.size() < others ||
+            (has_colours_ && (components < 3 || components > 4 || components != colour_size_))) {
+            fail("a vertex needs all numbers that the first line of the file says: coordinates" +
+                 std::string(has_normals_ ? ", a normal" : "") +
+                 (has_colours_ ? ", a colour of 3 or of 4 numbers" : "") +
+                 (has_uvs_ ? ", texture coordinates" : ""));
+        }
+        const std::size_t colours = has_colours_ ? components : 0;
+        if (fields_.normals && has_normals_) {
+            append(normals_, normal, 3);
+        }
+        if (has_colours_ && fields_.has(kColourField)) {
+            append(colours_, colour, colours);
+        }
+        if (has_uvs_ && fields_.has(kUvField)) {
+            append(mesh_.uvs, colour + colours, 2);
+        }
+    }
+
+    /// Appends the numbers of this line from token `begin` on.
+    void append(std::vector<double>& values, std::size_t begin, std::size_t count) const {
+        for (std::size_t i = begin; i < begin + count; ++i) {
+            const std::optional<double> value = parse_real(tokens_[i]);
+            if (!value) {
+                fail(in_quotes(tokens_[i]) + " is not a number");
+            }
+            values.push_back(*value);
+        }
+    }
+
+    /// Puts the attributes that the file has into the mesh.
+    void give_fields() {
+        if (has_normals_) {
+            mesh_.normals = make_field("normal", MeshField::Of::vertices, 3);
+            mesh_.normals->values = std::move(normals_);
+        }
+        if (has_colours_) {
+            mesh_.fields.push_back(make_colours(MeshField::Of::vertices, colour_size_));
+            mesh_.fields.back().values = std::move(colours_);
+            scale_colours(mesh_.fields.back());
+        }
+        if (has_uvs_) {
+            mesh_.fields.push_back(make_uvs());
+            mesh_.corner_uvs = mesh_.corners;
+        }
     }
 
     /// Colours may follow the corners.
@@ -186,14 +254,19 @@ class OffReader {
     std::uint64_t vertices_ = 0, faces_ = 0;
     PolygonMesh mesh_;
     bool has_dimension_ = false; ///< The number of coordinates follows the keyword.
+    const WantedFields& fields_;
+    bool has_uvs_ = false, has_normals_ = false, has_colours_ = false; ///< Vertices have them.
+    std::size_t colour_size_ = 0;                                      ///< Of the first vertex.
+    std::vector<double> normals_, colours_;
 };
 
 } // namespace
 
-PolygonMesh read_off(const Path& path, const ReadingProgress& progress) {
+PolygonMesh read_off(const Path& path, const WantedFields& fields,
+                     const ReadingProgress& progress) {
     std::string bytes = read_text(path);
     const std::size_t nuls = drop_final_nuls(bytes);
-    PolygonMesh mesh = OffReader(path, bytes, progress).read();
+    PolygonMesh mesh = OffReader(path, bytes, fields, progress).read();
     warn_of_final_nuls(mesh, nuls);
     return mesh;
 }

@@ -31,7 +31,9 @@ void write_pcd(AtomicFile& file, const SampleHeader& header, std::span<const Sam
     visit_columns({}, 0, layout, [&](std::string_view name, auto value) {
         fields += ' ' + field_name(name);
         sizes += ' ' + std::to_string(sizeof value);
-        types += std::floating_point<decltype(value)> ? " F" : " U";
+        types += std::floating_point<decltype(value)>    ? " F"
+                 : std::signed_integral<decltype(value)> ? " I"
+                                                         : " U";
         counts += " 1";
     });
     const std::string count = std::to_string(rows.size());

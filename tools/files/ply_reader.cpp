@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "files/ply_fields.hpp"
 #include "files/ply_file.hpp"
 #include "files/polygon_mesh.hpp"
 #include "files/sidecar_files.hpp"
@@ -69,18 +70,18 @@ std::size_t attribute_column(const Path& path, const PlyElement& element, const 
     return *column;
 }
 
-/// The two columns of texture coordinates.
-std::vector<std::size_t> uv_columns(const Path& path, const PlyElement& element) {
-    for (const auto& [u, v] :
-         {std::pair{"s", "t"}, std::pair{"u", "v"}, std::pair{"texture_u", "texture_v"}}) {
-        const std::optional<std::size_t> first = element.find_scalar(u);
-        const std::optional<std::size_t> second = element.find_scalar(v);
-        if (first && second) {
-            return {*first, *second};
-        }
+/// The two columns of texture coordinates, where any are wanted.
+std::vector<std::size_t> uv_columns(const Path& path, const PlyElement& element,
+                                    const PlyWanted& wanted) {
+    if (!wanted.has_uvs && !wanted.fields.has(kUvField)) {
+        return {};
     }
-    fail_input(path, "element vertex has no texture coordinates: none of s t, u v and texture_u "
-                     "texture_v");
+    std::vector<std::size_t> columns = find_uv_columns(element);
+    if (columns.empty() && wanted.has_uvs) {
+        fail_input(path, "element vertex has no texture coordinates: none of s t, u v and "
+                         "texture_u texture_v");
+    }
+    return columns;
 }
 
 /// Where a property of faces or vertices stands.
@@ -156,13 +157,13 @@ void read_vertices(const Path& path, PlyFile& file, const PlyElement& element,
     for (const std::string& name : wanted.attributes) {
         attributes.push_back(attribute_column(path, element, name));
     }
-    const std::vector<std::size_t> uvs =
-        wanted.has_uvs ? uv_columns(path, element) : std::vector<std::size_t>();
+    const std::vector<std::size_t> uvs = uv_columns(path, element, wanted);
+    PlyFieldReader fields(file, element, wanted.fields, mesh);
     const std::vector<PropertyColumn> properties = property_columns(element, wanted, mesh);
     mesh.dimension = columns.empty() ? 3 : static_cast<std::uint32_t>(columns.size());
     mesh.attributes.resize(attributes.size());
     mesh.positions.reserve(columns.size() * file.possible_records(element));
-    file.read_records(element, [&](std::uint64_t, const PlyRecord& record) {
+    file.read_records(element, [&](std::uint64_t index, const PlyRecord& record) {
         for (const std::size_t column : columns) {
             mesh.positions.push_back(record.scalars[column]);
         }
@@ -173,6 +174,7 @@ void read_vertices(const Path& path, PlyFile& file, const PlyElement& element,
             mesh.attributes[i].push_back(record.scalars[attributes[i]]);
         }
         add_properties(properties, record, mesh);
+        fields.add(index, record);
     });
 }
 
@@ -202,6 +204,7 @@ void read_faces(PlyFile& file, const PlyElement& element, const PlyWanted& wante
                 PolygonMesh& mesh) {
     const std::size_t column = index_column(file, element);
     const std::vector<PropertyColumn> properties = property_columns(element, wanted, mesh);
+    PlyFieldReader fields(file, element, wanted.fields, mesh);
     mesh.face_ends.reserve(file.possible_records(element));
     file.read_records(element, [&](std::uint64_t index, const PlyRecord& record) {
         for (const double value : record.lists[column]) {
@@ -209,7 +212,9 @@ void read_faces(PlyFile& file, const PlyElement& element, const PlyWanted& wante
         }
         mesh.face_ends.push_back(mesh.corners.size());
         add_properties(properties, record, mesh);
+        fields.add(index, record, record.lists[column].size());
     });
+    fields.finish();
 }
 
 /// Strips of triangles: each vertex makes one with the two before it, every other one turned; -1
@@ -274,7 +279,7 @@ PolygonMesh read_ply(const Path& path, const PlyWanted& wanted, const ReadingPro
             fail_input(path, "has strips of triangles, which have no properties of faces");
         }
     }
-    if (wanted.has_uvs) {
+    if (mesh.corner_uvs.empty() && (wanted.has_uvs || !mesh.uvs.empty())) {
         mesh.corner_uvs = mesh.corners;
     }
     const Found& unknown = file.unknown_lines();

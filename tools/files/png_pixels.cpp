@@ -1,9 +1,10 @@
 #include <csetjmp>
 #include <cstring>
+#include <utility>
 
 #include <png.h>
 
-#include "files/grey_pixels.hpp"
+#include "files/image_pixels.hpp"
 #include "program/failure.hpp"
 
 namespace geodisk::tools {
@@ -57,7 +58,7 @@ void ask_for_rgb16(png_structp png, png_infop info) {
 }
 
 /// False on an error, which `reader` has the text of. Fills `rows`, then `pixels`.
-bool decode(PngReader& reader, png_structp png, png_infop info, GreyPixels& pixels,
+bool decode(PngReader& reader, png_structp png, png_infop info, ImagePixels& pixels,
             std::vector<std::uint16_t>& rgb, std::vector<png_bytep>& rows) {
     if (setjmp(reader.on_error) != 0) {
         return false;
@@ -86,11 +87,11 @@ bool decode(PngReader& reader, png_structp png, png_infop info, GreyPixels& pixe
 
 } // namespace
 
-GreyPixels decode_png(const Path& path, const std::string& bytes) {
+ImagePixels decode_png(const Path& path, const std::string& bytes, PixelKind kind) {
     PngReader reader;
     reader.next = reinterpret_cast<const unsigned char*>(bytes.data());
     reader.left = bytes.size();
-    GreyPixels pixels;
+    ImagePixels pixels;
     std::vector<std::uint16_t> rgb;
     std::vector<png_bytep> rows;
     png_structp png =
@@ -106,6 +107,10 @@ GreyPixels decode_png(const Path& path, const std::string& bytes) {
     png_destroy_read_struct(&png, &info, nullptr);
     if (!is_read) {
         fail_input(path, std::string("cannot be read as a PNG image: ") + reader.error);
+    }
+    if (kind == PixelKind::colour) {
+        pixels.values = std::move(rgb);
+        return pixels;
     }
     pixels.values.resize(rgb.size() / 3);
     for (std::size_t i = 0; i < pixels.values.size(); ++i) {

@@ -5,10 +5,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "files/mesh_fields.hpp"
 #include "files/reading_progress.hpp"
 #include "geometry/mesh.hpp"
 #include "geometry/mesh_warning.hpp"
@@ -30,6 +32,10 @@ struct PolygonMesh {
     std::vector<std::uint32_t> part_of_face;
     PartNames part_names;
     std::vector<MeshProperty> properties; ///< Those asked for, a value per face or vertex.
+    /// Attributes that the file has, with values where asked for. Texture coordinates are in
+    /// `uvs` instead.
+    std::vector<MeshField> fields;
+    std::optional<MeshField> normals; ///< Those of the file, where asked for and there.
     ElementNames names;
     std::vector<MeshWarning> warnings;
 
@@ -49,11 +55,12 @@ inline void warn_of_final_nuls(PolygonMesh& mesh, std::uint64_t count) {
                 "NUL bytes after the last line ignored");
 }
 
-/// Reads the `v`, `f`, `usemtl`, `g`, `o` and, where asked for, `vt` records of an OBJ file;
-/// everything else in it is ignored. Understands every line end, line continuation, a byte order
-/// mark, relative indices and faces of any size. Throws UserError(bad_input) naming the line, like
-/// the readers of other texts below.
-PolygonMesh read_obj(const Path& path, bool has_uvs, const ReadingProgress& progress);
+/// Reads the `v`, `f`, `usemtl`, `g`, `o` and, where asked for, `vt` and `vn` records of an OBJ
+/// file; everything else in it is ignored. Understands every line end, line continuation, a byte
+/// order mark, relative indices and faces of any size. Throws UserError(bad_input) naming the line,
+/// like the readers of other texts below.
+PolygonMesh read_obj(const Path& path, bool has_uvs, const WantedFields& fields,
+                     const ReadingProgress& progress);
 
 /// Reads an STL file, binary if its size is as it tells or it does not begin with "solid", else
 /// ascii: three vertices for each facet, so that no two facets hang together until vertices are
@@ -62,7 +69,7 @@ PolygonMesh read_stl(const Path& path, const ReadingProgress& progress);
 
 /// Reads an ascii OFF file, with or without normals, colours and texture coordinates in the lines
 /// of vertices and faces, one line to a record. nOFF has vertices of 3 to 8 coordinates.
-PolygonMesh read_off(const Path& path, const ReadingProgress& progress);
+PolygonMesh read_off(const Path& path, const WantedFields& fields, const ReadingProgress& progress);
 
 /// Reads all triangles, strips and fans of the scene of a glTF 2.0 file, text or binary, one mesh
 /// and primitive after the other. Nodes place them, or joints and the default weights of morph
@@ -70,7 +77,7 @@ PolygonMesh read_off(const Path& path, const ReadingProgress& progress);
 /// with the same positions share vertices. Compressed ones are read as this build can. Buffers are
 /// read from the folder of the file alone, of materials just their names, images not at all. Throws
 /// UserError(bad_input) naming mesh and primitive.
-PolygonMesh read_gltf(const Path& path);
+PolygonMesh read_gltf(const Path& path, const WantedFields& fields);
 
 /// What to read of element `vertex`.
 struct PlyWanted {
@@ -78,6 +85,7 @@ struct PlyWanted {
     std::span<const std::string> attributes; ///< Names of scalar properties.
     std::span<const std::string> properties; ///< The same of either element `face` or `vertex`.
     bool has_uvs = false; ///< Texture coordinates: s t, u v or texture_u texture_v.
+    WantedFields fields;
 };
 
 /// Reads the coordinates of element `vertex`, which are x0 x1 ..., 3 to 8 of them, where there is

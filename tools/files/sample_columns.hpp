@@ -42,6 +42,10 @@ inline constexpr std::string_view kLevelColumn = "level", kLevelDistances = "lev
 /// The column that tells samples on corners (2) and curves (1) from those on faces (0).
 inline constexpr std::string_view kFeatureColumn = "feature";
 
+/// The attribute and the columns of --frames: a quaternion that turns z to the normal.
+inline constexpr std::string_view kFramesField = "frames";
+inline constexpr std::array<std::string_view, 4> kFrameColumnNames{"qx", "qy", "qz", "qw"};
+
 /// Keys of header entries that a reader of samples goes by.
 inline constexpr std::string_view kSampleCount = "samples", kOrigin = "origin";
 

@@ -53,6 +53,22 @@ struct ExtraColumn {
     std::vector<std::uint32_t> values;
 };
 
+/// Values of an attribute at samples, for each row as many as there are components.
+struct SampleField {
+    std::string name;
+    std::vector<std::string> components; ///< Names of columns.
+    bool is_whole = false;               ///< All fit in 32 bits with sign.
+    bool is_colour = false;              ///< From 0 to 1.
+    std::vector<double> values;
+    bool is_float = false; ///< Files hold it in single precision.
+};
+
+/// What a file of samples holds besides SampleRow.
+struct FurtherColumns {
+    std::span<const ExtraColumn> numbers = {};
+    std::span<const SampleField> fields = {};
+};
+
 class AtomicFile;
 
 struct SampleFile {
@@ -82,15 +98,18 @@ struct SampleFile {
 ///   npz   arrays of numpy: points normals face_index barycentric radius polygon_index, the scalars
 ///         min_distance and seed, and the header as an object of JSON
 ///   gltf, glb  points in float, relative to a node that bears what float would blur: NORMAL
-///         _FACE_INDEX _BARYCENTRIC _RADIUS _POLYGON_INDEX; the header in asset.extras
+///         _FACE_INDEX _BARYCENTRIC _RADIUS _POLYGON_INDEX; the header in asset.extras. With
+///         frames, a second node instances a triangle by EXT_mesh_gpu_instancing
+///   usda  a PointInstancer of USD with a ball, or with frames a triangle, scaled by the radius at
+///         each sample; columns as primvars, the header in customLayerData
 /// With a `dimension` of more than 3 the coordinates are x0 x1 ..., which PLY and PCD have besides
 /// x y z so that viewers show the first three, and there are no normals; with 0, of a mesh of edge
 /// lengths without coordinates, there are neither. check_dimension() tells which formats take that.
-/// All but xyz and obj have the columns `extra` last, glTF in attributes as _MESH. Numbers in text
-/// are the shortest that read back exactly. Equal samples make equal bytes.
+/// All but xyz and obj have the columns `further` last, glTF in attributes as _MESH. Numbers in
+/// text are the shortest that read back exactly. Equal samples make equal bytes.
 void write_samples(AtomicFile& file, const SampleTarget& target, const SampleHeader& header,
                    std::span<const SampleRow> rows, std::uint32_t dimension = 3,
-                   std::span<const ExtraColumn> extra = {});
+                   const FurtherColumns& further = {});
 
 /// The same into a file of its own, in the format of its extension, that appears complete or not at
 /// all. Throws UserError as sample_target(), check_dimension() and AtomicFile do.

@@ -1,7 +1,9 @@
 // The columns of sample files and what else their formats share, for the writers.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -22,13 +24,46 @@ struct SampleLayout {
     bool has_radius;
     bool has_polygon = false;
     bool is_on_surface = true;
-    std::span<const ExtraColumn> extra = {};
+    FurtherColumns further = {};
     std::array<double, 3> origin{}; ///< What x, y and z are relative to.
     bool has_float_numbered = has_float_positions;
+    bool has_byte_colours = false; ///< Colours are integers from 0 to 255.
 
     std::size_t numbered() const { return dimension > 3 ? dimension : 0; }
     bool has_normals() const { return is_on_surface && dimension == 3; }
 };
+
+/// Returns a colour from 0 to 255.
+inline std::uint8_t colour_byte(double value) {
+    return static_cast<std::uint8_t>(std::lround(255 * std::clamp(value, 0.0, 1.0)));
+}
+
+/// Returns the frames among the attributes, or null.
+inline const SampleField* find_frames(const FurtherColumns& further) {
+    const auto found = std::ranges::find(further.fields, kFramesField, &SampleField::name);
+    return found == further.fields.end() ? nullptr : &*found;
+}
+
+/// Calls visit(name, value) for each component of an attribute.
+template <typename Visit>
+void visit_field(const SampleField& field, std::size_t index, bool has_byte_colours,
+                 const Visit& visit) {
+    const std::size_t size = field.components.size();
+    for (std::size_t k = 0; k < size; ++k) {
+        const std::string_view name = field.components[k];
+        const std::size_t place = index * size + k;
+        const double value = place < field.values.size() ? field.values[place] : 0;
+        if (field.is_whole) {
+            visit(name, static_cast<std::int32_t>(value));
+        } else if (field.is_colour && has_byte_colours) {
+            visit(name, colour_byte(value));
+        } else if (field.is_float) {
+            visit(name, static_cast<float>(value));
+        } else {
+            visit(name, value);
+        }
+    }
+}
 
 /// Calls visit(name, value) for each column of row `index`, in order; some value for no row.
 template <typename Visit>
@@ -66,9 +101,12 @@ void visit_columns(const SampleRow& row, std::size_t index, const SampleLayout& 
     if (layout.has_polygon) {
         visit(name_of(SampleColumn::polygon_index), row.polygon.value_or(0));
     }
-    for (const ExtraColumn& column : layout.extra) {
+    for (const ExtraColumn& column : layout.further.numbers) {
         visit(std::string_view(column.name),
               index < column.values.size() ? column.values[index] : 0);
+    }
+    for (const SampleField& field : layout.further.fields) {
+        visit_field(field, index, layout.has_byte_colours, visit);
     }
 }
 

@@ -14,8 +14,8 @@ namespace geodisk::tools {
 namespace {
 
 /// By SampleFormat.
-constexpr std::array<std::string_view, 8> kNames{"ply", "csv", "xyz",  "obj",
-                                                 "pcd", "npz", "gltf", "glb"};
+constexpr std::array<std::string_view, 9> kNames{"ply", "csv",  "xyz", "obj", "pcd",
+                                                 "npz", "gltf", "glb", "usda"};
 
 std::optional<SampleFormat> find_format(std::string_view name) {
     const auto found = std::find(kNames.begin(), kNames.end(), name);

@@ -9,7 +9,7 @@
 
 namespace geodisk::tools {
 
-enum class SampleFormat { ply, csv, xyz, obj, pcd, npz, gltf, glb };
+enum class SampleFormat { ply, csv, xyz, obj, pcd, npz, gltf, glb, usda };
 
 struct SampleTarget {
     Path path;

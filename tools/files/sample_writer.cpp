@@ -17,6 +17,12 @@ namespace {
 const char* ply_type(std::uint32_t) {
     return "int";
 }
+const char* ply_type(std::int32_t) {
+    return "int";
+}
+const char* ply_type(std::uint8_t) {
+    return "uchar";
+}
 const char* ply_type(float) {
     return "float";
 }
@@ -112,6 +118,9 @@ void write(AtomicFile& file, const SampleTarget& target, const SampleHeader& ful
         write_gltf(file, header, rows, target, for_viewers);
 #endif
         break; // Else sample_target() has refused it.
+    case SampleFormat::usda:
+        write_usd(file, header, rows, target, for_viewers);
+        break;
     }
 }
 
@@ -128,17 +137,18 @@ void write_samples(const Path& path, const SampleHeader& header, std::span<const
 
 void write_samples(AtomicFile& file, const SampleTarget& target, const SampleHeader& header,
                    std::span<const SampleRow> rows, std::uint32_t dimension,
-                   std::span<const ExtraColumn> extra) {
+                   const FurtherColumns& further) {
     const bool has_radius = has_radii(rows), has_polygon = has_polygons(rows);
-    const SampleLayout for_viewers{dimension,
-                                   dimension >= 3 ? 3u : 0u,
-                                   float_is_enough(rows, dimension),
-                                   has_radius,
-                                   has_polygon,
-                                   true,
-                                   extra};
+    SampleLayout for_viewers{dimension,
+                             dimension >= 3 ? 3u : 0u,
+                             float_is_enough(rows, dimension),
+                             has_radius,
+                             has_polygon,
+                             true,
+                             further};
+    for_viewers.has_byte_colours = target.format == SampleFormat::ply;
     const SampleLayout exact{
-        dimension, dimension == 3 ? 3u : 0u, false, has_radius, has_polygon, true, extra};
+        dimension, dimension == 3 ? 3u : 0u, false, has_radius, has_polygon, true, further};
     write(file, target, header, rows, for_viewers, exact);
 }
 
@@ -167,9 +177,9 @@ std::optional<std::string> precision_note(const SampleTarget& target,
 std::optional<std::string> rounding_note(const SampleTarget& target,
                                          std::span<const SampleRow> rows, std::uint32_t dimension,
                                          double min_distance) {
-    const bool has_floats = target.format == SampleFormat::pcd ||
-                            target.format == SampleFormat::gltf ||
-                            target.format == SampleFormat::glb;
+    const bool has_floats =
+        target.format == SampleFormat::pcd || target.format == SampleFormat::gltf ||
+        target.format == SampleFormat::glb || target.format == SampleFormat::usda;
     double largest = 0;
     for (const SampleRow& row : rows) {
         for (const double coordinate : std::span(row.position).first(dimension)) {
@@ -206,10 +216,12 @@ void check_dimension(const SampleTarget& target, std::uint32_t dimension) {
     case SampleFormat::obj:
     case SampleFormat::gltf:
     case SampleFormat::glb:
+    case SampleFormat::usda:
         if (dimension != 3) {
-            fail_usage(target.path.string() + ": " + (extension[1] == 'g' ? "a " : "an ") +
-                       extension + " file holds three coordinates, and these samples have " +
-                       given + "; use .ply, .csv or .npz");
+            const bool has_an = extension == ".obj" || extension == ".xyz";
+            fail_usage(target.path.string() + ": " + (has_an ? "an " : "a ") + extension +
+                       " file holds three coordinates, and these samples have " + given +
+                       "; use .ply, .csv or .npz");
         }
         break;
     case SampleFormat::pcd:

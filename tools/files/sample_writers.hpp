@@ -22,6 +22,10 @@ void write_obj(AtomicFile& file, const SampleHeader& header, std::span<const Sam
 void write_pcd(AtomicFile& file, const SampleHeader& header, std::span<const SampleRow> rows,
                const SampleTarget& target, const SampleLayout& layout);
 
+/// Throws UserError(usage) for coordinates that a float does not hold.
+void write_usd(AtomicFile& file, const SampleHeader& header, std::span<const SampleRow> rows,
+               const SampleTarget& target, const SampleLayout& layout);
+
 void write_npz(AtomicFile& file, const SampleHeader& header, std::span<const SampleRow> rows,
                const SampleLayout& layout);
 

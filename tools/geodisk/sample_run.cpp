@@ -14,6 +14,7 @@
 #include "geodisk/checks/spacing.hpp"
 #include "geodisk/feature_run.hpp"
 #include "geodisk/inputs/given_input.hpp"
+#include "geodisk/records.hpp"
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
 
@@ -174,6 +175,7 @@ RunDevice device_for(const SampleJob& job) {
 SampleResult sample_mesh(const SampleJob& job, const MeshInput& mesh, RunDevice& device,
                          ProgressLine& progress) {
     check_space(job, mesh);
+    check_record(job.out.record, mesh);
     check_parts(job.mesh.mesh, mesh.file, job.columns);
     GivenInput given = load_given(job, mesh, progress);
     SampleParams params = params_on(mesh, job);
@@ -206,6 +208,7 @@ SampleResult sample_mesh(const SampleJob& job, const MeshInput& mesh, RunDevice&
     result.params = params;
     result.done = std::move(done);
     result.rows = to_rows(mesh, params.min_distance, set.samples);
+    set_normals(job.out.record, mesh, result.rows);
     result.given = given.samples.size();
     result.features = feature_kinds(set.samples, result.given, set.given);
     result.feature_corners = features.corners();
@@ -244,13 +247,17 @@ SampleResult sample_mesh(const SampleJob& job, const MeshInput& mesh, RunDevice&
 
 void write_sample_file(AtomicFile& file, const SampleJob& job, const MeshInput& mesh,
                        const SampleResult& result, const SampleReport& report) {
+    const std::vector<ExtraColumn> numbers = extra_columns(job, mesh, result);
+    const std::vector<SampleField> fields =
+        record_fields(job.out.record, mesh, result.rows, job.params.seed);
     write_samples(file, job.out.target(), report.header(), result.rows, mesh.dimension(),
-                  extra_columns(job, mesh, result));
+                  {numbers, fields});
 }
 
 DryRun try_sampling(const SampleJob& job, const MeshInput& mesh, RunDevice& device,
                     ProgressLine& progress) {
     check_space(job, mesh);
+    check_record(job.out.record, mesh);
     check_parts(job.mesh.mesh, mesh.file, job.columns);
     const GivenInput given = load_given(job, mesh, progress);
     SampleParams params = params_on(mesh, job);

@@ -6,8 +6,8 @@
 #include <string_view>
 
 #include "files/sidecar_files.hpp"
-#include "geometry/angles.hpp"
 #include "geometry/vec.hpp"
+#include "geometry/vertex_normals.hpp"
 #include "geometry/weld_mesh.hpp"
 #include "program/exact_text.hpp"
 #include "program/failure.hpp"
@@ -30,32 +30,6 @@ std::vector<bool> used_vertices(const MeshFile& mesh) {
         }
     }
     return used;
-}
-
-/// Of unit length, or zero for a face without area. Sides of unit length first: products of very
-/// short or long ones leave the range of double.
-Vec3 direction(Vec3 v) {
-    const double largest = largest_coordinate(v);
-    return largest > 0 ? normalize(v / largest) : Vec3{};
-}
-
-/// Sums of the faces' normals at each vertex, each times its angle there.
-std::vector<Vec3> normal_sums(const MeshFile& mesh) {
-    std::vector<Vec3> sums(mesh.positions.size() / 3);
-    for (std::size_t i = 0; i < mesh.triangles.size(); i += 3) {
-        Vec3 corners[3];
-        for (std::size_t k = 0; k < 3; ++k) {
-            corners[k] = point_at(mesh.positions, mesh.triangles[i + k]);
-        }
-        for (std::size_t k = 0; k < 3; ++k) {
-            const Vec3 to_next = direction(corners[(k + 1) % 3] - corners[k]);
-            const Vec3 to_last = direction(corners[(k + 2) % 3] - corners[k]);
-            const Vec3 normal = cross(to_next, to_last);
-            const double angle = angle_of(length(normal), dot(to_next, to_last));
-            sums[mesh.triangles[i + k]] += angle * direction(normal);
-        }
-    }
-    return sums;
 }
 
 Columns normal_columns(const std::string& path, const MeshFile& mesh, double weight) {

@@ -4,6 +4,7 @@
 #include <compare>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -44,6 +45,23 @@ struct MeshProperty {
     std::vector<double> values;
 };
 
+/// Values of an attribute of a mesh file: colours, texture coordinates or any others.
+struct MeshField {
+    enum class Of : std::uint8_t { vertices, corners, faces };
+
+    std::string name;                    ///< As --attributes names it.
+    std::vector<std::string> components; ///< Names of the numbers of each value.
+    Of of = Of::vertices;
+    bool is_whole = false; ///< Integers and labels, which are not interpolated.
+    bool is_colour = false;
+    bool is_from_top = false;   ///< Of texture coordinates: v = 0 is the upper edge of an image.
+    std::vector<double> values; ///< All components of each vertex, index of a corner, or face.
+    /// Index of the value of each corner, or kNone. Empty unless corners have values.
+    std::vector<std::uint32_t> corners;
+
+    static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+};
+
 /// What joining vertices did.
 struct WeldCounts {
     std::uint64_t merged_vertices = 0;  ///< That became another one.
@@ -78,7 +96,11 @@ struct MeshFile {
     /// Where asked for: all that the corners of faces have, ascending by vertex and each just once;
     /// several at a vertex on a seam.
     std::vector<VertexUv> uvs;
-    std::optional<WeldCounts> weld; ///< Where vertices were joined.
+    /// Attributes asked for, by vertices and triangles' corners of the file, and by its faces.
+    std::vector<MeshField> fields;
+    std::optional<MeshField> normals; ///< Those of the file, where asked for; not of unit length.
+    std::optional<MeshField> texture_uvs; ///< Texture coordinates, where a texture is looked up.
+    std::optional<WeldCounts> weld;       ///< Where vertices were joined.
     /// Lowest vertex that each one is joined with. Empty where none are.
     std::vector<std::uint32_t> joined;
     /// Corners of triangles as the file has them, where vertices are joined. Else empty.

@@ -78,8 +78,9 @@ std::string from_anywhere(const std::string& path) {
 
 /// The same job with names of files from any folder.
 SampleOptions from_anywhere(SampleOptions options) {
-    for (std::string* const path : {&options.mesh.mesh, &options.mesh.coordinates,
-                                    &options.mesh.edge_lengths, &options.out.output}) {
+    for (std::string* const path :
+         {&options.mesh.mesh, &options.mesh.coordinates, &options.mesh.edge_lengths,
+          &options.out.record.texture, &options.out.output}) {
         *path = from_anywhere(*path);
     }
     options.density.place_files([](const std::string& file) { return from_anywhere(file); });

@@ -20,6 +20,7 @@
 #include "geodisk/options/tolerance_option.hpp"
 #include "geodisk/outputs/outputs.hpp"
 #include "geodisk/outputs/progress.hpp"
+#include "geodisk/records.hpp"
 #include "geodisk/reports/json.hpp"
 #include "geodisk/reports/mesh_report.hpp"
 #include "geometry/mesh.hpp"
@@ -42,11 +43,20 @@ struct TransferOptions {
     std::string tolerance;
 };
 
+/// The mesh to move samples to, with what they get of it.
+MeshOptions target_mesh(const TransferOptions& options) {
+    MeshOptions mesh = options.to;
+    mesh.fields = options.out.record.fields();
+    mesh.texture = options.out.record.texture;
+    return mesh;
+}
+
 void check_files(const TransferOptions& options) {
     std::vector<NamedFile> read{{"the samples read", options.samples}};
     options.from.add_files(read, "a mesh");
-    options.to.add_files(read, "a mesh");
+    target_mesh(options).add_files(read, "a mesh");
     check_outputs(options.out, "the output", read);
+    options.out.record.check(options.out.target());
 }
 
 std::string corners_text(const MeshFile& mesh, std::size_t face) {
@@ -91,10 +101,23 @@ SampleHeader transferred_header(const TransferOptions& options, const SampleHead
         header.entries.emplace_back("min_distance", exact_text(closest->distance));
     }
     header.entries.emplace_back("transferred_from", options.samples);
+    for (const auto& entry : options.out.record.entries()) {
+        header.entries.push_back(entry);
+    }
     for (const auto& [key, value] : source.entries) {
         header.entries.emplace_back("source_" + key, value);
     }
     return header;
+}
+
+/// The seed of the samples, so that frames turn with them; 0 if the file does not say it.
+std::uint64_t seed_of(const SampleHeader& header) {
+    for (const char* const key : {"seed", "source_seed"}) {
+        if (const std::string* const text = header.find(key)) {
+            return parse_integer<std::uint64_t>(*text).value_or(0);
+        }
+    }
+    return 0;
 }
 
 std::string report_text(const TransferOptions& options, const MeshInput& from, const MeshInput& to,
@@ -126,20 +149,25 @@ void run_transfer(const TransferOptions& options) {
     check_tolerance(options.tolerance);
     ProgressLine progress(options.out.quiet);
     MeshInput from = load_mesh(options.from, progress);
-    const MeshInput to = load_mesh(options.to, progress);
+    const MeshOptions to_options = target_mesh(options);
+    const MeshInput to = load_mesh(to_options, progress);
     check_connectivity(options, from.file, to.file);
     check_dimension(options.out.target(), to.dimension());
+    check_record(options.out.record, to);
     SampleFile samples = read_samples_exactly_on(options.samples, options.from.mesh, from, nullptr,
                                                  options.tolerance, from.warnings, progress);
     for (SampleRow& row : samples.rows) {
         to.place(row);
         row.radius = 0; // That was one on the other mesh.
     }
+    set_normals(options.out.record, to, samples.rows);
     const std::optional<ClosePair> closest = find_closest(to, samples.rows, progress);
     print_precision_note(options.out, samples.rows, to.dimension());
+    const std::vector<SampleField> fields =
+        record_fields(options.out.record, to, samples.rows, seed_of(samples.header));
     AtomicFile file(options.out.output);
     write_samples(file, options.out.target(), transferred_header(options, samples.header, closest),
-                  samples.rows, to.dimension(), samples.extra);
+                  samples.rows, to.dimension(), {samples.extra, fields});
     file.sync();
     publish(options.out, {&file}, report_text(options, from, to, samples, closest),
             summary_text(options, from, to, samples, closest));
@@ -168,6 +196,7 @@ void add_transfer_command(Command app) {
     add_weld_options(command, options->from, "-a");
     add_weld_options(command, options->to, "-b");
     add_tolerance_option(command, options->tolerance);
+    add_record_options(command, options->out.record, "MESH_B");
     add_output_options(command, options->out);
     command.has_footer(help_footer(kExamples));
     command.calls([options] { run_transfer(*options); });

@@ -58,6 +58,7 @@ MeshSources sources_of(const MeshOptions& options, std::span<const Lift> lifts,
     sources.weld = options.weld_distance();
     sources.has_uvs = density && density->kind == Kind::map;
     sources.keep_seams = options.keep_seams;
+    sources.fields = options.fields;
     if (density && density->kind == Kind::attribute) {
         sources.attributes.push_back(density->name);
     }
@@ -148,6 +149,9 @@ MeshInput load_silently(const MeshOptions& options, ProgressLine& progress,
     MeshInput mesh{std::move(file),      std::move(prepared), std::move(radii),
                    std::move(face_mask), distance_part,       {},
                    load_seconds,         watch.seconds()};
+    if (!options.texture.empty()) {
+        mesh.texture.emplace(options.texture);
+    }
     collect_warnings(path, mesh, lift_attributes(lifts).size() < lifts.size());
     mesh.warnings.insert(mesh.warnings.end(), density_warnings.begin(), density_warnings.end());
     check_interrupted();

@@ -20,7 +20,7 @@ void add_line_options(Command command, LineOptions& line) {
     command.add_option("-o,--output", line.name, "NAME", "File to write, in the folder");
     add_subject_options(command, line.sample);
     add_text_options(command, line.sample.out);
-    add_columns_option(command, line.sample.out);
+    add_columns_options(command, line.sample.out);
 }
 
 void parse_words(const std::vector<std::string>& words, LineOptions& line) {
@@ -123,7 +123,7 @@ void add_batch_options(Command command, BatchOptions& options) {
     add_limit_options(command, options.sample.run);
     add_json_option(command, options.sample.out);
     add_text_options(command, options.sample.out);
-    add_columns_option(command, options.sample.out);
+    add_columns_options(command, options.sample.out);
     add_quiet_option(command, options.sample.out);
 }
 
@@ -139,7 +139,8 @@ LineOptions parse_line(const SampleOptions& common, const std::vector<std::strin
     sample.mesh.mesh = seen_from(folder, sample.mesh.mesh);
     for (const auto& [path, given] :
          {std::pair{&sample.mesh.coordinates, &alone.sample.mesh.coordinates},
-          {&sample.mesh.edge_lengths, &alone.sample.mesh.edge_lengths}}) {
+          {&sample.mesh.edge_lengths, &alone.sample.mesh.edge_lengths},
+          {&sample.out.record.texture, &alone.sample.out.record.texture}}) {
         if (!given->empty()) {
             *path = seen_from(folder, *given);
         }

@@ -44,7 +44,7 @@ std::optional<Length> MeshOptions::weld_distance() const {
 
 void MeshOptions::add_files(std::vector<NamedFile>& read, const std::string& what) const {
     read.push_back({what, mesh, format});
-    for (const std::string& path : {coordinates, edge_lengths}) {
+    for (const std::string& path : {coordinates, edge_lengths, texture}) {
         if (!path.empty()) {
             read.push_back({what, path});
         }

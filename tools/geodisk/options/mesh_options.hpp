@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "files/mesh_fields.hpp"
 #include "files/sample_file.hpp"
 #include "geodisk/options/run_options.hpp"
 #include "geometry/lift.hpp"
@@ -19,6 +20,8 @@ struct MeshOptions {
     std::vector<std::string> lifts;
     std::string weld; ///< A length, or what a flag without a value gets; "" for not at all.
     bool keep_seams = false;
+    WantedFields fields; ///< Attributes to read for samples.
+    std::string texture; ///< Image whose colours samples get, or "".
 
     /// Throws UserError(usage) for what is no lift, and where there is nothing to lift.
     std::vector<Lift> parsed_lifts() const;

@@ -46,19 +46,20 @@ void add_text_options(Command command, OutputOptions& options) {
                      "read plain CSV; geodisk verify then needs --min-distance");
 }
 
-void add_columns_option(Command command, OutputOptions& options) {
+void add_columns_options(Command command, OutputOptions& options) {
     command.add_option("--columns", options.columns, "LIST",
                        "Add columns with numbers of what a sample lies in: any of\n"
                        "part (no path joins it to others), material, group, and\n"
                        "for glTF mesh, primitive and node, separated by commas");
+    add_record_options(command, options.record);
 }
 
 void add_output_options(Command command, OutputOptions& options) {
     add_json_option(command, options);
     command
         .add_option("--format", options.format, "NAME",
-                    "Write ply, csv, npz, pcd, glb, gltf, obj or xyz, ignoring\n"
-                    "the extension of OUT")
+                    "Write ply, csv, npz, pcd, glb, gltf, usda, obj or xyz,\n"
+                    "ignoring the extension of OUT")
         .offers(sample_formats());
     add_text_options(command, options);
     add_quiet_option(command, options);

@@ -8,6 +8,7 @@
 #include "files/files_in_use.hpp"
 #include "files/sample_target.hpp"
 #include "files/stream_path.hpp"
+#include "geodisk/options/record_options.hpp"
 
 namespace geodisk::tools {
 
@@ -19,6 +20,7 @@ struct OutputOptions {
     std::string json;    ///< The report for programs; "-" is standard output. Or "".
     std::string format;  ///< Of the samples; "" for that of their extension.
     std::string columns; ///< Names of part_columns() with commas, or "".
+    RecordOptions record;
     bool ascii = false, quiet = false, is_dry_run = false;
     bool no_header = false; ///< Write samples without comments.
 
@@ -31,7 +33,7 @@ struct OutputOptions {
 
 inline constexpr const char* kSampleFiles =
     "File to write: *.ply, *.csv, *.npz, *.pcd, *.glb, *.gltf,\n"
-    "*.obj (points, normals) or *.xyz (points)";
+    "*.usda, *.obj (points, normals) or *.xyz (points)";
 
 /// Adds -o, described by `summary`.
 void add_output_argument(Command command, OutputOptions& options,
@@ -52,8 +54,8 @@ void add_quiet_option(Command command, OutputOptions& options,
 /// Adds --ascii and --no-header.
 void add_text_options(Command command, OutputOptions& options);
 
-/// Adds --columns.
-void add_columns_option(Command command, OutputOptions& options);
+/// Adds --columns, --attributes, --normals and --frames.
+void add_columns_options(Command command, OutputOptions& options);
 
 /// Adds --json, --format, --ascii, --no-header and --quiet.
 void add_output_options(Command command, OutputOptions& options);

@@ -91,6 +91,10 @@ std::string sample_command(const SampleOptions& options) {
     list.add("--seed", options.run.seed, usual.run.seed);
     list.add_flag("--ascii", options.out.ascii);
     list.add("--columns", options.out.columns);
+    list.add("--attributes", options.out.record.attributes);
+    list.add("--texture", options.out.record.texture);
+    list.add("--normals", options.out.record.normals, usual.out.record.normals);
+    list.add_flag("--frames", options.out.record.frames);
     list.add_flag("--no-header", options.out.no_header);
     return command_text("geodisk", list.words());
 }

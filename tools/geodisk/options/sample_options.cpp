@@ -133,6 +133,11 @@ SampleJob parse_job(const SampleOptions& options) {
     if (!job.columns.empty() && !job.out.output.empty()) {
         check_columns(job.out.target(), job.columns);
     }
+    job.mesh.fields = options.out.record.fields();
+    job.mesh.texture = options.out.record.texture;
+    if (!job.out.output.empty()) {
+        options.out.record.check(job.out.target());
+    }
     job.run = options.run;
     job.metric = parse_metric(options.metric);
     job.picture = options.picture;
@@ -183,7 +188,7 @@ void add_sample_options(Command command, SampleOptions& options) {
     command.add_flag("--legend", options.legend,
                      "Add a legend to the picture: samples, distance, scale bar");
     add_output_options(command, options.out);
-    add_columns_option(command, options.out);
+    add_columns_options(command, options.out);
     add_verbose_option(command, options.run.device);
 }
 

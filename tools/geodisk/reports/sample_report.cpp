@@ -233,9 +233,9 @@ SampleHeader SampleReport::header() const {
         header.entries.emplace_back("maximal",
                                     done.run.maximal.certified ? "certified" : "not certified");
     }
-    for (const HeaderEntries& more :
-         {job_.constraints.entries(), level_entries(told_levels(result_, distance)),
-          part_name_entries(mesh_.file, job_.columns)}) {
+    for (const HeaderEntries& more : {job_.out.record.entries(), job_.constraints.entries(),
+                                      level_entries(told_levels(result_, distance)),
+                                      part_name_entries(mesh_.file, job_.columns)}) {
         header.entries.insert(header.entries.end(), more.begin(), more.end());
     }
     return header;

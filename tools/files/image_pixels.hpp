@@ -1,4 +1,4 @@
-// Decodes image files to grey pixels.
+// Decodes image files to pixels.
 #pragma once
 
 #include <cstdint>
@@ -13,9 +13,12 @@ namespace geodisk::tools {
 /// not to take all memory.
 inline constexpr std::uint64_t kMostPixels = std::uint64_t{1} << 26;
 
-struct GreyPixels {
+enum class PixelKind : std::uint8_t { grey, colour };
+
+struct ImagePixels {
     std::uint32_t width = 0, height = 0;
-    std::vector<std::uint16_t> values; ///< 0 to 65535, from the upper left, row by row.
+    /// 0 to 65535, from the upper left, row by row; red, green and blue of coloured pixels.
+    std::vector<std::uint16_t> values;
 };
 
 /// The luminance of a colour, of as many bits as its parts.
@@ -25,7 +28,7 @@ inline std::uint16_t luminance(std::uint32_t red, std::uint32_t green, std::uint
 
 /// `bytes` are those of the file `path`, which errors name. Transparency is ignored. Throw
 /// UserError(bad_input) for what is damaged, cut short or has too many pixels.
-GreyPixels decode_png(const Path& path, const std::string& bytes);
-GreyPixels decode_jpeg(const Path& path, const std::string& bytes);
+ImagePixels decode_png(const Path& path, const std::string& bytes, PixelKind kind);
+ImagePixels decode_jpeg(const Path& path, const std::string& bytes, PixelKind kind);
 
 } // namespace geodisk::tools

@@ -1,0 +1,95 @@
+// Attributes, normals and frames of samples, by `geodisk sample` and `transfer`.
+#include <doctest/doctest.h>
+
+#include <string>
+#include <vector>
+
+#include "cli/command.hpp"
+
+namespace geodisk::test {
+namespace {
+
+/// A roof of two quads with colours and texture coordinates.
+constexpr const char* kRoof = "v 0 0 0 1 0 0\nv 0 2 0 1 0 0\nv 1 0 1 0 1 0\nv 1 2 1 0 1 0\n"
+                              "v 2 0 0 0 0 1\nv 2 2 0 0 0 1\nvt 0 0\nvt 0 1\nvt 0.5 0\nvt 0.5 1\n"
+                              "vt 1 0\nvt 1 1\nf 1/1 3/3 4/4 2/2\nf 3/3 5/5 6/6 4/4\n";
+
+/// The lines of a CSV file behind its comments.
+std::vector<std::string> table_of(const TemporaryFolder& folder, const char* name) {
+    std::vector<std::string> lines = lines_of(bytes_of(folder / name));
+    std::erase_if(lines, [](const std::string& line) { return line.starts_with("# "); });
+    return lines;
+}
+
+void sample_roof(const TemporaryFolder& folder, const char* output, const Arguments& more = {}) {
+    folder.write("roof.obj", kRoof);
+    const Outcome made =
+        run(folder, joined({"sample", "roof.obj", "-o", output, "-d", "0.5", "--seed", "3"}, more));
+    INFO(made.err);
+    REQUIRE(made.status == 0);
+}
+
+} // namespace
+
+TEST_CASE("attributes and frames are columns behind those of every file") {
+    const TemporaryFolder folder;
+    sample_roof(folder, "a.csv");
+    sample_roof(folder, "b.csv", {"--attributes", "all", "--frames"});
+    const std::vector<std::string> bare = table_of(folder, "a.csv"),
+                                   all = table_of(folder, "b.csv");
+    REQUIRE(all.size() == bare.size());
+    CHECK(all[0] == bare[0] + ",red,green,blue,u,v,qx,qy,qz,qw");
+    for (std::size_t i = 1; i < all.size(); ++i) {
+        CHECK(all[i].starts_with(bare[i] + ','));
+    }
+    const Outcome checked = run(folder, {"verify", "roof.obj", "b.csv"});
+    CHECK(checked.status == 0);
+
+    // Frames turn with the samples, by the seed in their file.
+    const Outcome moved = run(folder, {"transfer", "b.csv", "roof.obj", "roof.obj", "-o", "c.csv",
+                                       "--attributes", "color,uv", "--frames"});
+    INFO(moved.err);
+    REQUIRE(moved.status == 0);
+    CHECK(table_of(folder, "c.csv") == all);
+
+    // A manifest may ask for other attributes than the batch.
+    folder.write("list.txt", "roof.obj -o r.csv --attributes uv\n");
+    const Outcome batch = run(folder, {"batch", "list.txt", "-o", "out", "-d", "0.5", "--seed", "3",
+                                       "--normals", "smooth"});
+    INFO(batch.err);
+    REQUIRE(batch.status == 0);
+    CHECK(table_of(folder, "out/r.csv")[0] == bare[0] + ",u,v");
+}
+
+TEST_CASE("normals are those of faces, of the file, or smooth") {
+    const TemporaryFolder folder;
+    sample_roof(folder, "a.csv");
+    sample_roof(folder, "b.csv", {"--normals", "face"});
+    CHECK(bytes_of(folder / "a.csv") == bytes_of(folder / "b.csv"));
+    sample_roof(folder, "c.csv", {"--normals", "smooth"});
+    CHECK(table_of(folder, "c.csv") != table_of(folder, "a.csv"));
+    check_fails(folder, 3, "roof.obj: has no normals, as --normals file requests",
+                {"sample", "roof.obj", "-o", "d.csv", "-d", "0.5", "--normals", "file"});
+    check_fails(folder, 2, "--normals: 'sharp' is none of face, file and smooth",
+                {"sample", "roof.obj", "-o", "d.csv", "-d", "0.5", "--normals", "sharp"});
+    check_fails(folder, 2, "holds points alone",
+                {"sample", "roof.obj", "-o", "d.xyz", "-d", "0.5", "--normals", "smooth"});
+}
+
+TEST_CASE("attributes that a mesh lacks, and formats that lack columns, are refused") {
+    const TemporaryFolder folder;
+    folder.write("roof.obj", kRoof);
+    const auto fails = [&](int status, const char* part, const Arguments& more) {
+        check_fails(folder, status, part, joined({"sample", "roof.obj", "-d", "0.5"}, more));
+    };
+    fails(3, "roof.obj: has no attribute 'heat'; it has color and uv",
+          {"-o", "a.csv", "--attributes", "heat"});
+    fails(2, "so no column of --attributes", {"-o", "a.xyz", "--attributes", "all"});
+    fails(2, "so no column of --frames", {"-o", "a.obj", "--frames"});
+    fails(2, "--attributes: uv is given twice", {"-o", "a.csv", "--attributes", "uv,uv"});
+    folder.write("four.off", "nOFF\n4 3 1 0\n0 0 0 0\n1 0 0 0\n0 1 0 1\n3 0 1 2\n");
+    check_fails(folder, 2, "--frames needs a mesh with 3 coordinates per vertex; this one has 4",
+                {"sample", "four.off", "-o", "a.csv", "-d", "0.5", "--frames"});
+}
+
+} // namespace geodisk::test

@@ -1,0 +1,264 @@
+// Attributes of mesh files, from the readers to samples.
+#include "files/mesh_fields.hpp"
+#include "files/mesh_file.hpp"
+#include "files/output_file.hpp"
+#include "files/sample_fields.hpp"
+#include "geometry/frames.hpp"
+
+#include "test_files.hpp"
+
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+using namespace geodisk::tools;
+
+namespace {
+
+/// A square of four corners with colours, texture coordinates and normals.
+const std::string kObj = "v 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 1 1 0 0 0 1\nv 0 1 0 1 1 1\n"
+                         "vt 0 0\nvt 2 0\nvt 2 2\nvt 0 2\nvn 0 0 2\nvn 0.6 0 0.8\n"
+                         "f 1/1/1 2/2/2 3/3/2 4/4/1\n";
+
+std::string ply_of(const std::string& properties, const std::vector<std::string>& values,
+                   const std::string& face_properties = "", const std::string& face_values = "") {
+    const char* const corners[] = {"0 0 0", "1 0 0", "0 1 0"};
+    std::string text = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\n"
+                       "property float y\nproperty float z\n" +
+                       properties + "element face 1\nproperty list uchar int vertex_indices\n" +
+                       face_properties + "end_header\n";
+    for (std::size_t i = 0; i < 3; ++i) {
+        text += std::string(corners[i]) + ' ' + values[i] + '\n';
+    }
+    return text + "3 0 1 2 " + face_values + '\n';
+}
+
+MeshFile mesh_with(const std::string& name, const std::string& bytes, const std::string& wanted,
+                   bool normals = false) {
+    const TemporaryFolder folder;
+    MeshSources sources;
+    sources.mesh = folder.write(name, bytes).string();
+    sources.fields = parse_fields(wanted);
+    sources.fields.normals = normals;
+    return read_mesh(sources);
+}
+
+void check_refused(const std::string& name, const std::string& bytes, const std::string& wanted,
+                   std::string_view part) {
+    check_fails(ExitCode::bad_input, part, [&] { mesh_with(name, bytes, wanted); });
+}
+
+SampleRow row_at(std::uint32_t face, float u, float v, float w) {
+    SampleRow row;
+    row.face = face;
+    row.bary[0] = u;
+    row.bary[1] = v;
+    row.bary[2] = w;
+    return row;
+}
+
+/// Values of all attributes at a sample, in order.
+std::vector<double> values_at(const MeshFile& mesh, const SampleRow& row) {
+    std::vector<double> values;
+    for (const SampleField& field : sample_fields(mesh, std::vector<SampleRow>{row})) {
+        values.insert(values.end(), field.values.begin(), field.values.end());
+    }
+    return values;
+}
+
+using Values = std::vector<double>;
+
+} // namespace
+
+TEST_CASE("attributes are all, or names without repetition") {
+    CHECK(parse_fields("all").all);
+    CHECK(parse_fields("uv,color").names == std::vector<std::string>{"uv", "color"});
+    CHECK_FALSE(parse_fields("").are_given());
+    for (const char* const text : {"uv,uv", "uv,,color", ",", "uv,all"}) {
+        CAPTURE(text);
+        check_fails(ExitCode::usage, "--attributes", [&] { parse_fields(text); });
+    }
+}
+
+TEST_CASE("attributes of OBJ are interpolated in the triangles of polygons") {
+    const MeshFile mesh = mesh_with("a.obj", kObj, "uv,color", true);
+    REQUIRE(mesh.fields.size() == 2); // In the order of the names.
+    CHECK(mesh.fields[0].name == "uv");
+    CHECK(mesh.fields[1].components == std::vector<std::string>{"red", "green", "blue"});
+    CHECK(values_at(mesh, row_at(0, 0.5F, 0.25F, 0.25F)) == Values{1, 0.5, 0.5, 0.25, 0.25});
+    CHECK(values_at(mesh, row_at(1, 0, 0, 1)) == Values{0, 2, 1, 1, 1});
+    const Vec3 normal = file_normal(mesh, row_at(0, 0, 1, 0));
+    CHECK(normal.x == doctest::Approx(0.6));
+    CHECK(normal.z == doctest::Approx(0.8));
+    CHECK(mesh_with("a.obj", kObj, "").fields.empty());
+    const MeshFile bytes =
+        mesh_with("a.obj", "v 0 0 0 255 0 51\nv 1 0 0 0 0 0\nv 0 1 0 0 0 0\nf 1 2 3\n", "all");
+    CHECK(values_at(bytes, row_at(0, 1, 0, 0)) == Values{1, 0, 0.2});
+}
+
+TEST_CASE("attributes of PLY are scalars, colours, texture coordinates and labels") {
+    const std::string ply =
+        ply_of("property uchar red\nproperty uchar green\nproperty uchar blue\nproperty float s\n"
+               "property float t\nproperty double heat\nproperty int label\nproperty float nx\n"
+               "property float ny\nproperty float nz\n",
+               {"255 0 0 0 0 1.5 -7 0 0 1", "0 255 0 1 0 2.5 8 0 0 1", "0 0 255 0 1 4 9 0 0 1"},
+               "property int label\nproperty uchar red\n", "5 6");
+    const MeshFile mesh = mesh_with("a.ply", ply, "all");
+    std::vector<std::string> names;
+    for (const MeshField& field : mesh.fields) {
+        names.push_back(field.name);
+    }
+    CHECK(names ==
+          std::vector<std::string>{"color", "uv", "heat", "label", "face_label", "face_red"});
+    CHECK(values_at(mesh, row_at(0, 0.25F, 0.5F, 0.25F)) ==
+          Values{0.25, 0.5, 0.25, 0.5, 0.25, 2.625, 8, 5, 6});
+    CHECK(sample_fields(mesh, std::vector<SampleRow>{row_at(0, 1, 0, 0)})[3].is_whole);
+    CHECK(values_at(mesh_with("a.ply", ply, "label"), row_at(0, 0.4F, 0.3F, 0.3F)) == Values{-7});
+    const std::string wedges =
+        ply_of("", {"", "", ""}, "property list uchar float texcoord\n", "6 0 0 4 0 0 4");
+    CHECK(values_at(mesh_with("a.ply", wedges, "uv"), row_at(0, 0, 0.5F, 0.5F)) == Values{2, 2});
+    check_refused("a.ply",
+                  ply_of("", {"", "", ""}, "property list uchar float texcoord\n", "2 0 0"), "uv",
+                  "texcoord has 2 numbers for 3 corners");
+}
+
+TEST_CASE("attributes of OFF follow the coordinates") {
+    const std::string off = "STCNOFF\n3 1 0\n0 0 0 0 0 1 255 0 0 255 0.5 0\n"
+                            "1 0 0 0 0 1 0 255 0 255 1 0\n0 1 0 0 0 1 0 0 255 255 0 1\n3 0 1 2\n";
+    const MeshFile mesh = mesh_with("a.off", off, "color,uv", true);
+    CHECK(values_at(mesh, row_at(0, 1, 0, 0)) == Values{1, 0, 0, 1, 0.5, 0});
+    CHECK(file_normal(mesh, row_at(0, 1, 0, 0)).z == 1);
+    check_refused("a.off", "COFF\n3 1 0\n0 0 0 1\n1 0 0 1\n0 1 0 1\n3 0 1 2\n", "color",
+                  "a colour of 3 or of 4 numbers");
+}
+
+TEST_CASE("attributes that cannot be used are refused by name and place") {
+    const std::string heat = "property float heat\n";
+    const std::string ply = ply_of(heat, {"1", "nan", "2"});
+    check_refused("a.ply", ply, "heat", "record 1: 'heat' is not finite");
+    check_refused("a.ply", ply, "heaat",
+                  "has no attribute 'heaat'; it has heat; did you mean heat");
+    check_refused("a.stl",
+                  "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\n"
+                  "vertex 0 1 0\nendloop\nendfacet\nendsolid a\n",
+                  "color", "has no attribute 'color', or any other");
+    for (const char* const name : {"radius", "Class", "bary_u", "mesh", "qx", "points"}) {
+        CAPTURE(name);
+        check_refused("a.ply",
+                      ply_of("property float " + std::string(name) + "\n", {"1", "2", "3"}), name,
+                      "has the name of a column of samples");
+    }
+    check_refused("a.ply",
+                  ply_of("property float heat\nproperty float HEAT\n", {"1 1", "1 1", "1 1"}),
+                  "all", "two attributes would have the column 'heat'");
+    const std::string part = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nf 1/1 2/1 3\n";
+    check_refused("a.obj", part, "uv", "line 5: vertex 3 has no value of 'uv'");
+    const MeshFile left_out = mesh_with("a.obj", part, "all");
+    CHECK(left_out.fields.empty());
+    CHECK(left_out.warnings.back().kind == "partial_attribute");
+    check_fails(ExitCode::bad_input, "has no normals, as --normals file requests",
+                [&] { mesh_with("a.obj", part, "", true); });
+    check_refused("a.obj",
+                  "v 0 0 0\nv 1 0 0\nv 1 1 0\nvt 0 0\nvt 1 1\nv 2 1 0\n"
+                  "f 1/1 2/1 3/1 1/2 4/1\n",
+                  "uv", "vertex 1 has two values of 'uv' in it");
+}
+
+TEST_CASE("attributes become columns behind all others") {
+    const TemporaryFolder folder;
+    std::vector<SampleRow> rows{row_at(0, 1, 0, 0), row_at(0, 0, 1, 0)};
+    const std::vector<SampleField> fields{
+        {"color", {"red", "green", "blue"}, false, true, {1, 0.5, 0, 0, 0, 2}},
+        {"label", {"label"}, true, false, {-1, 70000}},
+        {"heat", {"heat"}, false, false, {0.5, 1e300}}};
+    for (const auto& [name, part] :
+         {std::pair{"a.csv",
+                    "bary_w,red,green,blue,label,heat\n0,0,0,0,0,0,0,1,0,0,1,0.5,0,-1,0.5\n"},
+          {"a.ply", "property uchar red\nproperty uchar green\nproperty uchar blue\n"
+                    "property int label\nproperty double heat\n"},
+          {"a.pcd", "red green blue label heat\n"},
+          {"a.npz", "label.npy"}}) {
+        CAPTURE(name);
+        AtomicFile file(folder / name);
+        write_samples(file, sample_target(folder / name, {}, true), {}, rows, 3, {{}, fields});
+        file.commit();
+        CHECK(contains(bytes_of(folder / name), part));
+    }
+    CHECK(contains(bytes_of(folder / "a.ply"), "1 0 0 255 128 0 -1 0.5\n"));
+    CHECK(contains(bytes_of(folder / "a.ply"), "0 1 0 0 0 255 70000 1e+300\n"));
+    CHECK(read_samples(folder / "a.csv").rows.size() == 2);
+}
+
+TEST_CASE("frames turn z to the normal, by an angle that other samples do not change") {
+    for (const Vec3& normal : {Vec3{0, 0, 1}, Vec3{0, 0, -1}, Vec3{1, 0, 0}, Vec3{0.6, 0, -0.8},
+                               normalize(Vec3{1, 2, 3})}) {
+        CAPTURE(normal.z);
+        const auto q = frame_of(normal, 2);
+        const Vec3 v{q[0], q[1], q[2]};
+        const Vec3 z{0, 0, 1}; // Turned by q: z + 2 w (v x z) + 2 v x (v x z).
+        const Vec3 turned = z + 2 * q[3] * cross(v, z) + 2.0 * cross(v, cross(v, z));
+        CHECK(length(turned - normal) < 1e-12);
+        CHECK(q[3] >= 0);
+        CHECK(length(v) * length(v) + q[3] * q[3] == doctest::Approx(1));
+    }
+    const auto flat = frame_of({0, 0, 1}, 1);
+    CHECK(flat[2] == doctest::Approx(std::sin(0.5)));
+    const float weights[3] = {0.25F, 0.5F, 0.25F};
+    CHECK(frame_angle(7, 3, weights) == frame_angle(7, 3, weights));
+    CHECK(frame_angle(7, 3, weights) != frame_angle(8, 3, weights));
+    CHECK(frame_angle(7, 3, weights) != frame_angle(7, 4, weights));
+}
+
+namespace {
+
+/// Two samples with all kinds of attributes, one of them turned by half a turn about z.
+void write_scene(const std::filesystem::path& path, bool has_frames) {
+    SampleRow moved = row_at(4, 0, 1, 0);
+    moved.position[0] = 2;
+    moved.normal[2] = 1;
+    std::vector<SampleField> fields{
+        {"color", {"red", "green", "blue", "alpha"}, false, true, {1, 0.5, 0, 1, 0, 0, 1, 0.25}},
+        {"uv", {"u", "v"}, false, false, {0, 1, 0.5, 0.5}},
+        {"8-label", {"8-label"}, true, false, {-1, 7}}};
+    if (has_frames) {
+        fields.push_back(
+            {"frames", {"qx", "qy", "qz", "qw"}, false, false, {0, 0, 1, 0, 0, 0, 0, 1}, true});
+    }
+    const std::vector<ExtraColumn> numbers{{"part", {4294967295u, 0}}};
+    AtomicFile file(path);
+    write_samples(file, sample_target(path), {{{"min_distance", "0.5"}, {"mesh", "a\"b.ply"}}},
+                  std::vector{row_at(3, 1, 0, 0), moved}, 3, {numbers, fields});
+    file.commit();
+}
+
+} // namespace
+
+TEST_CASE("USD has an instance for each sample") {
+    const TemporaryFolder folder;
+    write_scene(folder / "a.usda", true);
+    const std::string text = bytes_of(folder / "a.usda");
+    for (const char* const part :
+         {"#usda 1.0\n", "point3f[] positions = [(0, 0, 0), (2, 0, 0)]\n",
+          "quath[] orientations = [(0, 0, 0, 1), (1, 0, 0, 0)]\n",
+          "float3[] scales = [(0.25, 0.25, 0.25), (0.25, 0.25, 0.25)]\n",
+          "int[] protoIndices = [0, 0]\n", "uint[] primvars:face_index = [3, 4] (",
+          "color3f[] primvars:displayColor = [(1, 0.5, 0), (0, 0, 1)] (",
+          "float[] primvars:displayOpacity = [1, 0.25] (",
+          "texCoord2f[] primvars:st = [(0, 1), (0.5, 0.5)] (",
+          "int[] primvars:_8_label = [-1, 7] (", "uint[] primvars:part = [4294967295, 0] (",
+          R"(\"mesh\":\"a\\\"b.ply\")", "def Mesh \"Sample\""}) {
+        CAPTURE(part);
+        CHECK(contains(text, part));
+    }
+    write_scene(folder / "b.usda", false);
+    CHECK(contains(bytes_of(folder / "b.usda"), "def Sphere \"Sample\""));
+    CHECK_FALSE(contains(bytes_of(folder / "b.usda"), "orientations"));
+    AtomicFile file(folder / "c.usda");
+    write_samples(file, sample_target(folder / "c.usda"), {}, {}, 3);
+    file.commit();
+    CHECK(contains(bytes_of(folder / "c.usda"), "positions = []\n"));
+    check_fails(ExitCode::usage, "a .usda file holds three coordinates",
+                [] { check_dimension(sample_target("a.usda"), 4); });
+}

@@ -1,0 +1,57 @@
+// The attributes of mesh files that are read to be interpolated at samples.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "geometry/mesh.hpp"
+#include "program/path.hpp"
+
+namespace geodisk::tools {
+
+/// Names of attributes that several formats have.
+inline constexpr std::string_view kColourField = "color", kUvField = "uv";
+
+/// The attributes of a mesh file to read.
+struct WantedFields {
+    std::vector<std::string> names;
+    bool all = false;     ///< All that the file has.
+    bool normals = false; ///< The normals of the file too, which are no attribute.
+    bool uvs = false;     ///< Texture coordinates too, to look up a texture.
+
+    /// Returns true for what is to be read.
+    bool has(std::string_view name) const;
+    /// Returns true for what is to be written.
+    bool lists(std::string_view name) const;
+    /// Returns true if any attribute is to be read; normals are none.
+    bool are_given() const { return all || uvs || !names.empty(); }
+};
+
+/// Reads "all", or names with commas between; nothing for "". Throws UserError(usage) for an empty
+/// name and one that repeats.
+WantedFields parse_fields(const std::string& text);
+
+/// Returns an attribute without values, of one number or of several: "f_0", "f_1".
+MeshField make_field(std::string_view name, MeshField::Of of, std::size_t components = 1);
+/// Returns colours of 3 components, or of 4 with alpha; `prefix` begins their names.
+MeshField make_colours(MeshField::Of of, std::size_t components, const std::string& prefix = "");
+/// Returns texture coordinates, whose values are PolygonMesh::uvs.
+MeshField make_uvs();
+
+/// Divides colours by 255 if some are larger than 1.
+void scale_colours(MeshField& colours);
+
+struct PolygonMesh;
+
+/// Moves the wanted attributes into `mesh`, whose faces are split already but not joined.
+/// Throws UserError(bad_input) for those that the file lacks or has for some corners only, values
+/// that are not finite, and names of other columns. With WantedFields::all, attributes of some
+/// corners only are left out, with a warning.
+void take_fields(const Path& path, const WantedFields& wanted, PolygonMesh& polygons,
+                 MeshFile& mesh);
+
+/// Throws UserError(bad_input) for the wanted attributes of a mesh that has none.
+void check_no_fields(const Path& path, const WantedFields& wanted);
+
+} // namespace geodisk::tools

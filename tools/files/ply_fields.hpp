@@ -1,0 +1,58 @@
+// The attributes of vertices and faces of PLY files.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "files/mesh_fields.hpp"
+#include "files/ply_file.hpp"
+#include "files/polygon_mesh.hpp"
+
+namespace geodisk::tools {
+
+/// Returns the columns of texture coordinates s t, u v or texture_u texture_v; none without them.
+std::vector<std::size_t> find_uv_columns(const PlyElement& element);
+
+/// Lists in `mesh` the attributes that the element `vertex` or `face` has, and reads the wanted
+/// ones: colours, texture coordinates, and scalar properties by their names. An attribute whose
+/// name an earlier one has is called face_NAME or vertex_NAME.
+class PlyFieldReader {
+  public:
+    /// All arguments must outlive the reader.
+    PlyFieldReader(const PlyFile& file, const PlyElement& element, const WantedFields& wanted,
+                   PolygonMesh& mesh);
+
+    /// Reads the attributes of record `index`, with `corners` of a face.
+    void add(std::uint64_t index, const PlyRecord& record, std::size_t corners = 0);
+
+    /// Moves texture coordinates of corners into the mesh, in place of those of vertices.
+    void finish();
+
+  private:
+    struct Columns {
+        std::size_t field; ///< In PolygonMesh::fields.
+        std::vector<std::size_t> columns;
+        double divisor;
+    };
+
+    void find();
+    void find_uvs(std::vector<bool>& used);
+    void list(MeshField field, const std::vector<std::size_t>& columns, double divisor);
+    std::string prefix_for(std::string_view name) const;
+    void add_corner_uvs(std::uint64_t index, const PlyRecord& record, std::size_t corners);
+
+    const PlyFile& file_;
+    const PlyElement& element_;
+    const WantedFields& wanted_;
+    PolygonMesh& mesh_;
+    bool of_faces_;
+    std::vector<Columns> columns_;
+    std::vector<std::size_t> normals_;
+    std::optional<std::size_t> corner_uvs_; ///< List of the texture coordinates of a face.
+    std::vector<double> uvs_;
+    std::vector<std::uint32_t> uv_indices_;
+};
+
+} // namespace geodisk::tools

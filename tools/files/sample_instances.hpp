@@ -1,0 +1,26 @@
+// Instances of a shape at samples, for the formats that scenes are made of.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <span>
+
+#include "files/sample_file.hpp"
+#include "files/sample_layout.hpp"
+
+namespace geodisk::tools {
+
+/// A triangle in the plane of x and y with a circumradius of 1. Its first corner lies on x, so that
+/// it shows how a frame is turned.
+inline constexpr std::array<std::array<float, 3>, 3> kMarker{
+    {{1, 0, 0}, {-0.5F, 0.8660254F, 0}, {-0.5F, -0.8660254F, 0}}};
+
+/// Returns the radius that all samples have, if the header says it; nothing if radii vary.
+std::optional<double> common_radius(const SampleHeader& header, const SampleLayout& layout);
+
+/// Returns the number of `row` by which a shape of radius 1 is scaled: the radius of the sample.
+inline float scale_of(const SampleRow& row, const std::optional<double>& common) {
+    return static_cast<float>(common.value_or(row.radius));
+}
+
+} // namespace geodisk::tools

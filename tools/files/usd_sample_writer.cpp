@@ -1,0 +1,191 @@
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <type_traits>
+
+#include "files/block_writer.hpp"
+#include "files/mesh_fields.hpp"
+#include "files/sample_instances.hpp"
+#include "files/sample_writers.hpp"
+#include "program/exact_text.hpp"
+
+namespace geodisk::tools {
+namespace {
+
+constexpr std::string_view kIndent = "    ";
+
+/// Returns text in quotes of USD.
+std::string quoted(const std::string& text) {
+    std::string result = "\"";
+    for (const char c : text) {
+        if (c == '"' || c == '\\') {
+            result += '\\';
+        }
+        result += c;
+    }
+    return result + '"';
+}
+
+/// Returns a name with '_' for what USD allows in no name.
+std::string identifier(std::string name) {
+    for (char& c : name) {
+        c = c == '.' || c == '-' ? '_' : c;
+    }
+    return name[0] >= '0' && name[0] <= '9' ? '_' + name : name;
+}
+
+/// Writes the properties of a PointInstancer, one array after the other.
+class Properties {
+  public:
+    Properties(AtomicFile& file, std::size_t rows) : file_(file), rows_(rows) {}
+
+    /// Writes an array; `value(i, k)` is component k of row i. Primvars have a value per instance.
+    template <class Value>
+    void add(const std::string& declaration, std::size_t components, const Value& value,
+             bool is_primvar = false) {
+        file_.write(std::string(kIndent) + declaration + " = [");
+        write_rows(file_, rows_, [&](std::string& text, std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) {
+                text += i > 0 ? ", " : "";
+                append_value(text, components, [&](std::size_t k) { return value(i, k); });
+            }
+        });
+        file_.write(is_primvar ? "] (\n        interpolation = \"vertex\"\n    )\n" : "]\n");
+    }
+
+    template <class Value>
+    void add_primvar(const std::string& type, const std::string& name, std::size_t components,
+                     const Value& value) {
+        add(type + "[] primvars:" + identifier(name), components, value, true);
+    }
+
+    void add_field(const SampleField& field) {
+        const std::size_t size = field.components.size();
+        const auto value = [&](std::size_t i, std::size_t k) {
+            return static_cast<float>(field.values[i * size + k]);
+        };
+        if (field.name == kColourField) {
+            add_primvar("color3f", "displayColor", 3, value);
+            if (size == 4) {
+                add_primvar("float", "displayOpacity", 1,
+                            [&](std::size_t i, std::size_t) { return value(i, 3); });
+            }
+        } else if (field.name == kUvField && size == 2) {
+            add_primvar("texCoord2f", "st", size, value);
+        } else if (field.is_whole) {
+            add_primvar("int" + number_of(size), field.name, size,
+                        [&](std::size_t i, std::size_t k) {
+                            return static_cast<std::int32_t>(field.values[i * size + k]);
+                        });
+        } else {
+            add_primvar("float" + number_of(size), field.name, size, value);
+        }
+    }
+
+  private:
+    static std::string number_of(std::size_t components) {
+        return components == 1 ? "" : std::to_string(components);
+    }
+
+    template <class Value>
+    static void append_value(std::string& text, std::size_t components, const Value& value) {
+        text += components > 1 ? "(" : "";
+        for (std::size_t k = 0; k < components; ++k) {
+            text += k > 0 ? ", " : "";
+            append_number(text, value(k));
+        }
+        text += components > 1 ? ")" : "";
+    }
+
+    AtomicFile& file_;
+    std::size_t rows_;
+};
+
+void add_surface(Properties& properties, std::span<const SampleRow> rows,
+                 const SampleLayout& layout) {
+    properties.add_primvar("normal3f", "normals", 3,
+                           [&](std::size_t i, std::size_t k) { return rows[i].normal[k]; });
+    properties.add_primvar("uint", "face_index", 1,
+                           [&](std::size_t i, std::size_t) { return rows[i].face; });
+    properties.add_primvar("float3", "barycentric", 3,
+                           [&](std::size_t i, std::size_t k) { return rows[i].bary[k]; });
+    if (layout.has_polygon) {
+        properties.add_primvar("uint", "polygon_index", 1, [&](std::size_t i, std::size_t) {
+            return rows[i].polygon.value_or(0);
+        });
+    }
+    for (const ExtraColumn& column : layout.further.numbers) {
+        properties.add_primvar("uint", column.name, 1,
+                               [&](std::size_t i, std::size_t) { return column.values[i]; });
+    }
+    const SampleField* const frames = find_frames(layout.further);
+    for (const SampleField& field : layout.further.fields) {
+        if (&field != frames) {
+            properties.add_field(field);
+        }
+    }
+    if (frames != nullptr) { // USD has w first.
+        properties.add("quath[] orientations", 4, [&](std::size_t i, std::size_t k) {
+            return static_cast<float>(frames->values[4 * i + (k + 3) % 4]);
+        });
+    }
+}
+
+/// The shape that stands for a sample: a triangle where frames turn it, else a ball.
+std::string prototype(bool is_turned) {
+    if (!is_turned) {
+        return R"(        def Sphere "Sample"
+        {
+            double radius = 1
+        }
+)";
+    }
+    std::string points;
+    for (const std::array<float, 3>& corner : kMarker) {
+        points += (points.empty() ? "(" : ", (") + exact_text(corner[0]) + ", " +
+                  exact_text(corner[1]) + ", " + exact_text(corner[2]) + ')';
+    }
+    return R"(        def Mesh "Sample"
+        {
+            uniform bool doubleSided = 1
+            uniform token subdivisionScheme = "none"
+            int[] faceVertexCounts = [3]
+            int[] faceVertexIndices = [0, 1, 2]
+            point3f[] points = [)" +
+           points + "]\n        }\n";
+}
+
+} // namespace
+
+void write_usd(AtomicFile& file, const SampleHeader& header, std::span<const SampleRow> rows,
+               const SampleTarget& target, const SampleLayout& layout) {
+    const std::array<double, 3> origin = origin_for_float(rows, 3);
+    check_float_range(target, rows, origin);
+    file.write("#usda 1.0\n(\n    customLayerData = {\n        string geodisk = " +
+               quoted(json_text(header)) +
+               "\n    }\n    defaultPrim = \"Samples\"\n    metersPerUnit = 1\n"
+               "    upAxis = \"Y\"\n)\n\ndef PointInstancer \"Samples\"\n{\n");
+    if (origin != std::array<double, 3>{}) {
+        file.write("    double3 xformOp:translate = (" + exact_text(origin[0]) + ", " +
+                   exact_text(origin[1]) + ", " + exact_text(origin[2]) +
+                   ")\n    uniform token[] xformOpOrder = [\"xformOp:translate\"]\n");
+    }
+    Properties properties(file, rows.size());
+    properties.add("point3f[] positions", 3, [&](std::size_t i, std::size_t k) {
+        return static_cast<float>(rows[i].position[k] - origin[k]);
+    });
+    properties.add("int[] protoIndices", 1, [](std::size_t, std::size_t) { return 0; });
+    const auto radius = common_radius(header, layout);
+    properties.add("float3[] scales", 3,
+                   [&](std::size_t i, std::size_t) { return scale_of(rows[i], radius); });
+    if (layout.is_on_surface) {
+        add_surface(properties, rows, layout);
+    }
+    file.write("    rel prototypes = </Samples/Prototypes/Sample>\n\n"
+               "    def Scope \"Prototypes\"\n    {\n" +
+               prototype(find_frames(layout.further) != nullptr) + "    }\n}\n");
+}
+
+} // namespace geodisk::tools

@@ -1,0 +1,89 @@
+#include "geodisk/options/record_options.hpp"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "program/command.hpp"
+#include "program/failure.hpp"
+#include "program/suggestion.hpp"
+
+namespace geodisk::tools {
+namespace {
+
+/// By NormalKind.
+const std::vector<std::string>& normal_names() {
+    static const std::vector<std::string> names{"face", "file", "smooth"};
+    return names;
+}
+
+} // namespace
+
+NormalKind RecordOptions::normal_kind() const {
+    const auto found = std::ranges::find(normal_names(), normals);
+    if (found == normal_names().end()) {
+        fail_choice("--normals", normals, normal_names());
+    }
+    return NormalKind(found - normal_names().begin());
+}
+
+WantedFields RecordOptions::fields() const {
+    WantedFields fields = parse_fields(attributes);
+    fields.normals = normal_kind() == NormalKind::file;
+    fields.uvs = !texture.empty();
+    if (fields.uvs && fields.lists(kColourField) && !fields.all) {
+        fail_usage("--texture and the attribute color are both the columns red, green and blue; "
+                   "give one of them");
+    }
+    return fields;
+}
+
+void RecordOptions::check(const SampleTarget& target) const {
+    if (!attributes.empty() || frames) {
+        check_columns(target, std::vector<std::string>{attributes.empty() ? "of --frames"
+                                                                          : "of --attributes"});
+    }
+    if (normal_kind() != NormalKind::face && target.format == SampleFormat::xyz) {
+        check_columns(target, std::vector<std::string>{"of --normals"});
+    }
+}
+
+HeaderEntries RecordOptions::entries() const {
+    HeaderEntries entries;
+    if (!attributes.empty()) {
+        entries.emplace_back("attributes", attributes);
+    }
+    if (!texture.empty()) {
+        entries.emplace_back("texture", texture);
+    }
+    if (normal_kind() != NormalKind::face) {
+        entries.emplace_back("normals", normals);
+    }
+    if (frames) {
+        entries.emplace_back("frames", "yes");
+    }
+    return entries;
+}
+
+void add_record_options(Command command, RecordOptions& options, const std::string& name) {
+    command.add_option("--attributes", options.attributes, "LIST",
+                       "Add attributes that " + name +
+                           " has at each sample: all, or names\n"
+                           "separated by commas: color, uv, and others as the file calls\n"
+                           "them. Integers are those of the corner with the most weight");
+    command.add_option("--texture", options.texture, "IMAGE",
+                       "Add the colour of a PNG or JPEG image at the texture coordinates\n"
+                       "of each sample");
+    command
+        .add_option("--normals", options.normals, "NAME",
+                    "face: normals of triangles; file: those of the file, as\n"
+                    "interpolated; smooth: interpolated means at vertices")
+        .offers(normal_names())
+        .shows_default();
+    command.add_flag("--frames", options.frames,
+                     "Add a quaternion qx qy qz qw to each sample, which turns z to\n"
+                     "its normal and by a random angle about it; glTF and USD then\n"
+                     "place a triangle at each sample");
+}
+
+} // namespace geodisk::tools

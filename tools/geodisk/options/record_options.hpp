@@ -1,0 +1,38 @@
+// The options that say what samples are written with: attributes of the mesh, normals, frames.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "files/mesh_fields.hpp"
+#include "files/sample_file.hpp"
+#include "files/sample_target.hpp"
+
+namespace geodisk::tools {
+
+class Command;
+
+/// Where the normals of samples come from.
+enum class NormalKind : std::uint8_t { face, file, smooth };
+
+/// As given on the command line.
+struct RecordOptions {
+    std::string attributes; ///< As parse_fields() reads them.
+    std::string texture;    ///< Image, or "".
+    std::string normals = "face";
+    bool frames = false;
+
+    /// Throws UserError(usage) for another word.
+    NormalKind normal_kind() const;
+    /// Returns what to read of the mesh. Throws UserError(usage) as parse_fields().
+    WantedFields fields() const;
+    /// Throws UserError(usage) if the format holds no such columns.
+    void check(const SampleTarget& target) const;
+    /// What a header says of them; nothing of those that were not given.
+    HeaderEntries entries() const;
+};
+
+/// Adds --attributes, --texture, --normals and --frames, of the mesh `name`.
+void add_record_options(Command command, RecordOptions& options, const std::string& name = "MESH");
+
+} // namespace geodisk::tools

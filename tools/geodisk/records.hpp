@@ -1,0 +1,27 @@
+// What samples are written with besides place, face and weights: normals, attributes, frames.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "files/sample_file.hpp"
+#include "geodisk/inputs/mesh_input.hpp"
+#include "geodisk/options/run_options.hpp"
+
+namespace geodisk::tools {
+
+/// Throws UserError(usage) if the mesh has no normals in space and `options` ask for some, or if
+/// texture and mesh have colours.
+void check_record(const RecordOptions& options, const MeshInput& mesh);
+
+/// Replaces the normals of faces in `rows` by those that `options` ask for. A normal that cancels
+/// to zero stays that of the face.
+void set_normals(const RecordOptions& options, const MeshInput& mesh, std::span<SampleRow> rows);
+
+/// Returns the attributes of the mesh at `rows`, and their frames where `options` ask for them.
+std::vector<SampleField> record_fields(const RecordOptions& options, const MeshInput& mesh,
+                                       std::span<const SampleRow> rows, std::uint64_t seed);
+
+} // namespace geodisk::tools
