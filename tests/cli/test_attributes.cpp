@@ -86,6 +86,9 @@ TEST_CASE("attributes that a mesh lacks, and formats that lack columns, are refu
           {"-o", "a.csv", "--attributes", "heat"});
     fails(2, "so no column of --attributes", {"-o", "a.xyz", "--attributes", "all"});
     fails(2, "so no column of --frames", {"-o", "a.obj", "--frames"});
+    fails(3, "nowhere.png", {"-o", "a.csv", "--texture", "nowhere.png"});
+    fails(2, "--texture and the attribute color are both the columns red, green and blue",
+          {"-o", "a.csv", "--texture", "nowhere.png", "--attributes", "color"});
     fails(2, "--attributes: uv is given twice", {"-o", "a.csv", "--attributes", "uv,uv"});
     folder.write("four.off", "nOFF\n4 3 1 0\n0 0 0 0\n1 0 0 0\n0 1 0 1\n3 0 1 2\n");
     check_fails(folder, 2, "--frames needs a mesh with 3 coordinates per vertex; this one has 4",

@@ -165,9 +165,9 @@ def test_columns_of_triangles(tmp_path):
             geodisk.Mesh(path, columns=asked)
     with pytest.raises(geodisk.MeshRejected, match="does not have the mesh of a face"):
         geodisk.Mesh(CASES / "sphere.stl", columns=["mesh"])
-    with pytest.raises(TypeError, match="give columns and mesh_format to it"):
+    with pytest.raises(TypeError, match="give columns, attributes and mesh_format"):
         geodisk.sample(mesh, columns=["mesh"], min_distance=1)
-    with pytest.raises(TypeError, match="^mesh 1: .*give columns and mesh_format to it"):
+    with pytest.raises(TypeError, match="^mesh 1: .*give columns, attributes and mesh_format"):
         geodisk.sample_many([path, mesh], columns=["mesh"], min_distance=1)
     with pytest.raises(geodisk.InvalidArgument, match="'x' is none of"):
         geodisk.Samples(np.zeros((2, 3)), columns={"x": [1, 2]})

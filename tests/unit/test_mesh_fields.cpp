@@ -1,16 +1,19 @@
 // Attributes of mesh files, from the readers to samples.
+#include "files/grey_image.hpp"
 #include "files/mesh_fields.hpp"
 #include "files/mesh_file.hpp"
 #include "files/output_file.hpp"
 #include "files/sample_fields.hpp"
 #include "geometry/frames.hpp"
 
+#include "png_bytes.hpp"
 #include "test_files.hpp"
 
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 using namespace geodisk::tools;
@@ -164,6 +167,28 @@ TEST_CASE("attributes that cannot be used are refused by name and place") {
                   "v 0 0 0\nv 1 0 0\nv 1 1 0\nvt 0 0\nvt 1 1\nv 2 1 0\n"
                   "f 1/1 2/1 3/1 1/2 4/1\n",
                   "uv", "vertex 1 has two values of 'uv' in it");
+}
+
+TEST_CASE("texture colours are those at the texture coordinates") {
+    const TemporaryFolder folder;
+    const ColourImage image(
+        folder.write("a.png", png_bytes(2, 1, std::string_view("\xff\0\0\0\0\xff", 6), 8, 2)));
+    MeshSources sources;
+    sources.mesh = folder
+                       .write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0.25 0\nvt 0.75 0\n"
+                                       "vt 0.25 1\nf 1/1 2/2 3/3\n")
+                       .string();
+    sources.fields.uvs = true;
+    const MeshFile mesh = read_mesh(sources);
+    CHECK(mesh.fields.empty());
+    const std::vector<SampleRow> rows{row_at(0, 1, 0, 0), row_at(0, 0, 1, 0),
+                                      row_at(0, 0.5F, 0.5F, 0)};
+    const SampleField colours = texture_colours(mesh, image, rows);
+    CHECK(colours.name == "color");
+    CHECK(colours.values == Values{1, 0, 0, 0, 0, 1, 0.5, 0, 0.5});
+    sources.mesh = folder.write("b.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").string();
+    check_fails(ExitCode::bad_input, "has no texture coordinates, as --texture requests",
+                [&] { read_mesh(sources); });
 }
 
 TEST_CASE("attributes become columns behind all others") {

@@ -282,6 +282,9 @@ PolygonMesh read_ply(const Path& path, const PlyWanted& wanted, const ReadingPro
     if (mesh.corner_uvs.empty() && (wanted.has_uvs || !mesh.uvs.empty())) {
         mesh.corner_uvs = mesh.corners;
     }
+    if (!mesh.corner_uvs.empty() && mesh.corner_uvs.size() != mesh.corners.size()) {
+        fail_input(path, "has strips of triangles, which have no texcoord");
+    }
     const Found& unknown = file.unknown_lines();
     add_warning(mesh.warnings, "unknown_header_lines", unknown.count,
                 unknown.count == 0 ? "" : "line " + std::to_string(unknown.first),

@@ -128,6 +128,7 @@ def sample_many(
     weld: bool | float = False,
     keep_seams: bool = False,
     columns: str | Sequence[str] = (),
+    attributes: str | Sequence[str] = (),
     mesh_format: str | None = None,
     device: DeviceLike | None = None,
     progress: bool | ProgressCallback = False,
@@ -145,7 +146,8 @@ def sample_many(
         As for :func:`sample`.
     density, radius_factor, face_keys, face_mask, existing, avoid : sequence of one per mesh, or None
         As for :func:`sample`; None for a mesh without.
-    exact, pool_ratio, weld, keep_seams, columns, mesh_format, device, progress
+    exact, pool_ratio, weld, keep_seams, columns, attributes, mesh_format, device,
+    progress
         As for :func:`sample`, for all meshes.
 
     Returns
@@ -184,7 +186,7 @@ def sample_many(
     def job_at(i: int) -> _Job:
         of_mesh = [values[i] for values in distances]
         return _Job(
-            _mesh_of(given[i], weld, keep_seams, columns, mesh_format),
+            _mesh_of(given[i], weld, keep_seams, columns, mesh_format, attributes),
             distance_of(*of_mesh),
             of_mesh[2],
             exact,
@@ -257,13 +259,14 @@ def _mesh_of(
     keep_seams: bool,
     columns: str | Sequence[str],
     mesh_format: str | None,
+    attributes: str | Sequence[str],
 ) -> Mesh:
     vertices, faces = given, None
     if isinstance(given, (tuple, list)):
         if len(given) != 2:
             raise TypeError("a mesh is a pair of vertices and faces, or brings its faces")
         vertices, faces = given
-    return mesh_of(vertices, faces, None, weld, keep_seams, columns, mesh_format)
+    return mesh_of(vertices, faces, None, weld, keep_seams, columns, mesh_format, attributes)
 
 
 def _each(values: Any, name: str, n: int) -> list[Any]:

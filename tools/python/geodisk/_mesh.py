@@ -41,8 +41,9 @@ class Mesh:
     keep_seams : bool
         Do not join border edges that coincide exactly, as along seams of texture coordinates.
         By default they are joined; ``info["joined_edges"]`` counts them.
-    attributes : sequence of str
-        Names of vertex attributes to read from a PLY file.
+    attributes : sequence of str, or "all"
+        Names of attributes to read from a file: ``"color"``, ``"uv"`` and others as the file calls
+        them. Samples have their values.
     columns : sequence of str
         Numbers to read for each triangle of a file: any of ``"part"`` (that no path joins to
         others), ``"material"``, ``"group"``, and for glTF ``"mesh"``, ``"primitive"`` and
@@ -58,7 +59,8 @@ class Mesh:
     polygons : ndarray of uint32, shape (f,), or None
         Number of the given face that each triangle is part of. None if all faces are triangles,
         since the numbers are the same then.
-    attributes : dict of ndarray, shape (v,)
+    attributes : dict of ndarray, shape (v,) or (v, k)
+        Values of vertices; of corners with the shape (f, 3) or (f, 3, k), of faces (f,) or (f, k).
     columns : dict of ndarray of uint32, shape (f,)
     warnings : tuple of MeshWarning
         All oddities of the mesh. They are also shown once, when the mesh is made.
@@ -171,8 +173,8 @@ class Mesh:
 
     @property
     def attributes(self) -> dict[str, NDArray[np.float64]]:
-        """Vertex attributes that were read, by name."""
-        return dict(self._surface.attributes)
+        """Attributes that were read, by name."""
+        return {name: one.array() for name, one in self._surface.attributes.items()}
 
     @property
     def columns(self) -> dict[str, NDArray[np.uint32]]:
@@ -228,6 +230,7 @@ def _surface_of(source: Source, vertices: Any, keep_seams: bool) -> Surface:
         attributes=source.attributes,
         joined=source.joined,
         columns=source.columns,
+        corners=source.corners if source.joined is not None else None,
     )
 
 
@@ -274,6 +277,7 @@ def mesh_of(
     keep_seams: bool = False,
     columns: str | Sequence[str] = (),
     mesh_format: str | None = None,
+    attributes: str | Sequence[str] = (),
 ) -> Mesh:
     """Returns the mesh that the arguments of a function name."""
     if not isinstance(vertices, Mesh):
@@ -285,11 +289,14 @@ def mesh_of(
             keep_seams=keep_seams,
             columns=columns,
             mesh_format=mesh_format,
+            attributes=attributes,
         )
     if faces is not None or edge_lengths is not None or weld is not False or keep_seams:
         raise TypeError("a geodisk.Mesh has its faces, lengths and welds already")
-    if columns or mesh_format is not None:
-        raise TypeError("a geodisk.Mesh has its columns already; give columns and mesh_format to it")
+    if columns or attributes or mesh_format is not None:
+        raise TypeError(
+            "a geodisk.Mesh has its columns already; give columns, attributes and mesh_format to it"
+        )
     return vertices
 
 

@@ -12,10 +12,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _errors as e
+from ._attributes import attributes_of_columns
 from ._samples import Samples
 from ._writing import WHOLE_COLUMNS, Header
 
 Columns = dict[str, NDArray[Any]]
+
+# Columns that are no attributes.
+_OWN_COLUMNS = {
+    *("x y z nx ny nz face_index bary_u bary_v bary_w radius polygon_index order").split(),
+    *(f"x{axis}" for axis in range(8)),
+    *WHOLE_COLUMNS,
+}
 
 
 def read(path: str | os.PathLike[str]) -> Samples:
@@ -103,7 +111,15 @@ def _from_npz(file: BinaryIO) -> Samples:
         header.update({n: str(archive[n]) for n in ("min_distance", "seed") if n in archive})
         arrays = {name: archive[name] for name in names if name in archive}
         columns = {name: archive[name] for name in WHOLE_COLUMNS if name in archive}
-    return _samples(header, columns=columns, **arrays)
+        known = {*names, *WHOLE_COLUMNS, "header", "min_distance", "seed"}
+        rows = len(next(iter(arrays.values()), ()))
+        others = {name: archive[name] for name in archive if name not in known}
+        attributes = {
+            name: x
+            for name, x in others.items()
+            if x.ndim in (1, 2) and len(x) == rows and x.dtype.kind in "biuf"
+        }
+    return _samples(header, columns=columns, attributes=attributes, **arrays)
 
 
 def _whole(columns: Columns, name: str) -> NDArray[Any] | None:
@@ -137,6 +153,9 @@ def _of_columns(columns: Columns, header: Header) -> Samples:
         barycentric=table("bary_u", "bary_v", "bary_w"),
         radius=columns.get("radius"),
         columns={name: _whole(columns, name) for name in WHOLE_COLUMNS if name in columns},
+        attributes=attributes_of_columns(
+            {name: x for name, x in columns.items() if name not in _OWN_COLUMNS}
+        ),
     )
 
 

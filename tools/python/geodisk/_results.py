@@ -170,6 +170,8 @@ def _made(
 ) -> Samples:
     faces = columns["face_index"]
     whole = {} if surface is None else {k: x[faces] for k, x in surface.columns.items()}
+    attributes = {} if surface is None else surface.attributes
+    weights = columns["barycentric"]
     for name in ("given", "class", "level"):
         column = columns.pop(name, None)
         if column is not None:
@@ -180,6 +182,7 @@ def _made(
         report=report,
         polygon_index=None if faces is None else _polygons_of(surface, faces),
         columns=whole,
+        attributes={name: one.at(faces, weights) for name, one in attributes.items()},
         _surface=surface,
         **columns,
         **box,

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,6 +20,7 @@ class Sample:
     radius : float
     order : int
     columns : dict of int
+    attributes : dict of float, int or ndarray
     """
 
     point: NDArray[np.float64] | None
@@ -29,3 +31,4 @@ class Sample:
     radius: float
     order: int
     columns: dict[str, int] = field(default_factory=dict)
+    attributes: dict[str, Any] = field(default_factory=dict)

@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _errors as e
 from ._arrays import indices, real
+from ._attributes import check_finite, interpolated, values_of
 from ._files import complete
 from ._sample import Sample
 from ._surface import Surface
@@ -21,6 +22,8 @@ from ._writing import WHOLE_COLUMNS, columns_of, header_of, write_csv, write_npz
 
 if TYPE_CHECKING:
     import pandas
+
+    from ._mesh import Mesh
 
 _COLUMNS = (
     "points",
@@ -52,6 +55,17 @@ def _column(values: ArrayLike, name: str, n: int) -> NDArray[np.uint32]:
     if array.shape != (n,):
         raise e.invalid(f"{name} has the shape {array.shape}, not {(n,)}")
     return array
+
+
+def _attribute(values: ArrayLike, name: str, n: int) -> NDArray[Any]:
+    """As int32 or float64, one or several numbers for each of n samples."""
+    array = np.asarray(values)
+    if array.dtype.kind not in "biuf":
+        raise TypeError(f"the attribute {name} has to be of numbers, not of {array.dtype}")
+    if array.ndim not in (1, 2) or len(array) != n:
+        raise e.invalid(f"the attribute {name} has the shape {array.shape}, not ({n},) or ({n}, k)")
+    is_whole = array.dtype.kind != "f" and (array.size == 0 or np.abs(array).max() < 2**31)
+    return array.astype(np.int32 if is_whole else np.float64, copy=False)
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -92,6 +106,9 @@ class Samples:
         is 1 for existing samples that a run kept, else 0. ``"class"`` is the class of each sample,
         ``"level"`` its level in progressive order. ``"feature"`` is 2 on a corner, 1 on a curve, 0
         on a face.
+    attributes : dict of ndarray, shape (n,) or (n, k)
+        Attributes of the mesh file at the samples, as requested from :class:`Mesh`: numbers by the
+        weights of corners, integers of the corner with the largest weight.
     class_distances : ndarray of float64, shape (k, k) or None
         Minimum distances of the pairs of classes; None if samples have no classes.
     level_distances : tuple of float, or None
@@ -135,6 +152,7 @@ class Samples:
     report: dict[str, Any] = field(default_factory=dict)
     polygon_index: NDArray[np.uint32] | None = None
     columns: dict[str, NDArray[np.uint32]] = field(default_factory=dict)
+    attributes: dict[str, NDArray[Any]] = field(default_factory=dict)
     class_distances: NDArray[np.float64] | None = None
     level_distances: tuple[float, ...] | None = None
     _surface: Surface | None = None
@@ -166,6 +184,7 @@ class Samples:
                 keep("polygon_index", polygons.astype(np.uint32, copy=False))
             keep("barycentric", _table(self.barycentric, "barycentric", (n, 3)))
         keep("columns", {name: _column(x, name, n) for name, x in self.columns.items()})
+        keep("attributes", {name: _attribute(x, name, n) for name, x in self.attributes.items()})
         distance = float(self.min_distance)
         if distance < 0 or math.isinf(distance):
             raise e.invalid(f"the minimum distance is {distance}, not positive")
@@ -221,7 +240,8 @@ class Samples:
         chosen: dict[str, Any] = {
             name: None if x is None else x[key] for name, x in columns.items()
         }
-        chosen["columns"] = {name: x[key] for name, x in self.columns.items()}
+        for name in ("columns", "attributes"):
+            chosen[name] = {column: x[key] for column, x in getattr(self, name).items()}
         return dataclasses.replace(self, **chosen)
 
     def __iter__(self) -> Iterator[Sample]:
@@ -243,6 +263,7 @@ class Samples:
             radius=float(self.radius[i]),
             order=int(self.order[i]),
             columns={name: int(x[i]) for name, x in self.columns.items()},
+            attributes={name: x[i] for name, x in self.attributes.items()},
         )
 
     def __getstate__(self) -> dict[str, Any]:
@@ -259,6 +280,78 @@ class Samples:
         seed = "" if self.seed is None else f", seed {self.seed}"
         return f"<geodisk.Samples: {len(self)}, {self.min_distance:.6g} apart{seed}>"
 
+    def interpolate(
+        self,
+        values: ArrayLike,
+        *,
+        of: str = "vertices",
+        nearest: bool | None = None,
+        mesh: Mesh | None = None,
+    ) -> NDArray[Any]:
+        """Returns values of the mesh at the samples.
+
+        Parameters
+        ----------
+        values : array_like, shape (v, ...), (f, 3, ...) or (f, ...)
+            Values of the vertices, of the corners of each triangle, or of the faces: numbers,
+            colours, vectors or labels.
+        of : {"vertices", "corners", "faces"}
+            What has the values. Faces are triangles, or the given polygons.
+        nearest : bool, optional
+            True to take the value of the corner with the largest weight, False to interpolate by
+            the weights. By default, floats are interpolated; integers, booleans and text are not.
+        mesh : Mesh, optional
+            The mesh of samples that do not refer to it, as those from files.
+
+        Returns
+        -------
+        ndarray, shape (n, ...)
+
+        Raises
+        ------
+        InvalidArgument
+            For values of another length, or values at a sample that are not finite.
+
+        Examples
+        --------
+        >>> import geodisk
+        >>> mesh = geodisk.Mesh([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])
+        >>> samples = geodisk.sample(mesh, min_distance=0.2)
+        >>> bool(abs(samples.interpolate(mesh.vertices) - samples.points).max() < 1e-6)
+        True
+        >>> sorted(set(samples.interpolate(["a", "b", "c"]).tolist()))
+        ['a', 'b', 'c']
+        """
+        surface = self._surface if mesh is None else mesh._surface
+        faces, weights = self.face_index, self.barycentric
+        if faces is None or weights is None:
+            raise e.invalid("samples in a box lie on no mesh")
+        if surface is None:
+            raise e.invalid("these samples do not refer to their mesh; give mesh=")
+        corners = surface.own_corners()
+        if len(faces) and int(faces.max()) >= len(corners):
+            raise e.invalid(f"a sample lies in triangle {faces.max()}, the mesh has {len(corners)}")
+        if of == "faces":
+            polygons = surface.polygons
+            if polygons is not None and len(np.asarray(values)) != len(corners):
+                array = values_of(values, int(polygons.max()) + 1, "faces")
+                return np.asarray(array[polygons[faces]])
+            return np.asarray(values_of(values, len(corners), "faces")[faces])
+        if of == "vertices":
+            found = values_of(values, surface.vertex_count(), "vertices")[corners[faces]]
+        elif of == "corners":
+            array = values_of(values, len(corners), "triangles")
+            if array.ndim < 2 or array.shape[1] != 3:
+                raise e.invalid(f"values of corners have the shape {array.shape}, not (f, 3, ...)")
+            found = array[faces]
+        else:
+            raise e.invalid(f"of is {of!r}, not 'vertices', 'corners' or 'faces'")
+        check_finite(found, faces)
+        is_nearest = found.dtype.kind != "f" if nearest is None else nearest
+        if not is_nearest and found.dtype.kind in "SU":
+            raise TypeError("text cannot be interpolated; give nearest=True")
+        return interpolated(found, weights, is_nearest)
+
     def to_dataframe(self) -> pandas.DataFrame:
         """Returns a pandas table with the columns of sample files.
 
@@ -266,7 +359,8 @@ class Samples:
         -------
         pandas.DataFrame
             x, y, z (or x0, x1 ... in more dimensions), nx, ny, nz, face_index, bary_u, bary_v,
-            bary_w, polygon_index, those of ``columns``, radius and order, if they exist.
+            bary_w, polygon_index, those of ``columns`` and ``attributes``, radius and order, if
+            they exist.
             ``attrs`` has the minimum distance, the seed and so on.
 
         Raises

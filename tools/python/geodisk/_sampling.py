@@ -56,6 +56,7 @@ def sample(
     weld: bool | float = False,
     keep_seams: bool = False,
     columns: str | Sequence[str] = (),
+    attributes: str | Sequence[str] = (),
     mesh_format: str | None = None,
     device: DeviceLike | None = None,
     progress: bool | ProgressCallback = False,
@@ -127,7 +128,7 @@ def sample(
         ``columns["feature"]`` is 2, 1 and 0.
     metric : {"geodesic", "euclidean", "approximate"}
         Distance to use; the last two are for comparison.
-    edge_lengths, weld, keep_seams, columns, mesh_format
+    edge_lengths, weld, keep_seams, columns, attributes, mesh_format
         Parameters of :class:`Mesh`.
     device : Device, int or str, optional
         One of :func:`devices`, its index, its UUID or a part of its name. The default is the
@@ -185,7 +186,9 @@ def sample(
     check_exact(exact, count, stop_count)
     if metric not in s.METRICS:
         raise e.invalid(f"metric is {metric!r}, none of {', '.join(s.METRICS)}")
-    mesh = mesh_of(vertices, faces, edge_lengths, weld, keep_seams, columns, mesh_format)
+    mesh = mesh_of(
+        vertices, faces, edge_lengths, weld, keep_seams, columns, mesh_format, attributes
+    )
     in_levels = levels_of(order, levels, level_factor, metric, throws)
     if in_levels is not None and (classes is not None or features is not None or maximal):
         raise e.invalid("order='progressive' takes no classes, features and maximal")

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from . import _library as c
 from . import _structs as s
 from ._arrays import real
+from ._attributes import Attribute
 from ._polygons import Polygons
 
 _BUILTIN = "builtin:"
@@ -28,23 +29,26 @@ class Source:
     triangles : ndarray of uint32, shape (f, 3)
     polygons : ndarray of uint32, shape (f,), or None
         The file's face of each triangle, where the numbers differ.
-    attributes : dict of ndarray of float64, shape (v,)
+    attributes : dict of Attribute
     handle : Handle
         Has the memory of these arrays, and warnings of the reader.
     joined : ndarray of uint32, shape (v,), or None
         The lowest vertex that each one is joined with, where any are.
     joined_edges : int
     columns : dict of ndarray of uint32, shape (f,)
+    corners : ndarray of uint32, shape (f, 3)
+        The triangles before vertices were joined.
     """
 
     vertices: NDArray[np.float64]
     triangles: NDArray[np.uint32]
     polygons: NDArray[np.uint32] | None
-    attributes: dict[str, NDArray[np.float64]]
+    attributes: dict[str, Attribute]
     handle: c.Handle
     joined: NDArray[np.uint32] | None
     joined_edges: int
     columns: dict[str, NDArray[np.uint32]]
+    corners: NDArray[np.uint32]
 
 
 def read_file(
@@ -80,7 +84,7 @@ def read_file(
         columns=joined.encode(),
         mesh_format=None if mesh_format is None else mesh_format.encode(),
     )
-    return _read(params, stop, weld, keep_seams, attributes, joined.split(",") if joined else ())
+    return _read(params, stop, weld, keep_seams, joined.split(",") if joined else ())
 
 
 def split(
@@ -109,7 +113,6 @@ def _read(
     stop: ctypes.c_int32,
     weld: bool | float,
     keep_seams: bool,
-    attributes: Sequence[str] = (),
     columns: Sequence[str] = (),
 ) -> Source:
     params.stop = ctypes.pointer(stop)
@@ -121,25 +124,44 @@ def _read(
     arrays = s.SourceArrays()
     c.call("geodisk_source_describe", handle.value, ctypes.byref(arrays))
 
-    def named(what: str, kind: Any, names: Sequence[str], count: int) -> dict[str, NDArray[Any]]:
-        views = {}
-        for index, name in enumerate(names):
-            values = ctypes.POINTER(kind)()
-            c.call(f"geodisk_source_{what}", handle.value, index, ctypes.byref(values))
-            views[name] = view_of(values, (count,), handle)
-        return views
+    polygons = (
+        view_of(arrays.polygons, (arrays.triangle_count,), handle) if arrays.polygons else None
+    )
+    named = {}
+    for index, name in enumerate(columns):
+        values = ctypes.POINTER(ctypes.c_uint32)()
+        c.call("geodisk_source_column", handle.value, index, ctypes.byref(values))
+        named[name] = view_of(values, (arrays.triangle_count,), handle)
 
     return Source(
         vertices=view_of(arrays.positions, (arrays.vertex_count, arrays.dimension), handle),
         triangles=view_of(arrays.triangles, (arrays.triangle_count, 3), handle),
-        polygons=view_of(arrays.polygons, (arrays.triangle_count,), handle)
-        if arrays.polygons
-        else None,
-        attributes=named("attribute", ctypes.c_double, attributes, arrays.vertex_count),
+        polygons=polygons,
+        attributes=dict(
+            _attribute(handle, index, arrays.triangle_count, polygons)
+            for index in range(arrays.attribute_count)
+        ),
         handle=handle,
         joined=view_of(arrays.joined, (arrays.vertex_count,), handle) if arrays.joined else None,
         joined_edges=arrays.joined_edges,
-        columns=named("column", ctypes.c_uint32, columns, arrays.triangle_count),
+        columns=named,
+        corners=view_of(arrays.corners, (arrays.triangle_count, 3), handle),
+    )
+
+
+def _attribute(
+    handle: c.Handle, index: int, triangles: int, polygons: NDArray[np.uint32] | None
+) -> tuple[str, Attribute]:
+    """Returns an attribute with its name."""
+    found = s.SourceAttribute()
+    c.call("geodisk_source_get_attribute", handle.value, index, ctypes.byref(found))
+    shape = (found.value_count,) if found.components == 1 else (found.value_count, found.components)
+    return found.name.decode("utf-8", "replace"), Attribute(
+        values=view_of(found.values, shape, handle),
+        corners=view_of(found.corners, (triangles, 3), handle) if found.corners else None,
+        of_vertices=bool(found.of_vertices),
+        is_whole=bool(found.is_whole),
+        polygons=polygons,
     )
 
 

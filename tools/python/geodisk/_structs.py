@@ -267,6 +267,21 @@ class SourceArrays(_Sized):
         ("polygon_count", c_size_t),
         ("joined", POINTER(c_uint32)),
         ("joined_edges", c_uint64),
+        ("corners", POINTER(c_uint32)),
+        ("attribute_count", c_size_t),
+    ]
+
+
+class SourceAttribute(_Sized):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("name", c_char_p),
+        ("values", POINTER(c_double)),
+        ("value_count", c_size_t),
+        ("components", c_size_t),
+        ("corners", POINTER(c_uint32)),
+        ("of_vertices", c_int32),
+        ("is_whole", c_int32),
     ]
 
 

@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _errors as e
 from ._arrays import indices, real, rows
+from ._attributes import Attribute
 
 
 def vertex_number(value: Any) -> int:
@@ -35,12 +36,14 @@ class Surface:
     keep_seams : bool
     polygons : ndarray of uint32, shape (f,), optional
         The caller's face of each triangle, where the numbers differ.
-    attributes : dict of ndarray of float64, shape (v,)
+    attributes : dict of Attribute
         Read from a file.
     columns : dict of ndarray of uint32, shape (f,)
         Read from a file.
     joined : ndarray of uint32, shape (v,), optional
         The lowest vertex that each one was joined with as the mesh was read.
+    corners : ndarray of uint32, shape (f, 3), optional
+        The faces before vertices were joined as the mesh was read.
     """
 
     vertices: Any
@@ -49,9 +52,10 @@ class Surface:
     weld: bool | float = False
     keep_seams: bool = False
     polygons: NDArray[np.uint32] | None = None
-    attributes: dict[str, NDArray[np.float64]] = field(default_factory=dict)
+    attributes: dict[str, Attribute] = field(default_factory=dict)
     joined: NDArray[np.uint32] | None = None
     columns: dict[str, NDArray[np.uint32]] = field(default_factory=dict)
+    corners: NDArray[np.uint32] | None = None
 
     def indices(self) -> NDArray[Any]:
         """Returns the faces as uint32 or uint16."""
@@ -59,6 +63,10 @@ class Surface:
         if array.ndim != 2 or array.shape[1] != 3:
             raise e.invalid(f"faces have the shape {array.shape}, not (f, 3)")
         return array
+
+    def own_corners(self) -> NDArray[Any]:
+        """Returns the vertices of each triangle, also those that were joined with others."""
+        return self.indices() if self.corners is None else self.corners
 
     def coordinates(self) -> NDArray[Any]:
         """Returns the vertices as float64 or float32."""

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _library as c
+from ._attributes import columns_of_attributes
 
 if TYPE_CHECKING:
     from ._samples import Samples
@@ -78,6 +79,7 @@ def columns_of(samples: Samples, as_box: bool) -> dict[str, NDArray[Any]]:
     if samples.polygon_index is not None:
         columns["polygon_index"] = samples.polygon_index
     columns.update(samples.columns)
+    columns.update(columns_of_attributes(samples.attributes))
     return columns
 
 
@@ -90,6 +92,7 @@ def write_npz(file: BinaryIO, samples: Samples, header: Header) -> None:
         "radius": samples.radius,
         "polygon_index": samples.polygon_index,
         **samples.columns,
+        **samples.attributes,
         "min_distance": np.float64(samples.min_distance),
         "seed": None if samples.seed is None else np.uint64(samples.seed),
         "header": np.array(json.dumps(header)),
@@ -108,7 +111,7 @@ def write_csv(file: BinaryIO, samples: Samples, header: Header) -> None:
 
 def write_ply(file: BinaryIO, samples: Samples, header: Header) -> None:
     columns = columns_of(samples, as_box=False)
-    kinds = {"f": ("double", "<f8"), "u": ("uint", "<u4")}
+    kinds = {"f": ("double", "<f8"), "u": ("uint", "<u4"), "i": ("int", "<i4")}
     lines = ["ply", "format binary_little_endian 1.0"]
     lines += [f"comment {key}: {value}" for key, value in header.items()]
     lines += [f"element vertex {len(samples)}"]

@@ -27,7 +27,7 @@ typedef struct geodisk_source_params {
     size_t face_count;
     int32_t weld;              /* As in geodisk_mesh_params. */
     double weld_distance;
-    /* Names of vertex attributes to read. */
+    /* Names of attributes to read, as --attributes of the program takes them. */
     const char *const *attributes;
     size_t attribute_count;
     /* Reading ends with GEODISK_CANCELLED soon after this is no longer 0. May be NULL. */
@@ -53,15 +53,29 @@ typedef struct geodisk_source_arrays {
     size_t polygon_count;      /* Faces of the file. */
     const uint32_t *joined;    /* Lowest vertex that each is joined with; NULL where none are. */
     uint64_t joined_edges;     /* Border edges joined to others along seams. */
+    const uint32_t *corners;   /* Vertices of triangles before any were joined, as `triangles`. */
+    size_t attribute_count;
 } geodisk_source_arrays;
 
 GEODISK_C_API geodisk_status geodisk_source_describe(const geodisk_source *source,
                                                      geodisk_source_arrays *arrays,
                                                      geodisk_error *error);
 
-/* Writes to `values` where those of an attribute are, one for each vertex. */
-GEODISK_C_API geodisk_status geodisk_source_attribute(const geodisk_source *source, size_t index,
-                                                      const double **values, geodisk_error *error);
+/* One attribute of a source. The arrays live as long as it does. */
+typedef struct geodisk_source_attribute {
+    size_t struct_size;
+    const char *name;
+    const double *values;    /* `components` numbers each. */
+    size_t value_count;
+    size_t components;
+    const uint32_t *corners; /* The value of each triangle's corner; NULL for values of faces. */
+    int32_t of_vertices;     /* Not 0 if there is a value for each vertex. */
+    int32_t is_whole;        /* Not 0 for integers, which are not interpolated. */
+} geodisk_source_attribute;
+
+GEODISK_C_API geodisk_status geodisk_source_get_attribute(const geodisk_source *source, size_t index,
+                                                          geodisk_source_attribute *attribute,
+                                                          geodisk_error *error);
 
 /* Writes to `values` where those of a column are, one for each triangle. */
 GEODISK_C_API geodisk_status geodisk_source_column(const geodisk_source *source, size_t index,

@@ -61,7 +61,10 @@ MeshFile mesh_of(const geodisk_source_params& params) {
     sources.mesh = params.path;
     sources.format = text_of(params.mesh_format);
     for (const char* const name : std::span(params.attributes, params.attribute_count)) {
-        sources.attributes.emplace_back(name);
+        sources.fields.names.emplace_back(name);
+    }
+    if (sources.fields.names == std::vector<std::string>{"all"}) {
+        sources.fields = {{}, true};
     }
     sources.progress = [stop = params.stop](double) {
         if (stop != nullptr && *stop != 0) {
@@ -132,21 +135,34 @@ geodisk_status geodisk_source_describe(const geodisk_source* source, geodisk_sou
         value.polygon_count = mesh.polygons.empty() ? mesh.triangle_count() : mesh.polygon_count;
         value.joined = mesh.joined.empty() ? nullptr : mesh.joined.data();
         value.joined_edges = mesh.weld ? mesh.weld->joined_edges : 0;
+        value.corners = mesh.corners_in_file().data();
+        value.attribute_count = mesh.fields.size();
         return give(arrays, "arrays", value);
     });
 }
 
-geodisk_status geodisk_source_attribute(const geodisk_source* source, size_t index,
-                                        const double** values, geodisk_error* error) {
+geodisk_status geodisk_source_get_attribute(const geodisk_source* source, size_t index,
+                                            geodisk_source_attribute* attribute,
+                                            geodisk_error* error) {
     return answer(error, [&]() -> Result<Done> {
-        if (source == nullptr || values == nullptr) {
-            return wrong("source or values is NULL");
+        if (source == nullptr) {
+            return wrong("source is NULL");
         }
-        if (index >= source->mesh.attributes.size()) {
+        if (index >= source->mesh.fields.size()) {
             return wrong("there is no attribute " + std::to_string(index));
         }
-        *values = source->mesh.attributes[index].data();
-        return Done{};
+        const MeshField& field = source->mesh.fields[index];
+        geodisk_source_attribute value{};
+        value.name = field.name.c_str();
+        value.values = field.values.data();
+        value.components = field.components.size();
+        value.value_count = field.values.size() / value.components;
+        value.corners = field.of == MeshField::Of::vertices  ? source->mesh.corners_in_file().data()
+                        : field.of == MeshField::Of::corners ? field.corners.data()
+                                                             : nullptr;
+        value.of_vertices = field.of == MeshField::Of::vertices ? 1 : 0;
+        value.is_whole = field.is_whole ? 1 : 0;
+        return give(attribute, "attribute", value);
     });
 }
 

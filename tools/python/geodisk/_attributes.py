@@ -1,0 +1,125 @@
+"""Attributes of meshes, and their values at samples."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _errors as e
+
+
+@dataclass(frozen=True, eq=False)
+class Attribute:
+    """An attribute of a mesh file.
+
+    Attributes
+    ----------
+    values : ndarray of float64, shape (m,) or (m, k)
+    corners : ndarray of uint32, shape (f, 3), or None
+        The value of each corner of a triangle. None if faces have the values.
+    of_vertices : bool
+        True if the values are those of the vertices, in order.
+    is_whole : bool
+        True for integers, which are not interpolated.
+    polygons : ndarray of uint32, shape (f,), or None
+        The face of each triangle, where the numbers differ.
+    """
+
+    values: NDArray[np.float64]
+    corners: NDArray[np.uint32] | None
+    of_vertices: bool
+    is_whole: bool
+    polygons: NDArray[np.uint32] | None
+
+    def array(self) -> NDArray[np.float64]:
+        """Returns the values of vertices, of the corners of triangles, or of triangles."""
+        if self.of_vertices:
+            return self.values
+        if self.corners is not None:
+            return self.values[self.corners]
+        return self.values if self.polygons is None else self.values[self.polygons]
+
+    def at(self, faces: NDArray[Any], weights: NDArray[Any]) -> NDArray[Any]:
+        """Returns the values at samples: int32 for integers that fit, else float64."""
+        if self.corners is None:
+            found = self.array()[faces]
+        else:
+            found = interpolated(self.values[self.corners[faces]], weights, self.is_whole)
+        fits = self.is_whole and bool((np.abs(found) < 2**31).all())
+        return np.asarray(found, np.int32 if fits else np.float64)
+
+
+def interpolated(
+    corners: NDArray[Any], weights: NDArray[Any], nearest: bool
+) -> NDArray[Any]:
+    """Returns values at samples, of those that the corners of their triangles have."""
+    if nearest:
+        found: NDArray[Any] = corners[np.arange(len(corners)), weights.argmax(axis=1)]
+        return found
+    shares = weights / weights.sum(axis=1, keepdims=True)
+    shares = shares.reshape(shares.shape + (1,) * (corners.ndim - 2))
+    mean: NDArray[Any] = (shares * corners).sum(axis=1)
+    return np.clip(mean, corners.min(axis=1), corners.max(axis=1))
+
+
+def values_of(values: ArrayLike, count: int, what: str) -> NDArray[Any]:
+    """Returns values as an array with one for each of `count` vertices or faces."""
+    array = np.asarray(values)
+    if array.dtype.kind not in "biufSU":
+        raise TypeError(f"values have to be of numbers or text, not of {array.dtype}")
+    if array.ndim == 0 or len(array) != count:
+        raise e.invalid(f"values have the shape {array.shape}, but the mesh has {count} {what}")
+    return array
+
+
+def check_finite(corners: NDArray[Any], faces: NDArray[Any]) -> None:
+    """Raises if a value at a sample is not finite."""
+    if corners.dtype.kind == "f" and not np.isfinite(corners).all():
+        row = np.argwhere(~np.isfinite(corners))[0][0]
+        raise e.invalid(f"a value of triangle {faces[row]} is not finite, where sample {row} lies")
+
+
+#: Names of the columns of attributes of several numbers, by name and width.
+_COMPONENTS = {
+    ("color", 3): ("red", "green", "blue"),
+    ("color", 4): ("red", "green", "blue", "alpha"),
+    ("uv", 2): ("u", "v"),
+    ("frames", 4): ("qx", "qy", "qz", "qw"),
+}
+
+
+def columns_of_attributes(attributes: dict[str, NDArray[Any]]) -> dict[str, NDArray[Any]]:
+    """Returns attributes as columns of one number each."""
+    columns: dict[str, NDArray[Any]] = {}
+    for name, array in attributes.items():
+        if array.ndim == 1:
+            columns[name] = array
+            continue
+        width = array.shape[1]
+        numbered = tuple(f"{name}_{i}" for i in range(width))
+        columns.update(zip(_COMPONENTS.get((name, width), numbered), array.T))
+    return columns
+
+
+def attributes_of_columns(columns: dict[str, NDArray[Any]]) -> dict[str, NDArray[Any]]:
+    """Returns the attributes that columns of one number each were made of."""
+    left = dict(columns)
+    found: dict[str, NDArray[Any]] = {}
+    for (name, _), parts in sorted(_COMPONENTS.items(), key=lambda entry: -len(entry[1])):
+        if all(part in left for part in parts):
+            tables = [left.pop(part) for part in parts]
+            bytes_ = name == "color" and all(x.dtype == np.uint8 for x in tables)
+            table = np.stack(tables, axis=1).astype(np.float64)
+            found[name] = table / 255 if bytes_ else table
+    for name, column in left.items():
+        found[name] = np.ascontiguousarray(column.astype(column.dtype.newbyteorder("=")))
+    return {name: found[name] for name in sorted(found, key=lambda name: _place(name, columns))}
+
+
+def _place(name: str, columns: dict[str, NDArray[Any]]) -> int:
+    """Returns where an attribute begins among columns."""
+    first = next((parts[0] for (key, _), parts in _COMPONENTS.items() if key == name), name)
+    return list(columns).index(name if name in columns else first)
