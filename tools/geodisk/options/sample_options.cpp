@@ -135,8 +135,8 @@ SampleJob parse_job(const SampleOptions& options) {
     }
     job.mesh.fields = options.out.record.fields();
     job.mesh.texture = options.out.record.texture;
-    if (!job.out.output.empty()) {
-        options.out.record.check(job.out.target());
+    if (!job.out.output.empty() && !job.out.record.entries().empty()) {
+        job.out.record.check(job.out.target());
     }
     job.run = options.run;
     job.metric = parse_metric(options.metric);
