@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <geodisk/frame_sampler.hpp>
@@ -28,7 +29,7 @@ std::shared_ptr<const Sampler> shared_sampler(const Context& context) {
     return std::make_shared<const Sampler>(expect(Sampler::create(context.device())));
 }
 
-/// A torus knot, where its samples are to lie, and which they are.
+/// A mesh, where its samples are to lie, and which they are.
 struct Subject {
     TestMesh shape;
     PreparedMesh mesh;
@@ -36,9 +37,10 @@ struct Subject {
     Domain domain;
     Points wanted;
 
-    Subject(const Sampler& sampler, double count, std::uint64_t seed = 1, int resolution = 8)
-        : shape(builtin("torus-knot", resolution)), mesh(prepared(shape)),
-          params(params_for(mesh, count, seed)), domain(expect(Domain::surface(mesh, params))),
+    Subject(const Sampler& sampler, double count, std::uint64_t seed = 1,
+            TestMesh of = builtin("torus-knot", 8))
+        : shape(std::move(of)), mesh(prepared(shape)), params(params_for(mesh, count, seed)),
+          domain(expect(Domain::surface(mesh, params))),
           wanted(float_set(mesh, params,
                            expect(sampler.plan_run(domain, Workshop::kPoolBytes)).error_bound)) {}
 };
@@ -219,7 +221,7 @@ TEST_SUITE("frame sampler") {
         const Context context = validated_context();
         {
             const auto sampler = shared_sampler(context);
-            const Subject few(*sampler, 3, 1, 24);
+            const Subject few(*sampler, 3, 1, builtin("lattice", 1));
             Bench workshop(context);
             FrameSamplerOptions options;
             // The least that one lane fits in.

@@ -7,7 +7,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "engine/job/plan.hpp"
+#include "engine/job/pool_plan.hpp"
 #include "engine_job.hpp"
 
 namespace geodisk::test {
@@ -236,6 +236,34 @@ TEST_SUITE("workspaces") {
         const auto none = sampler.workspace_needs(domain, plan, 1000);
         REQUIRE_FALSE(none);
         CHECK(none.error().status == Status::workspace_too_small);
+    }
+
+    TEST_CASE("plans of few large disks fit small pools: smaller slices, then lanes") {
+        const Context context = expect(Context::create());
+        const Sampler sampler = expect(Sampler::create(context.device()));
+        const PreparedMesh mesh = prepared(builtin("icosphere", 5));
+        const Domain domain = expect(Domain::surface(mesh, params_for(mesh, 3)));
+        const RunPlan ample = expect(sampler.plan_run(domain, std::uint64_t{1} << 30));
+        REQUIRE(ample.disks_by == DisksBy::groups);
+        const std::uint64_t slice = std::uint64_t{ample.lane_rows()} * 16;
+        RunPlan least;
+        std::uint64_t pool = 2 * slice;
+        for (auto plan = sampler.plan_run(domain, pool); plan;
+             plan = sampler.plan_run(domain, pool)) {
+            least = *plan;
+            CHECK(least.pool_bytes() <= pool);
+            CHECK(least.window_capacity <= ample.window_capacity);
+            pool /= 2;
+        }
+        CHECK(pool < slice / 4);
+        CHECK(least.disks_by == DisksBy::lanes);
+        // So do disks that outgrow the pool.
+        const auto grown = [&](LastResort last) {
+            return grown_plan(ample, gpu::kOverflowVertices, slice + (std::uint64_t{1} << 16),
+                              sampler.report(), last);
+        };
+        CHECK_FALSE(grown(LastResort::none));
+        CHECK(expect(grown(LastResort::lanes)).disks_by == DisksBy::lanes);
     }
 }
 

@@ -66,6 +66,18 @@ TEST_SUITE("large disks") {
         CHECK(points_of(set) == float_set(mesh, params, set.report.plan.error_bound));
     }
 
+    TEST_CASE("a small pool changes no set of few large disks") {
+        const PreparedMesh mesh = prepared(builtin("torus-knot", 8));
+        const SampleParams params = params_for(mesh, 3);
+        const Points want = points_of(sample(mesh, params));
+        for (const std::uint64_t pool : {std::uint64_t{1} << 20, std::uint64_t{3} << 16}) {
+            CAPTURE(pool);
+            RunnerOptions options;
+            options.pool_bytes = pool;
+            CHECK(points_of(sample(mesh, params, options)) == want);
+        }
+    }
+
     TEST_CASE("they change no set") {
         for (const auto& [name, resolution] :
              {std::pair{"lattice", 1}, std::pair{"crossed-sheet", 6}, std::pair{"veronese", 3},

@@ -304,8 +304,9 @@ class GEODISK_API Sampler {
     /// set; those of Vulkan.
     Result<std::vector<KernelReport>> report_kernels() const noexcept;
 
-    /// Returns a plan for this device with a pool of at most `pool_bytes` and one binding.
-    /// Errors: `workspace_too_small` if not even one lane fits.
+    /// Returns a plan for this device with a pool of at most `pool_bytes` and one binding. In a
+    /// small pool, slices for large disks begin smaller, and lanes replace work groups. Errors:
+    /// `workspace_too_small` if not even one lane fits.
     Result<RunPlan> plan_run(const Domain& domain, std::uint64_t pool_bytes) const noexcept;
 
     /// Returns the buffer sizes of the plan, large enough for `regrowths` more: each doubles the

@@ -71,8 +71,9 @@ struct Domain::Impl {
     /// Returns the maximum of candidates that one binding holds, with this many slots.
     virtual std::uint64_t most_candidates(const DeviceLimits& limits,
                                           std::uint32_t slots) const = 0;
-    /// Sets what disks need in a plan with slots, if this many candidates are drawn at once: lanes,
-    /// window_capacity, table_capacity, list_capacity and error_bound.
+    /// Sets what disks need in a plan with slots, if this many candidates are drawn at once:
+    /// disks_by unless it is `lanes`, lanes, window_capacity, table_capacity, list_capacity and
+    /// error_bound.
     virtual void plan_disks(RunPlan& plan, std::uint32_t candidates,
                             const DeviceReport& report) const = 0;
     /// Returns the steps of a disk, if this many candidates are drawn at once.

@@ -256,7 +256,8 @@ void SurfaceDomain::plan_disks(RunPlan& plan, std::uint32_t candidates,
                                const DeviceReport& report) const {
     const double faces = faces_per_disk();
     const bool cpu = report.type == VK_PHYSICAL_DEVICE_TYPE_CPU;
-    if (!kernels.records() && suits_groups(faces, plan.slots, report)) {
+    const bool may_group = plan.disks_by != DisksBy::lanes && !kernels.records();
+    if (may_group && suits_groups(faces, plan.slots, report)) {
         plan.disks_by = DisksBy::groups;
         plan.pool_block = 1;
         // More than it has threads would be disks in vain.

@@ -101,7 +101,8 @@ void Job::Impl::find_cut(const gpu::ControlRec& control) {
     }
 }
 
-Result<Advice> Job::Impl::advance(const gpu::ControlRec& control, std::uint64_t pool_bytes) {
+Result<Advice> Job::Impl::advance(const gpu::ControlRec& control, std::uint64_t pool_bytes,
+                                  LastResort last) {
     // A new seed has the generation of the one before until it begins.
     const bool is_told =
         !is_begin_due && control.generation == generation && control.abi == gpu::kAbi;
@@ -146,7 +147,7 @@ Result<Advice> Job::Impl::advance(const gpu::ControlRec& control, std::uint64_t 
         before.slots = most_slots;
         before.lanes = most_lanes;
         const std::uint64_t most = pool_bytes != 0 ? pool_bytes : workspace[gpu::kBindPool].size;
-        auto grown = grown_plan(before, control.overflow, most, sampler->report);
+        auto grown = grown_plan(before, control.overflow, most, sampler->report, last);
         if (!grown) {
             return grown.error();
         }

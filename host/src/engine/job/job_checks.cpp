@@ -81,11 +81,10 @@ Result<Done> check_plan(const RunPlan& plan, const Tuning& tuning) {
             Status::invalid_argument,
             "the plan is not as RunPlan asks: slots at least 8, lanes, step_budget, "
             "detect_passes, stages, idle_capacity and dispatch_items at least 1, stages "
-            "at most 15, "
-            "sample_capacity more than slots, window_capacity and table_capacity powers "
-            "of two, list_capacity a "
+            "at most 15, sample_capacity more than slots, window_capacity and table_capacity "
+            "powers of two, window_capacity at least 2, or 4 by groups, list_capacity a "
             "multiple of 4, idle_capacity at most 2^23, large_window_capacity and "
-            "large_table_capacity as those of lanes if there are large_groups, none of them "
+            "large_table_capacity as those of groups if there are large_groups, none of them "
             "0 or more than 2^26"};
     }
     // The vertex table tags distances by the bits that those below 2 leave clear.

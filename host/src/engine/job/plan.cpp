@@ -12,6 +12,7 @@
 #include "engine/domain/domain_impl.hpp"
 #include "engine/job/buffer_ranges.hpp"
 #include "engine/job/plan.hpp"
+#include "engine/job/pool_plan.hpp"
 #include "engine/job/sampler_impl.hpp"
 #include "engine/kernels/loop_bounds.hpp"
 #include "push.h"
@@ -26,7 +27,6 @@ constexpr double kMostSlots = (1u << 16) - 512;
 // Maximum on a CPU: more lists would not fit its caches.
 constexpr double kMostCpuSlots = 1u << 13;
 constexpr double kMostPasses = 32;
-constexpr std::uint32_t kLargestCapacity = 1u << gpu::kMostLevels;
 // Several milliseconds per dispatch.
 constexpr std::uint32_t kCpuDispatchItems = 1u << 19;
 constexpr std::uint32_t kDispatchItems = 1u << 21;
@@ -37,56 +37,9 @@ constexpr double kSlotMargin = 1.5;
 constexpr std::uint32_t kIdlePerSlot = 32;
 constexpr std::uint32_t kCandidatesPerIdle = 16;
 constexpr std::uint32_t kLeastIdle = 4096;
-// Work groups beside lanes for large disks, and what one of them holds at first. A lane leaves a
-// disk to them after so many windows, since others wait for it.
-constexpr std::uint32_t kLargeGroups = 16;
-constexpr std::uint32_t kLargeWindows = 4096;
-constexpr std::uint32_t kLargeVertices = 8192;
-constexpr std::uint32_t kLargeAfter = 2048;
-constexpr std::uint32_t kKeepsAll = ~std::uint32_t{0};
 
 std::uint64_t blocks_of(std::uint64_t words) {
     return (words + gpu::kScanBlock - 1) / gpu::kScanBlock;
-}
-
-/// Returns the rows of a work group's slice, see shaders/lib/group.glsl.
-std::uint32_t group_rows(std::uint32_t windows, std::uint32_t vertices) {
-    return gpu::kGroupRows + (2 * gpu::kItemRows + 6) * windows + gpu::kGroupVertexRows * vertices +
-           (vertices / 2 + 3) / 4;
-}
-
-/// Returns the bytes of the smallest pool for the plan: the minimum of lists and a block of lanes.
-std::uint64_t least_pool(const RunPlan& plan) {
-    return std::uint64_t{plan.pool_block} * plan.lane_rows() * 16 +
-           std::uint64_t{kLeastSlots} * plan.list_capacity * 4;
-}
-
-/// Fits slots and lanes to the pool. Work groups for large disks get at most half of it, but one at
-/// least. Then it gets the minimum of lists and a block of lanes, then lists for the slots in at
-/// most half of the rest. Falls back to blocks of one lane if no larger block fits, and to no lanes
-/// if not even one fits.
-void fit(RunPlan& plan, std::uint64_t pool_bytes) {
-    if (plan.large_groups > 0) {
-        const std::uint64_t slice = std::uint64_t{plan.large_rows()} * 16;
-        plan.large_groups = static_cast<std::uint32_t>(
-            std::clamp<std::uint64_t>(pool_bytes / 2 / slice, 1, plan.large_groups));
-        pool_bytes -= std::min(pool_bytes, plan.large_groups * slice);
-    }
-    if (pool_bytes < least_pool(plan)) {
-        plan.pool_block = 1;
-    }
-    if (pool_bytes < least_pool(plan)) {
-        plan.lanes = 0;
-        return;
-    }
-    const std::uint64_t block = std::uint64_t{plan.pool_block} * plan.lane_rows() * 16;
-    const std::uint64_t list = std::uint64_t{plan.list_capacity} * 4;
-    const std::uint64_t for_lists = std::min(pool_bytes / 2, pool_bytes - block);
-    plan.slots = static_cast<std::uint32_t>(std::clamp<std::uint64_t>(
-        for_lists / list, kLeastSlots, std::max(kLeastSlots, plan.slots)));
-    const std::uint64_t blocks = (pool_bytes - plan.slots * list) / block;
-    plan.lanes = static_cast<std::uint32_t>(
-        std::min<std::uint64_t>(std::min(plan.lanes, plan.slots), blocks * plan.pool_block));
 }
 
 /// Returns the slots for the number of batches in the tuning and this many disks, but at least as
@@ -145,30 +98,6 @@ Result<Done> check_needs(const WorkspaceNeeds& needs, const Domain::Impl& of,
     return Done{};
 }
 
-/// Changes the plan for a disk of very many windows. Where lanes are to leave it to work groups,
-/// there are some from now on. If there are, or lanes keep it, or all are computed by groups, the
-/// disk must be trimmed, which lanes do.
-void provide_for_large(RunPlan& plan) {
-    if (plan.disks_by == DisksBy::lanes && plan.large_groups == 0 &&
-        plan.large_after != kKeepsAll) {
-        plan.large_groups = kLargeGroups;
-        return;
-    }
-    plan.trims = true;
-    plan.large_groups = 0;
-    plan.lanes = plan.disks_by == DisksBy::groups ? plan.slots : plan.lanes;
-    plan.disks_by = DisksBy::lanes;
-}
-
-Error slice_error(const RunPlan& plan, std::uint64_t pool_bytes) {
-    return Error{
-        Status::workspace_too_small,
-        "the disk of one candidate takes " + std::to_string(std::uint64_t{plan.lane_rows()} * 16) +
-            " bytes of the pool and each of the least " + std::to_string(kLeastSlots) +
-            " lists of conflicts " + std::to_string(std::uint64_t{plan.list_capacity} * 4) +
-            ", but the pool may take only " + std::to_string(pool_bytes)};
-}
-
 } // namespace
 
 const char* to_string(BufferRole role) noexcept {
@@ -220,31 +149,6 @@ RunPlan overridden(RunPlan plan, const RunPlan& wanted) noexcept {
     return plan;
 }
 
-std::uint32_t RunPlan::lane_rows() const noexcept {
-    if (disks_by == DisksBy::groups) {
-        return group_rows(window_capacity, table_capacity);
-    }
-    return gpu::kLaneRows + (gpu::kWindowRows + 1) * window_capacity + table_capacity +
-           (trims ? gpu::kTrimRows + (window_capacity + 3) / 4 : 0);
-}
-
-std::uint32_t RunPlan::large_rows() const noexcept {
-    return large_groups > 0 ? group_rows(large_window_capacity, large_table_capacity) : 0;
-}
-
-std::uint64_t RunPlan::first_large_row() const noexcept {
-    const std::uint64_t block = std::max(pool_block, 1u);
-    return (lanes + block - 1) / block * block * lane_rows();
-}
-
-std::uint64_t RunPlan::first_list_row() const noexcept {
-    return first_large_row() + std::uint64_t{large_groups} * large_rows();
-}
-
-std::uint64_t RunPlan::pool_bytes() const noexcept {
-    return first_list_row() * 16 + std::uint64_t{slots} * list_capacity * 4;
-}
-
 VkDeviceSize WorkspaceNeeds::total() const noexcept {
     VkDeviceSize sum = 0;
     for (const VkDeviceSize size : bytes) {
@@ -293,49 +197,29 @@ Result<RunPlan> Sampler::plan_run(const Domain& domain, std::uint64_t pool_bytes
         plan.idle_capacity = wanted_idle_capacity(plan.slots, candidates);
         plan.dispatch_items =
             report.type == VK_PHYSICAL_DEVICE_TYPE_CPU ? kCpuDispatchItems : kDispatchItems;
-        of.plan_disks(plan, candidates, report);
-        KernelVariant variant = impl_->variant_for(domain);
-        plan.large_window_capacity = std::max(kLargeWindows, 2 * plan.window_capacity);
-        plan.large_table_capacity = std::max(kLargeVertices, 2 * plan.table_capacity);
-        variant.groups = plan.disks_by == DisksBy::groups;
-        // A CPU's lanes are as fast as groups, and groups do not record.
-        const bool keeps_all = report.type == VK_PHYSICAL_DEVICE_TYPE_CPU || of.kernels.records();
-        plan.large_after = keeps_all ? kKeepsAll : kLargeAfter;
-        plan.step_budget = most_steps(report, variant);
         pool_bytes = std::min(pool_bytes, report.limits.max_storage_buffer_range);
-        fit(plan, pool_bytes);
+        const auto with_disks = [&](DisksBy by) {
+            RunPlan with = plan;
+            with.disks_by = by;
+            of.plan_disks(with, candidates, report);
+            return fitted(with, pool_bytes);
+        };
+        plan = with_disks(DisksBy::automatic);
+        if (plan.lanes == 0 && plan.disks_by == DisksBy::groups) {
+            plan = with_disks(DisksBy::lanes);
+        }
         if (plan.lanes == 0) {
             return slice_error(plan, pool_bytes);
         }
+        // A CPU's lanes are as fast as groups, and groups do not record.
+        plan_large_disks(plan, report.type == VK_PHYSICAL_DEVICE_TYPE_CPU || of.kernels.records());
+        KernelVariant variant = impl_->variant_for(domain);
+        variant.groups = plan.disks_by == DisksBy::groups;
+        plan.step_budget = most_steps(report, variant);
         plan.detect_passes = static_cast<std::uint32_t>(
             std::clamp(of.detect_passes(plan, candidates), 1.0, kMostPasses));
         return plan;
     });
-}
-
-Result<RunPlan> grown_plan(const RunPlan& plan, std::uint32_t overflow, std::uint64_t pool_bytes,
-                           const DeviceReport& report) {
-    RunPlan grown = plan;
-    const auto grow = [overflow](std::uint32_t bit, std::uint32_t& capacity) {
-        capacity = (overflow & bit) != 0 ? std::min(2 * capacity, kLargestCapacity) : capacity;
-    };
-    grow(gpu::kOverflowWindows, grown.window_capacity);
-    grow(gpu::kOverflowVertices, grown.table_capacity);
-    grow(gpu::kOverflowConflicts, grown.list_capacity);
-    grow(gpu::kOverflowWindows << gpu::kOverflowLargeShift, grown.large_window_capacity);
-    grow(gpu::kOverflowVertices << gpu::kOverflowLargeShift, grown.large_table_capacity);
-    if ((overflow & gpu::kOverflowTrims) != 0) {
-        provide_for_large(grown);
-    }
-    pool_bytes = std::min(pool_bytes, report.limits.max_storage_buffer_range);
-    fit(grown, pool_bytes);
-    const bool same = grown.lane_rows() == plan.lane_rows() &&
-                      grown.large_rows() == plan.large_rows() &&
-                      grown.list_capacity == plan.list_capacity;
-    if (grown.lanes == 0 || same) {
-        return slice_error(grown, pool_bytes);
-    }
-    return grown;
 }
 
 Result<WorkspaceNeeds> needs_of(const Domain& domain, const RunPlan& plan,
@@ -380,7 +264,8 @@ Result<WorkspaceNeeds> Sampler::workspace_needs(const Domain& domain, const RunP
             gpu::kOverflowWindows | gpu::kOverflowVertices | gpu::kOverflowConflicts;
         RunPlan larger = plan;
         for (std::uint32_t i = 0; i < regrowths; ++i) {
-            const auto grown = grown_plan(larger, kAll, ~std::uint64_t{0}, impl_->report);
+            const auto grown =
+                grown_plan(larger, kAll, ~std::uint64_t{0}, impl_->report, LastResort::none);
             if (!grown) {
                 return grown.error();
             }

@@ -8,12 +8,6 @@ namespace geodisk {
 /// Returns `plan` with every field that is not zero in `wanted` replaced.
 GEODISK_API RunPlan overridden(RunPlan plan, const RunPlan& wanted) noexcept;
 
-/// Returns the plan to use after an overflow: the capacities named by `overflow` (gpu::kOverflow*
-/// bits) are doubled, and slots and lanes reduced if the pool would exceed `pool_bytes`. Errors:
-/// `workspace_too_small`, naming the bytes of one lane and one list of conflicts.
-Result<RunPlan> grown_plan(const RunPlan& plan, std::uint32_t overflow, std::uint64_t pool_bytes,
-                           const DeviceReport& report);
-
 /// Implements Sampler::workspace_needs.
 Result<WorkspaceNeeds> needs_of(const Domain& domain, const RunPlan& plan,
                                 const DeviceReport& report);

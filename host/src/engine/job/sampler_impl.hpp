@@ -11,6 +11,7 @@
 
 #include "engine/domain/tolerances.hpp"
 #include "engine/job/order_cut.hpp"
+#include "engine/job/pool_plan.hpp"
 #include "engine/kernels/pipelines.hpp"
 #include "push.h"
 #include "records.h"
@@ -134,7 +135,8 @@ struct Job::Impl {
     std::uint64_t candidates(const gpu::ControlRec& control) const;
     /// Stages to draw next, where all of those at hand are decided.
     std::uint32_t stages_left(const gpu::ControlRec& control) const;
-    Result<Advice> advance(const gpu::ControlRec& control, std::uint64_t pool_bytes);
+    Result<Advice> advance(const gpu::ControlRec& control, std::uint64_t pool_bytes,
+                           LastResort last = LastResort::lanes);
     /// Finds the end of an exact number of darts by the count of an earlier record_count().
     void find_cut(const gpu::ControlRec& control);
     static Impl& of(Job& job) { return *job.impl_; }

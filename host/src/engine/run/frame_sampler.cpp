@@ -69,6 +69,8 @@ struct FrameSampler::Impl {
     Result<Done> record_work(VkCommandBuffer commands, const Advice& advice);
     /// Returns the next step from the latest control record; enlarges memory if needed.
     Result<Advice> look(std::uint32_t lag);
+    /// Returns the plan for disks that have outgrown the pool, with a larger one.
+    Result<Advice> with_larger_pool(const gpu::ControlRec& control);
     /// Frees memory that no frame uses any more.
     void free_unused(std::uint32_t lag);
 };
@@ -100,28 +102,35 @@ void FrameSampler::Impl::free_unused(std::uint32_t lag) {
     }
 }
 
+Result<Advice> FrameSampler::Impl::with_larger_pool(const gpu::ControlRec& control) {
+    const std::uint64_t most = engine().report.limits.max_storage_buffer_range;
+    for (;; options.pool_bytes *= 2) {
+        const bool is_last = options.pool_bytes >= most;
+        auto advice = Job::Impl::of(now->job())
+                          .advance(control, options.pool_bytes,
+                                   is_last ? LastResort::lanes : LastResort::none);
+        if (advice || advice.error().status != Status::workspace_too_small || is_last) {
+            return advice;
+        }
+    }
+}
+
 Result<Advice> FrameSampler::Impl::look(std::uint32_t lag) {
     gpu::ControlRec control{}; // Empty.
     if (is_uploaded && calls - first_call >= lag) {
         control = now->control(static_cast<std::uint32_t>((calls - lag) % options.frames));
     }
-    const auto advice = now->job().advance(control);
-    const RunPlan& before = now->plan();
-    RunPlan plan = before;
+    auto advice = Job::Impl::of(now->job()).advance(control, 0, LastResort::none);
+    const bool outgrown = !advice && advice.error().status == Status::workspace_too_small;
+    if (outgrown) {
+        advice = with_larger_pool(control);
+    }
     if (!advice) {
-        if (advice.error().status != Status::workspace_too_small) {
-            return advice;
-        }
-        options.pool_bytes *= 2;
-        const auto larger = sampler->plan_run(domain, options.pool_bytes);
-        if (!larger) {
-            return larger.error();
-        }
-        if (larger->pool_bytes() <= before.pool_bytes()) { // The device cannot bind more.
-            return advice;
-        }
-        plan = *larger;
-        plan.sample_capacity = std::max(plan.sample_capacity, before.sample_capacity);
+        return advice;
+    }
+    RunPlan plan = now->plan();
+    if (outgrown) {
+        plan = advice->plan;
     } else if (advice->next == Next::larger_samples) {
         plan.sample_capacity = std::max(plan.sample_capacity, advice->sample_capacity);
     } else {

@@ -243,7 +243,8 @@ Task<Result<Advice>> Run::sample() {
     for (;;) {
         // What is free is asked for only where it matters.
         const bool grows = control().overflow != 0;
-        auto advice = job_->advance(control(), grows ? pool_bytes(runner_.options.pool_bytes) : 0);
+        const std::uint64_t most = grows ? pool_bytes(runner_.options.pool_bytes) : 0;
+        auto advice = job().advance(control(), most, LastResort::none);
         if (!advice && grows && advice.error().status == Status::workspace_too_small) {
             // A single disk that is too large for the pool may take all that the device has.
             advice = job_->advance(control(), pool_bytes(~std::uint64_t{0}));
