@@ -8,22 +8,15 @@
 #include <string>
 #include <vector>
 
-#include <nlohmann/json.hpp>
-
 #include "cli/command.hpp"
+#include "cli/json_file.hpp"
 #include "files/output_file.hpp"
 #include "files/sample_file.hpp"
 
 namespace geodisk::test {
 namespace {
 
-using Json = nlohmann::json;
-
 constexpr const char* kMesh = "builtin:torus-knot:8";
-
-Json json_in(const TemporaryFolder& folder, const char* name) {
-    return Json::parse(bytes_of(folder / name));
-}
 
 } // namespace
 

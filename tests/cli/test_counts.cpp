@@ -8,16 +8,12 @@
 #include <string>
 #include <vector>
 
-#include <nlohmann/json.hpp>
-
 #include "cli/command.hpp"
+#include "cli/json_file.hpp"
 #include "files/sample_file.hpp"
 
 namespace geodisk::test {
 namespace {
-
-using Json = nlohmann::json;
-using Arguments = std::vector<std::string>;
 
 constexpr const char* kMesh = "builtin:torus-knot:8";
 
@@ -30,7 +26,7 @@ void sample(const TemporaryFolder& folder, const char* file, const Arguments& op
 }
 
 Json report_in(const TemporaryFolder& folder) {
-    return Json::parse(bytes_of(folder / "report.json"));
+    return json_in(folder, "report.json");
 }
 
 std::string distance_in(const TemporaryFolder& folder, const char* file) {
@@ -101,7 +97,8 @@ TEST_CASE("exact counts that cannot be are refused without a file") {
         {{"--exact", "-d", "1"}, "--exact needs a number of samples"},
         {{"--exact", "-n", "0"}, "--count: '0' is not a whole number of at least 1"},
         {{"--exact", "-n", "5000000000"}, "is too many; the maximum is 4,294,967,295"},
-        {{"--exact", "-n", "4000000000"}, "the minimum distance is too small"},
+        {{"-n", "1e9", "--exact"}, "samples need a pool of 2e+10 candidates, the maximum is"},
+        {{"-n", "1e8", "--dense"}, "lower --count or the pool ratio"},
         {{"--exact", "-n", "10", "--method", "darts", "-d", "1"}, "--exact is for --method pool"},
     };
     for (const Case& wrong : cases) {
@@ -147,7 +144,7 @@ TEST_CASE("a progressive order has levels that are spaced, each by its distance"
         arguments = {"verify", kMesh, "a.ply", "--json", "verify.json"};
         arguments.insert(arguments.end(), options.begin(), options.end());
         CHECK(run(folder, arguments).status == 0);
-        const Json verified = Json::parse(bytes_of(folder / "verify.json"))["levels"];
+        const Json verified = json_in(folder, "verify.json")["levels"];
         REQUIRE(verified.size() == levels.size());
         for (std::size_t level = 0; level < levels.size(); ++level) {
             CHECK(verified[level]["samples"] == levels[level]["samples"]);
@@ -213,6 +210,9 @@ TEST_CASE("verify finds levels that are not spaced, and files that contradict th
         verify("# samples: " + std::to_string(tools::read_samples(folder / "a.csv").rows.size()),
                "# none: 0");
     CHECK(less.status == 0);
+    const std::string ends = "level_samples: ";
+    CHECK(contains(verify(ends, ends + "9").err, "samples up to level 0, the column level "));
+    CHECK(contains(verify(ends, ends + "1 ").err, "its header has 3 levels, but the samples of 4"));
 }
 
 TEST_CASE("orders that cannot be are refused without a file") {

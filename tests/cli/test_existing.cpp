@@ -6,26 +6,15 @@
 #include <fstream>
 #include <string>
 
-#include <nlohmann/json.hpp>
-
 #include "cli/command.hpp"
+#include "cli/json_file.hpp"
 #include "files/output_file.hpp"
 #include "files/sample_file.hpp"
 
 namespace geodisk::test {
 namespace {
 
-using Json = nlohmann::json;
-
 constexpr const char* kMesh = "builtin:torus-knot:8";
-
-Json json_in(const TemporaryFolder& folder, const char* name) {
-    return Json::parse(bytes_of(folder / name));
-}
-
-void write_text(const TemporaryFolder& folder, const char* name, const std::string& text) {
-    std::ofstream(folder / name) << text;
-}
 
 bool same(const tools::SampleRow& a, const tools::SampleRow& b) {
     return a.face == b.face && std::ranges::equal(a.bary, b.bary) &&
@@ -64,6 +53,7 @@ TEST_CASE("existing samples are kept and marked, and new ones keep the distance"
     INFO(verified.out, verified.err);
     CHECK(verified.status == 0);
     CHECK(contains(verified.out, "given         " + std::to_string(given) + " of them\n"));
+    CHECK(contains(verified.out, " of the minimum distance, pairs of given samples aside\n"));
     const tools::SampleFile all = tools::read_samples(folder / "b.ply");
     REQUIRE(all.header.find("existing") != nullptr);
     CHECK(*all.header.find("existing") == "a.ply");
@@ -103,7 +93,7 @@ TEST_CASE("radii that vary, darts and a dry run take existing samples") {
 
 TEST_CASE("points of other programs are put on the mesh, and pairs too close are told") {
     const TemporaryFolder folder;
-    write_text(folder, "points.xyz", "0.5 0.25 0.0051\n0.25 0.25 0.005\n0.2501 0.25 0.005\n");
+    folder.write("points.xyz", "0.5 0.25 0.0051\n0.25 0.25 0.005\n0.2501 0.25 0.005\n");
     const Outcome made = run(folder, {"sample", "builtin:plate:4", "-o", "b.ply", "-d", "0.1",
                                       "--existing", "points.xyz", "--json", "b.json"});
     INFO(made.out, made.err);
@@ -137,13 +127,35 @@ TEST_CASE("points of other programs are put on the mesh, and pairs too close are
 
 TEST_CASE("a column given of another program marks nothing") {
     const TemporaryFolder folder;
-    write_text(folder, "points.csv", "x,y,z,given\n0.5,0.25,0.005,1\n0.5,0.26,0.005,7\n");
-    CHECK(run(folder, {"verify", "builtin:plate:4", "points.csv", "-d", "0.1"}).status == 1);
+    folder.write("points.csv", "x,y,z,given\n0.5,0.25,0.005,1\n0.5,0.26,0.005,7\n");
+    const Outcome verified = run(folder, {"verify", "builtin:plate:4", "points.csv", "-d", "0.1"});
+    CHECK(verified.status == 1);
+    CHECK(contains(verified.err, "points.csv: ignoring the column: sample 1 has no 0 or 1 in the "
+                                 "column given\n"));
+    CHECK(contains(verified.out, " of the minimum distance\n"));
+}
+
+TEST_CASE("a column that the header names must have its numbers") {
+    const TemporaryFolder folder;
+    const auto fails = [&](const std::string& column, const std::string& key,
+                           const std::string& value, const std::string& part) {
+        folder.write("points.csv", "# " + key + "\n# min_distance: 0.1\nx,y,z," + column +
+                                       "\n0.5,0.25,0.005,0\n0.2,0.25,0.005," + value + "\n");
+        check_fails(folder, 3, "points.csv: sample 1 has no " + part + " in the column " + column,
+                    {"verify", "builtin:plate:4", "points.csv"});
+    };
+    fails("given", "existing: a.csv", "3", "0 or 1");
+    fails("given", "existing: a.csv", "0.5", "0 or 1");
+    fails("class", "classes: 2", "-1", "whole number");
+    fails("class", "classes: 2", "1.5", "whole number");
+    fails("class", "classes: 2", "x", "whole number");
+    fails("feature", "features: 30", "0.5", "whole number");
+    fails("level", "level_distances: 0.2 0.1", "1.5", "whole number");
 }
 
 TEST_CASE("points are avoided, each by a radius of its own, and verified") {
     const TemporaryFolder folder;
-    write_text(folder, "wells.csv", "x,y,z,Size\n0.5,0.25,0.005,0.2\n0.2,0.2,0.005,0.05\n");
+    folder.write("wells.csv", "x,y,z,Size\n0.5,0.25,0.005,0.2\n0.2,0.2,0.005,0.05\n");
     const char* const mesh = "builtin:plate:4";
     REQUIRE(run(folder, {"sample", mesh, "-o", "free.ply", "-d", "0.03"}).status == 0);
     const Outcome made = run(folder, {"sample", mesh, "-o", "b.ply", "-d", "0.03", "--avoid",
@@ -172,25 +184,51 @@ TEST_CASE("points are avoided, each by a radius of its own, and verified") {
     CHECK(json_in(folder, "v.json")["avoided"]["intrusions"]["count"] > 0);
     CHECK(run(folder, {"verify", mesh, "free.ply", "--avoid", "wells.csv:size"}).status == 1);
 
-    const Outcome none =
-        run(folder, {"sample", mesh, "-o", "none.ply", "-d", "0.1", "--avoid", "wells.csv:1e9"});
-    CHECK(none.status == 0);
-    CHECK(
-        contains(none.err, "no new sample fits beside the existing ones and the points to avoid"));
-
     // With samples to keep, which may lie within; a file and a radius for each option.
-    write_text(folder, "inside.xyz", "0.5 0.25 0.005\n");
+    folder.write("inside.xyz", "0.5 0.25 0.005\n");
     REQUIRE(run(folder, {"sample", mesh, "-o", "c.ply", "-d", "0.03", "--existing", "inside.xyz",
                          "--avoid", "wells.csv:5%", "--avoid", "inside.xyz:0.1"})
                 .status == 0);
     CHECK(run(folder, {"verify", mesh, "c.ply", "--avoid", "inside.xyz:0.1"}).status == 0);
 }
 
+TEST_CASE("points to avoid that leave no room are refused, unless samples are kept") {
+    const TemporaryFolder folder;
+    const Arguments sample{"sample", "builtin:cube", "-o", "b.ply"};
+    folder.write("one.xyz", "0.5 0.5 0\n");
+    const std::string none = "the points leave no room for samples; lower their radii";
+    for (const Arguments& more :
+         {Arguments{"-d", "0.1"}, Arguments{"-n", "100"}, Arguments{"-n", "10", "--exact"},
+          Arguments{"-d", "0.1", "--maximal"}}) {
+        check_fails(folder, 2, none, joined(joined(sample, more), {"--avoid", "one.xyz:1e30"}));
+    }
+    check_fails(folder, 2, none,
+                {"sample", "builtin:cube", "--dry-run", "-d", "1", "--avoid", "one.xyz:1e30"});
+    // Just no room: only the run knows.
+    check_fails(folder, 2, "candidates lies outside the radii of the points; lower them",
+                joined(sample, {"-d", "0.1", "--avoid", "one.xyz:2.1"}));
+    check_fails(folder, 2, "--count: found no room for a sample, down to distance",
+                joined(sample, {"-n", "100", "--avoid", "one.xyz:2.1"}));
+
+    folder.write("points.csv", "x,y,z,size\n0.5,0.5,0,0.2\n0.5,0.5,1,1e9\n0,0,0,3\n");
+    const Outcome kept =
+        run(folder,
+            joined(sample, {"-d", "0.1", "--existing", "one.xyz", "--avoid", "points.csv:size"}));
+    INFO(kept.out, kept.err);
+    CHECK(kept.status == 0);
+    CHECK(contains(kept.err, "no new sample fits beside the existing ones and the points to avoid; "
+                             "lower the distance or the radii"));
+    CHECK(contains(kept.out, "avoided       3 points\n"));
+    const Outcome full = run(folder, joined(sample, {"-d", "9", "--existing", "one.xyz"}));
+    CHECK(full.status == 0);
+    CHECK(contains(full.err, "no new sample fits beside the existing ones; lower the distance\n"));
+}
+
 TEST_CASE("points that cannot be avoided are refused") {
     const TemporaryFolder folder;
-    write_text(folder, "wells.csv", "x,y,z,size\n0.5,0.25,0.005,0.2\n0.2,0.2,0.005,0\n");
-    write_text(folder, "far.xyz", "0.5 0.25 3.005\n");
-    write_text(folder, "empty.csv", "x,y,z\n");
+    folder.write("wells.csv", "x,y,z,size\n0.5,0.25,0.005,0.2\n0.2,0.2,0.005,0\n");
+    folder.write("far.xyz", "0.5 0.25 3.005\n");
+    folder.write("empty.csv", "x,y,z\n");
     const auto fails = [&](int status, const std::string& part, const Arguments& more) {
         check_fails(folder, status, part,
                     joined({"sample", "builtin:plate:4", "-o", "b.ply", "-d", "0.1"}, more));
@@ -201,7 +239,12 @@ TEST_CASE("points that cannot be avoided are refused") {
     fails(3, "wells.csv: has no column width", {"--avoid", "wells.csv:width"});
     fails(3, "wells.csv: point 1: its size is 0, not a positive radius",
           {"--avoid", "wells.csv:size"});
-    fails(3, "far.xyz: 1 point lies farther off", {"--avoid", "far.xyz:1"});
+    fails(3,
+          "than --tolerance allows; point 0 is 3 away. Give the mesh that the "
+          "points were made on",
+          {"--avoid", "far.xyz:1"});
+    REQUIRE(run(folder, {"sample", kMesh, "-o", "other.csv", "-n", "50"}).status == 0);
+    fails(3, "other.csv: point 0", {"--avoid", "other.csv:1"});
     fails(3, "empty.csv: has no points to avoid", {"--avoid", "empty.csv:1"});
     fails(3, "none.csv", {"--avoid", "none.csv:1"});
     fails(2, "--avoid goes by distances along the surface",
@@ -215,15 +258,15 @@ TEST_CASE("existing samples that cannot be kept are refused") {
                            const char* mesh = "builtin:plate:4") {
         check_fails(folder, status, part, joined({"sample", mesh, "-o", "b.ply"}, more));
     };
-    write_text(folder, "far.xyz", "0.5 0.25 0.005\n0.5 0.25 3.005\n");
+    folder.write("far.xyz", "0.5 0.25 0.005\n0.5 0.25 3.005\n");
     fails(3,
           "far.xyz: 1 point lies farther off builtin:plate:4 than --tolerance allows; sample 1 "
           "is 3 away",
           {"-d", "0.1", "--existing", "far.xyz"});
     fails(3, "a.ply: sample", {"-d", "0.1", "--existing", "a.ply"});
-    write_text(folder, "nan.xyz", "0.5 nan 0\n");
+    folder.write("nan.xyz", "0.5 nan 0\n");
     fails(3, "nan.xyz: line 1", {"-d", "0.1", "--existing", "nan.xyz"});
-    write_text(folder, "empty.csv", "x,y,z\n");
+    folder.write("empty.csv", "x,y,z\n");
     fails(3, "empty.csv: has no samples to keep", {"-d", "0.1", "--existing", "empty.csv"});
     fails(3, "none.ply", {"-d", "0.1", "--existing", "none.ply"});
     fails(2, "--tolerance is for points that are read; give --existing or --avoid",

@@ -7,23 +7,14 @@
 #include <string>
 #include <vector>
 
-#include <nlohmann/json.hpp>
-
 #include "cli/command.hpp"
+#include "cli/json_file.hpp"
 #include "files/output_file.hpp"
 #include "files/sample_file.hpp"
 #include "program/exact_text.hpp"
 
 namespace geodisk::test {
-namespace {
-
-using Json = nlohmann::json;
-
-Json json_in(const TemporaryFolder& folder, const char* name) {
-    return Json::parse(bytes_of(folder / name));
-}
-
-} // namespace
+namespace {} // namespace
 
 TEST_CASE("features come first, are marked, and keep their distance") {
     const TemporaryFolder folder;

@@ -5,15 +5,11 @@
 #include <string>
 #include <vector>
 
-#include <nlohmann/json.hpp>
-
 #include "cli/command.hpp"
+#include "cli/json_file.hpp"
 
 namespace geodisk::test {
 namespace {
-
-using Arguments = std::vector<std::string>;
-using Json = nlohmann::json;
 
 /// Samples the cube into a.ply, and returns the report.
 Json sampled(const TemporaryFolder& folder, const Arguments& options, std::string* summary) {
@@ -23,7 +19,7 @@ Json sampled(const TemporaryFolder& folder, const Arguments& options, std::strin
     INFO(outcome.err);
     REQUIRE(outcome.status == 0);
     *summary = outcome.out;
-    return Json::parse(bytes_of(folder / "a.json"));
+    return json_in(folder, "a.json");
 }
 
 std::string refusal(const Arguments& options) {
@@ -53,10 +49,20 @@ TEST_CASE("a maximal set is certified, and verify agrees") {
     INFO(verified.err);
     CHECK(verified.status == 0);
     CHECK(contains(verified.out, "every point is covered"));
-    const Json found = Json::parse(bytes_of(folder / "v.json"))["maximal"];
+    const Json found = json_in(folder, "v.json")["maximal"];
     CHECK(found["certificate"] == true);
     CHECK(found["largest_gap"] > 0.19);
     CHECK(found["uncovered"].is_null());
+}
+
+TEST_CASE("a certificate tells of points to avoid and of a mask") {
+    const TemporaryFolder folder;
+    folder.write("one.xyz", "0.5 0.5 0\n");
+    std::string summary;
+    sampled(folder, {"-d", "0.3", "--maximal", "--avoid", "one.xyz:0.4", "--mask", "z<0.5"},
+            &summary);
+    CHECK(contains(summary, "certified: every point that may have a sample is within 0.3"));
+    CHECK(contains(summary, " of a sample or avoided\n"));
 }
 
 TEST_CASE("verify finds a point that is uncovered") {
@@ -70,7 +76,7 @@ TEST_CASE("verify finds a point that is uncovered") {
     CHECK(verified.status != 0);
     CHECK(contains(verified.err, "the set is not maximal"));
     CHECK(contains(verified.err, "a sample fits in triangle"));
-    const Json found = Json::parse(bytes_of(folder / "v.json"))["maximal"];
+    const Json found = json_in(folder, "v.json")["maximal"];
     CHECK(found["certificate"] == false);
     CHECK(found["largest_gap"] > 0.2);
     CHECK(found["uncovered"]["weights"].size() == 3);

@@ -81,6 +81,18 @@ def test_wrong_ones_are_refused():
     refuses("existing: sample 0 is .* are these samples of another mesh", other)
 
 
+def test_no_room_is_warned_of():
+    corner = geodisk.Samples([VERTICES[FACES[0][0]]], face_index=[0], barycentric=[[1, 0, 0]])
+    with pytest.warns(geodisk.GeodiskWarning, match="no sample fits outside the points") as told:
+        none = geodisk.sample(VERTICES, FACES, min_distance=0.3, avoid=(corner, 100))
+    assert len(none) == 0 and len(told) == 1
+    with pytest.warns(geodisk.GeodiskWarning, match="mesh 1: no new sample fits beside"):
+        some, one = geodisk.sample_many(
+            [(VERTICES, FACES)] * 2, min_distance=[0.3, 100], existing=[None, corner]
+        )
+    assert len(some) > 1 and len(one) == 1
+
+
 def test_points_are_avoided():
     center = geodisk.Samples(face_index=[100], barycentric=[[0.5, 0.25, 0.25]])
     where = VERTICES[FACES[100]].T @ [0.5, 0.25, 0.25]

@@ -344,6 +344,7 @@ def test_bad_values():
     fails(ValueError, "alike", face_keys=[1, 2, 2, 3])
     fails(ValueError, r"shape \(3,\), not \(4,\)", face_mask=[True, False, True])
     fails(ValueError, "triangle 4, the mesh has 4; a mask of zeros", face_mask=[0, 4])
+    fails(ValueError, "mask of zeros and ones, which must be of type bool", face_mask=[0, 1, 1, 0])
     fails(ValueError, "leaves out all faces", face_mask=[False] * 4)
     fails(ValueError, "leaves out all faces", face_mask=[])
     fails(TypeError, "integers", face_mask=[0.5, 1.0, 0.0, 1.0])

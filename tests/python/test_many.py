@@ -44,6 +44,18 @@ def test_counts_densities_and_keys():
     assert flat.points.shape[1] == 2 and flat.normals is None  # Of another dimension.
 
 
+def test_what_is_of_one_mesh_is_refused():
+    for name, value in (("classes", 2), ("maximal", True), ("stop_count", 9), ("features", 30)):
+        with pytest.raises(TypeError, match=f"takes no {name}; call sample.. for each mesh"):
+            geodisk.sample_many(MESHES, min_distance=0.5, **{name: value})
+    with pytest.raises(TypeError, match="unexpected keyword argument 'min_dist'"):
+        geodisk.sample_many(MESHES, min_dist=0.5)
+    with pytest.raises(geodisk.InvalidArgument, match="count is 1e[+]?09, which needs a pool"):
+        geodisk.sample_many(MESHES, count=1e9)
+    with pytest.raises(geodisk.InvalidArgument, match="needs a pool of 2e[+]10 candidates"):
+        geodisk.sample(MESHES[0], count=10**9, exact=True)
+
+
 def test_points_to_avoid():
     points = (([0], [[0.25, 0.5, 0.25]]), 0.9)
     a, b = geodisk.sample_many([MESHES[0]] * 2, min_distance=0.3, avoid=[points, None])

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <string_view>
 
 namespace geodisk::tools {
@@ -36,8 +37,9 @@ inline constexpr std::string_view kGivenColumn = "given";
 
 /// The column with the classes of samples.
 inline constexpr std::string_view kClassColumn = "class";
-/// The column of levels, and the entry of the header with their distances.
-inline constexpr std::string_view kLevelColumn = "level", kLevelDistances = "level_distances";
+/// The column of levels, and the entries of the header with their distances and their ends.
+inline constexpr std::string_view kLevelColumn = "level", kLevelDistances = "level_distances",
+                                  kLevelSamples = "level_samples";
 
 /// The column that tells samples on corners (2) and curves (1) from those on faces (0).
 inline constexpr std::string_view kFeatureColumn = "feature";
@@ -45,6 +47,20 @@ inline constexpr std::string_view kFeatureColumn = "feature";
 /// The attribute and the columns of --frames: a quaternion that turns z to the normal.
 inline constexpr std::string_view kFramesField = "frames";
 inline constexpr std::array<std::string_view, 4> kFrameColumnNames{"qx", "qy", "qz", "qw"};
+
+/// Returns the largest number that a column may have.
+constexpr std::uint32_t largest_in_column(std::string_view name) {
+    return name == kGivenColumn ? 1 : 0xffffffff;
+}
+
+/// Returns the key of the header that says what is in a column; "" if there is none.
+constexpr std::string_view key_of_column(std::string_view name) {
+    return name == kGivenColumn     ? "existing"
+           : name == kClassColumn   ? "classes"
+           : name == kFeatureColumn ? "features"
+           : name == kLevelColumn   ? kLevelDistances
+                                    : "";
+}
 
 /// Keys of header entries that a reader of samples goes by.
 inline constexpr std::string_view kSampleCount = "samples", kOrigin = "origin";

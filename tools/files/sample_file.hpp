@@ -53,6 +53,12 @@ struct ExtraColumn {
     std::vector<std::uint32_t> values;
 };
 
+/// A column of sample_columns.hpp that is none: it has something else than whole numbers.
+struct WrongColumn {
+    std::string name;
+    std::size_t row; ///< First one with such a value.
+};
+
 /// Values of an attribute at samples, for each row as many as there are components.
 struct SampleField {
     std::string name;
@@ -78,6 +84,7 @@ struct SampleFile {
     std::vector<ExtraColumn> extra; ///< Those that part_columns() makes, and of sample_columns.hpp.
     std::vector<double> numbers;    ///< Values of the column that read_samples() was asked for.
     bool has_faces = true;          ///< Else rows have positions alone, as of other programs.
+    std::vector<WrongColumn> wrong_columns{}; ///< Left out.
 
     /// The values of a column of `extra`; empty without it.
     std::span<const std::uint32_t> extra_values(std::string_view name) const;

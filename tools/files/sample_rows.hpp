@@ -98,11 +98,12 @@ class ExtraReader {
         }
         for (std::size_t i = 0; i < places_.size();) {
             const std::optional<double> value = value_at(places_[i]);
+            const std::string& name = columns_[i].name;
             std::uint32_t index = 0;
-            const bool is_mark = columns_[i].name == kGivenColumn;
-            if (value && set_index(index, *value) && (!is_mark || index <= 1)) {
+            if (value && set_index(index, *value) && index <= largest_in_column(name)) {
                 columns_[i++].values.push_back(index);
-            } else { // A column of that name from some other program.
+            } else { // A column of that name from some other program, or a damaged one.
+                wrong_.push_back({name, columns_[i].values.size()});
                 places_.erase(places_.begin() + static_cast<std::ptrdiff_t>(i));
                 columns_.erase(columns_.begin() + static_cast<std::ptrdiff_t>(i));
             }
@@ -113,11 +114,13 @@ class ExtraReader {
     void move_to(SampleFile& samples) && {
         samples.extra = std::move(columns_);
         samples.numbers = std::move(numbers_);
+        samples.wrong_columns = std::move(wrong_);
     }
 
   private:
     std::vector<std::size_t> places_;
     std::vector<ExtraColumn> columns_;
+    std::vector<WrongColumn> wrong_;
     std::optional<std::size_t> number_place_;
     std::vector<double> numbers_;
 };

@@ -59,6 +59,8 @@ std::uint64_t count_of(const SampleSet& set, const Domain& domain) {
 
 /// Factor between two distances that give equally many samples, above which there is no room.
 constexpr double kNoRoom = 16;
+/// The same where no sample fits.
+constexpr double kNoneFits = 4;
 
 /// Notes counts of samples at ever smaller distances, until they show that no more samples fit.
 class RoomCheck {
@@ -71,6 +73,11 @@ class RoomCheck {
             largest_ = distance;
         }
         largest_ = std::max(largest_, distance);
+        if (count == 0 && distance * kNoneFits <= largest_) {
+            fail_usage("--count: found no room for a sample, down to distance " +
+                       rounded(distance, 6) +
+                       "; leave more room, such as by smaller radii of --avoid");
+        }
         if (static_cast<double>(count) < wanted && distance * kNoRoom <= largest_) {
             fail_usage("--count: found room for " + counted(count, "sample", "samples") +
                        " only, down to distance " + rounded(distance, 6) +

@@ -199,6 +199,10 @@ SampleResult sample_mesh(const SampleJob& job, const MeshInput& mesh, RunDevice&
     auto [set, done] = device.run(task_at, params.min_distance, job.wanted_count, progress);
     features.add_seconds(done);
     params.min_distance = done.min_distance;
+    if (set.samples.empty() && !given.avoided.empty()) {
+        fail_usage("--avoid: none of " + grouped(done.run.candidates) +
+                   " candidates lies outside the radii of the points; lower them");
+    }
     job.method.check_count(set.samples.size(), params.min_distance * mesh.distance_part,
                            done.run.candidates);
     params.given = {};
@@ -218,7 +222,7 @@ SampleResult sample_mesh(const SampleJob& job, const MeshInput& mesh, RunDevice&
     if (job.method.has_levels) {
         result.levels = levels_of(job.method, mesh, params);
     }
-    result.avoided = given.avoided.size();
+    result.avoided = given.points_to_avoid;
     std::vector<std::uint32_t> faces;
     for (const SampleRow& row : result.rows) {
         faces.push_back(row.face);
@@ -235,12 +239,6 @@ SampleResult sample_mesh(const SampleJob& job, const MeshInput& mesh, RunDevice&
     }
     if (result.given > 0) {
         note_given(job, mesh, result, progress);
-    }
-    if (job.constraints.is_given() && result.rows.size() == result.given) {
-        result.warnings.push_back({"no_new_samples", 1, "",
-                                   "no new sample fits beside the existing ones and the points to "
-                                   "avoid; lower the distance or the radii",
-                                   job.mesh.mesh});
     }
     return result;
 }

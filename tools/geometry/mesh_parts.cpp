@@ -12,15 +12,6 @@ bool takes_part(const std::uint32_t* corners) {
     return corners[0] != corners[1] && corners[1] != corners[2] && corners[2] != corners[0];
 }
 
-std::vector<std::uint32_t> triangles_of(const PreparedMesh& mesh) {
-    std::vector<std::uint32_t> triangles;
-    triangles.reserve(mesh.half_edges().size());
-    for (const HalfEdge& edge : mesh.half_edges()) {
-        triangles.push_back(edge.origin);
-    }
-    return triangles;
-}
-
 } // namespace
 
 std::vector<std::uint32_t> part_of_triangles(std::span<const std::uint32_t> triangles) {
@@ -45,6 +36,15 @@ std::vector<std::uint32_t> part_of_triangles(std::span<const std::uint32_t> tria
     return parts;
 }
 
+std::vector<std::uint32_t> part_of_faces(const PreparedMesh& mesh) {
+    std::vector<std::uint32_t> triangles;
+    triangles.reserve(mesh.half_edges().size());
+    for (const HalfEdge& edge : mesh.half_edges()) {
+        triangles.push_back(edge.origin);
+    }
+    return part_of_triangles(triangles);
+}
+
 BareParts parts_without(const PreparedMesh& mesh, std::span<const std::uint32_t> faces,
                         std::span<const std::uint8_t> mask) {
     if (mesh.statistics().components == 1) {
@@ -54,7 +54,7 @@ BareParts parts_without(const PreparedMesh& mesh, std::span<const std::uint32_t>
         bool has_sample = false, takes_samples = false;
         double area = 0; ///< That takes samples.
     };
-    const std::vector<std::uint32_t> part_of = part_of_triangles(triangles_of(mesh));
+    const std::vector<std::uint32_t> part_of = part_of_faces(mesh);
     std::vector<Part> parts(mesh.statistics().components);
     for (const std::uint32_t face : faces) {
         if (part_of[face] != kNoPart) {

@@ -25,6 +25,8 @@ BareParts parts_without(const PreparedMesh& mesh, std::span<const std::uint32_t>
 /// common vertices, and numbered by their first triangles; a triangle that repeats a vertex belongs
 /// to none (MeshStatistics::components) and has kNoPart.
 std::vector<std::uint32_t> part_of_triangles(std::span<const std::uint32_t> triangles);
+/// Returns the same of the faces of a mesh.
+std::vector<std::uint32_t> part_of_faces(const PreparedMesh& mesh);
 inline constexpr std::uint32_t kNoPart = 0xffffffff;
 
 } // namespace geodisk::tools

@@ -48,11 +48,25 @@ void check_count(const SampledSet& set, std::vector<MeshWarning>& warnings) {
     }
 }
 
+/// Why there is no new sample.
+std::string no_room_text(const SampledSet& set) {
+    if (set.given == 0) {
+        return "no sample fits outside the points to avoid; lower their radii";
+    }
+    return std::string("no new sample fits beside the existing ones") +
+           (set.avoids ? " and the points to avoid; lower the distance or the radii"
+                       : "; lower the distance");
+}
+
 } // namespace
 
 std::vector<MeshWarning> set_warnings(const SampledSet& set) {
     std::vector<MeshWarning> warnings;
     check_count(set, warnings);
+    if (set.samples == set.given && (set.given > 0 || set.avoids)) {
+        warnings.push_back({"no_new_samples", 1, "", no_room_text(set), ""});
+        return warnings;
+    }
     const BareParts& bare = set.bare;
     if (bare.area_share >= kLeastShare) {
         warnings.push_back({"bare_parts", bare.count, "",

@@ -13,6 +13,8 @@ namespace geodisk::tools {
 /// A set of samples on a mesh or in a box, and what was asked for.
 struct SampledSet {
     std::uint64_t samples = 0;
+    std::uint64_t given = 0;      ///< Those of the samples that were given.
+    bool avoids = false;          ///< There are points to avoid.
     double min_distance = 0;      ///< As it is told.
     double wanted_count = 0;      ///< Samples that the distance was chosen for, or 0.
     std::uint64_t cut = 0;        ///< Samples of the run that an exact count left out.
@@ -22,8 +24,8 @@ struct SampledSet {
     BareParts bare{};
 };
 
-/// Returns warnings about a count that was missed, parts of the area without samples, and a
-/// distance that leaves one sample to each part.
+/// Returns warnings about a count that was missed, a set without new samples, parts of the area
+/// without samples, and a distance that leaves one sample to each part.
 std::vector<MeshWarning> set_warnings(const SampledSet& set);
 
 } // namespace geodisk::tools

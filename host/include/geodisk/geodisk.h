@@ -325,10 +325,10 @@ typedef struct geodisk_surface_params {
     /* One key per face, all different, by which its candidates are drawn: a triangle with the same
      * key has the same candidates in every mesh. NULL for the indices of faces. */
     const uint32_t *face_keys;
+    geodisk_metric metric; /* All but GEODISK_GEODESIC need three coordinates and no radii. */
     /* One byte per face: a face with 0 gets no samples, but paths cross it. NULL if all faces take
      * samples. */
     const uint8_t *face_mask;
-    geodisk_metric metric; /* All but GEODISK_GEODESIC need three coordinates and no radii. */
     /* Samples that are given, which are copied; NULL for none. They are the first samples of the
      * run, in this order, and new ones keep the minimum distance from them. Distances among them
      * are not checked. They count towards stop_count. */

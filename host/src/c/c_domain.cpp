@@ -23,7 +23,7 @@ Sample sample_of(const geodisk_surface_point& point) {
 }
 
 /// Fills in a part. Its params refer to data of the part, so it must not move afterwards.
-Result<Done> fill_part(const geodisk_mesh* mesh, const geodisk_surface_params& given, Part& part) {
+Result<Done> fill(const geodisk_mesh* mesh, const geodisk_surface_params& given, Part& part) {
     if (mesh == nullptr) {
         return wrong("mesh is NULL");
     }
@@ -81,6 +81,26 @@ Result<Done> fill_part(const geodisk_mesh* mesh, const geodisk_surface_params& g
     }
     part.params.maximal = given.is_maximal != 0;
     return Done{};
+}
+
+/// Fills in a part, and returns what it was given as `params`.
+Result<geodisk_surface_params> fill_part(const geodisk_mesh* mesh,
+                                         const geodisk_surface_params* params, Part& part) {
+    const auto given = taken(params, "params");
+    if (!given) {
+        return given.error();
+    }
+    if (const auto filled = fill(mesh, *given, part); !filled) {
+        return filled.error();
+    }
+    return *given;
+}
+
+/// The state of a domain of one surface, to fill in.
+std::shared_ptr<DomainState> state_of_one() {
+    auto state = std::make_shared<DomainState>();
+    state->parts.resize(1);
+    return state;
 }
 
 Result<Domain> make_surface(const Part& part, geodisk_metric metric) {
@@ -158,14 +178,10 @@ geodisk_status geodisk_domain_surface(const geodisk_mesh* mesh,
         if (domain == nullptr) {
             return wrong("domain is NULL");
         }
-        const auto given = taken(params, "params");
+        const auto state = state_of_one();
+        const auto given = fill_part(mesh, params, state->parts[0]);
         if (!given) {
             return given.error();
-        }
-        const auto state = std::make_shared<DomainState>();
-        state->parts.resize(1);
-        if (const auto filled = fill_part(mesh, *given, state->parts[0]); !filled) {
-            return filled.error();
         }
         state->min_distance = given->min_distance;
         return keep(make_surface(state->parts[0], given->metric), state, domain);
@@ -178,13 +194,9 @@ geodisk_status geodisk_job_frame_of(const geodisk_mesh* mesh, const geodisk_surf
         if (frame == nullptr) {
             return wrong("frame is NULL");
         }
-        const auto given = taken(params, "params");
-        if (!given) {
-            return given.error();
-        }
         Part part;
-        if (const auto filled = fill_part(mesh, *given, part); !filled) {
-            return filled.error();
+        if (const auto given = fill_part(mesh, params, part); !given) {
+            return given.error();
         }
         const auto made = frame_of(part.mesh->prepared, part.params);
         if (!made) {
@@ -204,7 +216,9 @@ geodisk_status geodisk_domain_surface_in_frame(const geodisk_mesh* mesh,
         if (domain == nullptr || frame == nullptr) {
             return wrong("domain or frame is NULL");
         }
-        const auto given = taken(params, "params");
+        const auto state = state_of_one();
+        Part& part = state->parts[0];
+        const auto given = fill_part(mesh, params, part);
         if (!given) {
             return given.error();
         }
@@ -214,12 +228,6 @@ geodisk_status geodisk_domain_surface_in_frame(const geodisk_mesh* mesh,
         const auto of_whole = frame_from_bytes(std::as_bytes(std::span(frame->bytes)));
         if (!of_whole) {
             return of_whole.error();
-        }
-        const auto state = std::make_shared<DomainState>();
-        state->parts.resize(1);
-        Part& part = state->parts[0];
-        if (const auto filled = fill_part(mesh, *given, part); !filled) {
-            return filled.error();
         }
         state->min_distance = given->min_distance;
         return keep(Domain::surface(part.mesh->prepared, part.params, *of_whole), state, domain);
@@ -234,18 +242,14 @@ geodisk_status geodisk_domain_features(const geodisk_mesh* mesh,
         if (domain == nullptr) {
             return wrong("domain is NULL");
         }
-        const auto given = taken(params, "params");
+        const auto state = state_of_one();
+        Part& part = state->parts[0];
+        const auto given = fill_part(mesh, params, part);
         if (!given) {
             return given.error();
         }
         if (given->metric != GEODISK_GEODESIC) {
             return wrong("params->metric: features are for geodesic distances only");
-        }
-        const auto state = std::make_shared<DomainState>();
-        state->parts.resize(1);
-        Part& part = state->parts[0];
-        if (const auto filled = fill_part(mesh, *given, part); !filled) {
-            return filled.error();
         }
         if (part.mesh->dimension == 0) {
             return wrong("features need coordinates, which the mesh lacks");
@@ -297,7 +301,7 @@ geodisk_status geodisk_domain_surfaces(const geodisk_surface_part* parts, size_t
                 return wrong(name + ": several surfaces take geodesic distances only");
             }
             Part& own = state->parts[i];
-            if (const auto filled = fill_part(part->mesh, *given, own); !filled) {
+            if (const auto filled = fill(part->mesh, *given, own); !filled) {
                 return wrong(name + ": " + filled.error().message);
             }
             surfaces.push_back(
@@ -386,13 +390,9 @@ geodisk_status geodisk_level_count(const geodisk_mesh* mesh, const geodisk_surfa
         if (levels == nullptr) {
             return wrong("levels is NULL");
         }
-        const auto given = taken(params, "params");
-        if (!given) {
-            return given.error();
-        }
         Part part;
-        if (const auto filled = fill_part(mesh, *given, part); !filled) {
-            return filled.error();
+        if (const auto given = fill_part(mesh, params, part); !given) {
+            return given.error();
         }
         const PreparedMesh& prepared = part.mesh->prepared;
         if (const auto checked = check_params(prepared, part.params); !checked) {

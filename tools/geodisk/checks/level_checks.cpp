@@ -15,6 +15,14 @@
 namespace geodisk::tools {
 namespace {
 
+/// Of a level that is spaced, where some samples were given.
+constexpr const char* kButGiven = "all spaced, pairs of given samples aside";
+
+/// Returns the number of samples up to the end of a level, where levels come in order.
+std::size_t end_of(std::span<const std::uint32_t> levels, std::uint32_t level) {
+    return static_cast<std::size_t>(std::ranges::upper_bound(levels, level) - levels.begin());
+}
+
 /// The distances of all levels in the header.
 std::vector<double> distances_in(const std::string& path, const std::string& text) {
     std::vector<std::string_view> words;
@@ -34,6 +42,31 @@ std::vector<double> distances_in(const std::string& path, const std::string& tex
                    "its header has no distances of levels in " + std::string(kLevelDistances));
     }
     return distances;
+}
+
+/// Checks the numbers of samples up to the end of each level, where the header has them. A file may
+/// hold just the first samples.
+void check_ends(const std::string& path, const SampleFile& samples,
+                std::span<const std::uint32_t> levels, std::size_t count) {
+    const std::string* const text = samples.header.find(kLevelSamples);
+    if (text == nullptr) {
+        return;
+    }
+    std::vector<std::string_view> words;
+    split_tokens(*text, words);
+    if (words.size() != count) {
+        fail_input(path, "its header has " + counted(count, "level", "levels") +
+                             ", but the samples of " + std::to_string(words.size()));
+    }
+    for (std::uint32_t level = 0; level < count; ++level) {
+        const std::size_t end = end_of(levels, level);
+        const auto told = parse_integer<std::size_t>(words[level]);
+        if (!told || std::min(*told, samples.rows.size()) != end) {
+            fail_input(path, "its header has " + in_quotes(words[level]) + " samples up to level " +
+                                 std::to_string(level) + ", the column " +
+                                 std::string(kLevelColumn) + " " + std::to_string(end));
+        }
+    }
 }
 
 void check_column(const std::string& path, std::span<const std::uint32_t> levels, std::size_t rows,
@@ -69,10 +102,10 @@ std::vector<LevelSpacing> check_levels(const std::string& samples_path, const Sa
     const std::vector<double> distances = distances_in(samples_path, *text);
     const auto levels = samples.extra_values(kLevelColumn);
     check_column(samples_path, levels, samples.rows.size(), distances.size());
+    check_ends(samples_path, samples, levels, distances.size());
     const auto given = samples.extra_values(kGivenColumn);
     for (std::uint32_t level = 0; level < distances.size(); ++level) {
-        const auto end =
-            static_cast<std::size_t>(std::ranges::upper_bound(levels, level) - levels.begin());
+        const std::size_t end = end_of(levels, level);
         if (level + 1 == distances.size()) {
             found.push_back({distances[level], end, last});
             break;
@@ -93,13 +126,13 @@ std::vector<LevelSpacing> check_levels(const std::string& samples_path, const Sa
     return found;
 }
 
-std::string level_lines(const std::vector<LevelSpacing>& levels) {
+std::string level_lines(const std::vector<LevelSpacing>& levels, bool has_given) {
     std::string text;
     for (const LevelSpacing& level : levels) {
         text += (text.empty() ? "levels        " : "              ") + grouped(level.samples) +
                 " samples at distance " + rounded(level.min_distance, 6) + ", " +
                 (level.result.violations.empty()
-                     ? "all spaced"
+                     ? (has_given ? kButGiven : "all spaced")
                      : counted(level.result.violations.size(), "violation", "violations")) +
                 '\n';
     }

@@ -29,8 +29,8 @@ std::vector<LevelSpacing> check_levels(const std::string& samples_path, const Sa
                                        const MeshInput& mesh, std::span<const double> radii,
                                        const SpacingResult& last, ProgressLine& progress);
 
-/// A line for each level.
-std::string level_lines(const std::vector<LevelSpacing>& levels);
+/// A line for each level. `has_given` tells whether pairs of given samples were left out.
+std::string level_lines(const std::vector<LevelSpacing>& levels, bool has_given);
 
 /// "3 pairs of samples up to level 1 are closer than 0.2"; empty without violations.
 std::string level_fault(const std::vector<LevelSpacing>& levels);

@@ -9,6 +9,8 @@ std::vector<MeshWarning> run_warnings(const SampleJob& job, const MeshInput& mes
                                       const SampleResult& result) {
     std::vector<MeshWarning> warnings =
         set_warnings({.samples = result.rows.size(),
+                      .given = result.given,
+                      .avoids = result.avoided > 0,
                       .min_distance = result.params.min_distance * mesh.distance_part,
                       .wanted_count = job.wanted_count.samples,
                       .cut = result.done.cut,

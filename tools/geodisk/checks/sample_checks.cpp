@@ -23,7 +23,8 @@ std::string face_fault(const SampleRow& row, const std::string& mesh_path, const
     const std::string face = "face " + std::to_string(row.face);
     if (row.face >= mesh.prepared.face_count()) {
         return face + " is out of range, " + mesh_path + " has " +
-               counted(mesh.prepared.face_count(), "triangle", "triangles");
+               counted(mesh.prepared.face_count(), "triangle", "triangles") +
+               "; is it of another mesh?";
     }
     if (!mesh.file.takes_part(row.face)) {
         return face + " repeats a vertex or is a copy in " + mesh_path + ", which holds no samples";
@@ -61,12 +62,12 @@ void check_dimensions(const std::string& samples_path, const SampleFile& samples
 }
 
 void check_rows(const std::string& samples_path, const SampleFile& samples,
-                const std::string& mesh_path, const MeshInput& mesh) {
+                const std::string& mesh_path, const MeshInput& mesh, const std::string& noun) {
     constexpr double kTolerance = 1e-5; // Of weights that other programs rounded.
     for (std::uint32_t i = 0; i < samples.rows.size(); ++i) {
         const SampleRow& row = samples.rows[i];
         if (const std::string fault = face_fault(row, mesh_path, mesh); !fault.empty()) {
-            fail_input(samples_path, "sample " + std::to_string(i) + ": " + fault);
+            fail_input(samples_path, noun + " " + std::to_string(i) + ": " + fault);
         }
         double sum = 0;
         double least = 1;
@@ -75,7 +76,7 @@ void check_rows(const std::string& samples_path, const SampleFile& samples,
             least = std::min(least, weight);
         }
         if (!(least >= -kTolerance && std::abs(sum - 1) <= kTolerance)) {
-            fail_input(samples_path, "sample " + std::to_string(i) +
+            fail_input(samples_path, noun + " " + std::to_string(i) +
                                          ": its weights do not name a point in a triangle");
         }
     }

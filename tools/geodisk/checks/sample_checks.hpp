@@ -28,9 +28,9 @@ void check_dimensions(const std::string& samples_path, const SampleFile& samples
                       const std::string& mesh_path, const MeshInput& mesh);
 
 /// The rows must at least name points of the mesh. Throws UserError(bad_input) naming the first
-/// that does not.
+/// that does not, a `noun`.
 void check_rows(const std::string& samples_path, const SampleFile& samples,
-                const std::string& mesh_path, const MeshInput& mesh);
+                const std::string& mesh_path, const MeshInput& mesh, const std::string& noun);
 
 /// The samples whose positions differ from those of their faces and weights by more than a sample
 /// file rounds. The rows must have passed check_rows(); without coordinates there are none.

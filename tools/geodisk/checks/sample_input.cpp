@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "files/sample_columns.hpp"
 #include "geodisk/options/tolerance_option.hpp"
 #include "geodisk/outputs/outputs.hpp"
 #include "geometry/nearest_face.hpp"
@@ -75,21 +76,39 @@ std::vector<StrayRow> put_on_faces(const std::string& path, const std::string& m
     return strays;
 }
 
+/// Checks that columns hold what the header says. Warns of those that it does not name.
+void check_columns(const std::string& path, const SampleFile& samples, const std::string& noun,
+                   std::vector<MeshWarning>& warnings) {
+    for (const auto& [name, row] : samples.wrong_columns) {
+        const std::string_view key = key_of_column(name);
+        const std::string fault = noun + " " + std::to_string(row) + " has no " +
+                                  (largest_in_column(name) == 1 ? "0 or 1" : "whole number") +
+                                  " in the column " + name;
+        if (!key.empty() && samples.header.find(key) != nullptr) {
+            fail_input(path, fault);
+        }
+        if (!key.empty()) {
+            warnings.push_back({"wrong_column", 1, "", "ignoring the column: " + fault, path});
+        }
+    }
+}
+
 /// As read_samples_on(), but prints nothing.
 SampleInput read_silently(const std::string& path, const std::string& mesh_path,
                           const MeshInput& mesh, const HeaderEntries* additions,
                           const std::string& tolerance, std::vector<MeshWarning>& warnings,
-                          ProgressLine& progress, const std::string& numbers = {}) {
+                          ProgressLine& progress, const ReadAs& as = {}) {
     progress.begin_stage("reading the samples");
-    SampleInput input{read_samples(path, numbers), {}};
+    SampleInput input{read_samples(path, as.numbers), {}};
     progress.clear();
+    check_columns(path, input.file, as.noun, warnings);
     check_dimensions(path, input.file, mesh_path, mesh);
     if (!input.file.has_faces) {
         input.strays =
             put_on_faces(path, mesh_path, mesh, tolerance, input.file, warnings, progress);
         return input;
     }
-    check_rows(path, input.file, mesh_path, mesh);
+    check_rows(path, input.file, mesh_path, mesh, as.noun);
     if (additions != nullptr && !input.file.header.entries.empty()) {
         warn_of_other_surface(path, input.file, *additions, warnings);
     }
@@ -98,16 +117,16 @@ SampleInput read_silently(const std::string& path, const std::string& mesh_path,
 }
 
 /// Throws UserError(bad_input) for strays.
-SampleFile without_strays(const std::string& path, const std::string& mesh_path,
-                          SampleInput input) {
+SampleFile without_strays(const std::string& path, const std::string& mesh_path, SampleInput input,
+                          const std::string& noun = "sample") {
     if (input.strays.empty()) {
         return std::move(input.file);
     }
     const StrayRow& first = input.strays.front();
-    const std::string sample = "sample " + std::to_string(first.row) + " is ";
+    const std::string sample = noun + " " + std::to_string(first.row) + " is ";
     if (input.file.has_faces) {
-        fail_input(path, sample + offset_text(first) + " on " + mesh_path +
-                             "; are these samples of another mesh?");
+        fail_input(path, sample + offset_text(first) + " on " + mesh_path + "; are these " + noun +
+                             "s of another mesh?");
     }
     fail_input(path, counted(input.strays.size(), "point lies", "points lie") + " farther off " +
                          mesh_path + " than --tolerance allows; " + sample +
@@ -143,10 +162,11 @@ SampleFile read_samples_silently_on(const std::string& path, const std::string& 
                                     const MeshInput& mesh, const HeaderEntries* additions,
                                     const std::string& tolerance,
                                     std::vector<MeshWarning>& warnings, ProgressLine& progress,
-                                    const std::string& numbers) {
+                                    const ReadAs& as) {
     return without_strays(
         path, mesh_path,
-        read_silently(path, mesh_path, mesh, additions, tolerance, warnings, progress, numbers));
+        read_silently(path, mesh_path, mesh, additions, tolerance, warnings, progress, as),
+        as.noun);
 }
 
 } // namespace geodisk::tools

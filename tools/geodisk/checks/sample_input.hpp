@@ -17,6 +17,12 @@ struct SampleInput {
     std::vector<StrayRow> strays; ///< Not where they should be.
 };
 
+/// What a file of samples is read for.
+struct ReadAs {
+    std::string noun = "sample"; ///< Names a row in errors.
+    std::string numbers;         ///< Column to read as well, see read_samples(), or "".
+};
+
 /// Reads the samples in the file `path` of the mesh in the file `mesh_path`. Points without faces
 /// are put on the nearest face, with a warning that says how far they lay away; those farther than
 /// `tolerance`, "" for a thousandth of the diagonal, are strays. Samples with faces are strays if
@@ -34,12 +40,11 @@ SampleFile read_samples_exactly_on(const std::string& path, const std::string& m
                                    const std::string& tolerance, std::vector<MeshWarning>& warnings,
                                    ProgressLine& progress);
 
-/// The same, with the column `numbers` as read_samples() has it. Leaves the warnings to the caller
-/// to print.
+/// The same, but leaves the warnings to the caller to print.
 SampleFile read_samples_silently_on(const std::string& path, const std::string& mesh_path,
                                     const MeshInput& mesh, const HeaderEntries* additions,
                                     const std::string& tolerance,
                                     std::vector<MeshWarning>& warnings, ProgressLine& progress,
-                                    const std::string& numbers = {});
+                                    const ReadAs& as = {});
 
 } // namespace geodisk::tools

@@ -2,9 +2,11 @@
 
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "files/sample_columns.hpp"
 #include "geodisk/checks/sample_input.hpp"
+#include "geometry/covered_parts.hpp"
 #include "program/exact_text.hpp"
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
@@ -23,6 +25,18 @@ void check_count(const SampleJob& job, std::size_t given) {
 
 Sample sample_of(const SampleRow& row) {
     return {row.face, {row.bary[0], row.bary[1], row.bary[2]}};
+}
+
+/// Takes the points to avoid that matter. Throws UserError if they leave no room, unless there are
+/// samples to keep.
+void take_avoided(const std::vector<KeepOut>& avoided, const MeshInput& mesh, bool keeps_samples,
+                  GivenInput& given) {
+    CoveredParts covered = covered_parts(mesh.prepared, avoided);
+    if (!avoided.empty() && !keeps_samples && covered.cover_all(mesh.prepared, mesh.face_mask)) {
+        fail_usage("--avoid: the points leave no room for samples; lower their radii");
+    }
+    given.points_to_avoid = avoided.size();
+    given.avoided = std::move(covered.needed);
 }
 
 /// Returns the classes of samples to keep: those of the file, or 0.
@@ -53,8 +67,9 @@ std::vector<KeepOut> load_avoided(const ConstraintOptions& options, const MeshOp
     std::vector<KeepOut> avoided;
     const HeaderEntries additions = of_mesh.additions();
     for (const auto& [points, length, column] : options.parsed_avoid()) {
-        const SampleFile file = read_samples_silently_on(
-            points, of_mesh.mesh, mesh, &additions, options.tolerance, warnings, progress, column);
+        const SampleFile file =
+            read_samples_silently_on(points, of_mesh.mesh, mesh, &additions, options.tolerance,
+                                     warnings, progress, {"point", column});
         if (file.rows.empty()) {
             fail_input(points, "has no points to avoid; leave out --avoid");
         }
@@ -74,7 +89,8 @@ std::vector<KeepOut> load_avoided(const ConstraintOptions& options, const MeshOp
 GivenInput load_given(const SampleJob& job, const MeshInput& mesh, ProgressLine& progress) {
     GivenInput given;
     const ConstraintOptions& options = job.constraints;
-    given.avoided = load_avoided(options, job.mesh, mesh, given.warnings, progress);
+    take_avoided(load_avoided(options, job.mesh, mesh, given.warnings, progress), mesh,
+                 !options.existing.empty(), given);
     if (options.existing.empty()) {
         return given;
     }

@@ -1,6 +1,7 @@
 // The samples that a job keeps and the points that it avoids, read and put on its mesh.
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include <geodisk/sample.hpp>
@@ -15,7 +16,8 @@ namespace geodisk::tools {
 struct GivenInput {
     std::vector<Sample> samples;
     std::vector<std::uint8_t> classes; ///< Of the samples, if there are several.
-    std::vector<KeepOut> avoided;
+    std::vector<KeepOut> avoided;      ///< All but points on parts that another one covers.
+    std::size_t points_to_avoid = 0;   ///< With those.
     std::vector<MeshWarning> warnings; ///< Not printed.
 };
 
@@ -27,8 +29,8 @@ std::vector<KeepOut> load_avoided(const ConstraintOptions& options, const MeshOp
                                   ProgressLine& progress);
 
 /// Reads the samples of --existing, if there are any, and the points of --avoid. Throws UserError
-/// for a file without samples, for those that are not on the mesh, and for no fewer than --count
-/// asks for.
+/// for a file without samples, for those that are not on the mesh, for no fewer than --count asks
+/// for, and where points to avoid leave no room and no sample is kept.
 GivenInput load_given(const SampleJob& job, const MeshInput& mesh, ProgressLine& progress);
 
 } // namespace geodisk::tools

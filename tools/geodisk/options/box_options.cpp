@@ -95,7 +95,7 @@ BoxJob parse_job(const BoxOptions& options) {
     }
     box.pool_ratio = job.method.pool_ratio;
     box.stop_count = job.method.stop_count;
-    job.wanted_count = parse_wanted_count(options.method, options.count);
+    job.wanted_count = parse_wanted_count(options.method, options.count, job.method.pool_ratio);
     if (!options.min_distance.empty()) {
         box.min_distance =
             parse_length("--min-distance", options.min_distance).in_mesh_units(diagonal_of(box));

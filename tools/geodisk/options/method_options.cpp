@@ -158,7 +158,8 @@ void WantedCount::check_reached(std::uint64_t most, double min_distance) const {
     }
 }
 
-WantedCount parse_wanted_count(const MethodOptions& options, const std::string& count) {
+WantedCount parse_wanted_count(const MethodOptions& options, const std::string& count,
+                               double pool_ratio) {
     if (options.exact && count.empty()) {
         fail_usage("--exact needs a number of samples; give --count instead of a distance");
     }
@@ -168,8 +169,15 @@ WantedCount parse_wanted_count(const MethodOptions& options, const std::string& 
     if (count.empty() || options.throws_darts()) {
         return {};
     }
-    return {options.exact ? parse_candidates("--count", count) : parse_count("--count", count),
-            options.exact};
+    const double samples =
+        options.exact ? parse_candidates("--count", count) : parse_count("--count", count);
+    if (samples * pool_ratio > kMostCandidates) {
+        fail_usage("--count: " + in_quotes(count) + " samples need a pool of " +
+                   rounded(samples * pool_ratio, 3) + " candidates, the maximum is " +
+                   grouped(kMostCandidates) + "; lower --count" +
+                   (pool_ratio > kDefaultPoolRatio ? " or the pool ratio" : ""));
+    }
+    return {samples, options.exact};
 }
 
 void check_one_distance(const MethodOptions& options,

@@ -73,9 +73,11 @@ struct WantedCount {
     void check_reached(std::uint64_t most, double min_distance) const;
 };
 
-/// Returns what --count asks for, where it chooses the distance. Throws UserError(usage) for
-/// values out of range, and --exact where no count chooses the distance.
-WantedCount parse_wanted_count(const MethodOptions& options, const std::string& count);
+/// Returns what --count asks for, where it chooses the distance, with `pool_ratio` candidates per
+/// sample. Throws UserError(usage) for values out of range, and --exact where no count chooses the
+/// distance.
+WantedCount parse_wanted_count(const MethodOptions& options, const std::string& count,
+                               double pool_ratio);
 
 /// Adds --exact, to the group of --count.
 void add_exact_option(Command command, MethodOptions& options, const std::string& group);

@@ -155,7 +155,7 @@ SampleJob parse_job(const SampleOptions& options) {
         job.min_distance = parse_length("--radius", options.radius);
         job.min_distance->value *= 2;
     }
-    job.wanted_count = parse_wanted_count(options.method, options.count);
+    job.wanted_count = parse_wanted_count(options.method, options.count, job.method.pool_ratio);
     job.params.seed = options.run.parsed_seed();
     job.params.pool_ratio = job.method.pool_ratio;
     job.params.stop_count = job.method.stop_count;

@@ -51,16 +51,23 @@ Json maximal_json(const SampleJob& job, const MeshInput& mesh, const RunReport& 
             {"largest_gap", report.largest_gap * mesh.distance_part}};
 }
 
-std::string maximal_line(const SampleJob& job, const MeshInput& mesh, const RunReport& run) {
+std::string maximal_line(const SampleJob& job, const MeshInput& mesh, const SampleResult& result) {
     if (!job.method.is_maximal) {
         return "";
     }
-    const MaximalReport& report = run.maximal;
+    const MaximalReport& report = result.done.run.maximal;
     const std::string gap = rounded(report.largest_gap * mesh.distance_part, 6);
-    return "maximal       " + counted(report.rounds, "round", "rounds") + ", " +
-           (!report.certified ? "not certified: a gap is too small for darts\n"
-            : mesh.radii      ? "certified: no further sample fits\n"
-                              : "certified: every point is within " + gap + " of a sample\n");
+    const std::string head = "maximal       " + counted(report.rounds, "round", "rounds") + ", ";
+    if (!report.certified) {
+        return head + "not certified: a gap is too small for darts\n";
+    }
+    if (mesh.radii) {
+        return head + "certified: no further sample fits\n";
+    }
+    return head + "certified: every point" +
+           (mesh.face_mask.empty() ? "" : " that may have a sample") + " is within " +
+           rounded(report.largest_gap * mesh.distance_part, 6) + " of a sample" +
+           (result.avoided > 0 ? " or avoided\n" : "\n");
 }
 
 /// Returns the number of samples of each class.
@@ -131,7 +138,7 @@ HeaderEntries level_entries(const std::vector<ToldLevel>& levels) {
     }
     return {{"order", "progressive"},
             {std::string(kLevelDistances), distances},
-            {"level_samples", samples}};
+            {std::string(kLevelSamples), samples}};
 }
 
 std::string level_lines(const std::vector<ToldLevel>& levels) {
@@ -319,7 +326,7 @@ std::string SampleReport::summary(const SecondsByStage& after) const {
     out << "samples       " << samples_text(drawn()) << ", rho " << rounded(rho_, 3) << '\n'
         << level_lines(
                told_levels(result_, told_distance(job_, mesh_, result_.params.min_distance)))
-        << maximal_line(job_, mesh_, result_.done.run) << constraint_lines(job_, result_)
+        << maximal_line(job_, mesh_, result_) << constraint_lines(job_, result_)
         << candidates_text(drawn(), result_.params.seed);
     out << run_text(result_.done, seconds(after), job_.out.output);
     if (result_.picture) {

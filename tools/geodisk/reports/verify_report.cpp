@@ -91,7 +91,8 @@ std::string report_text(const SampleCheck& check) {
         out << "radii         " << rounded(*least, 9) << " to " << rounded(*most, 9)
             << (check.mesh.radii ? "" : ", as the file has them") << '\n';
     }
-    out << "smallest      " << smallest_text(check) << '\n';
+    out << "smallest      " << smallest_text(check)
+        << (spacing.is_known && check.given() > 1 ? ", pairs of given samples aside\n" : "\n");
     if (spacing.classes.is_given()) {
         std::string counts;
         for (const std::size_t count : check.class_counts()) {
@@ -103,7 +104,7 @@ std::string report_text(const SampleCheck& check) {
     if (spacing.is_known) {
         print_violations(out, check.samples, check.result, has_ratios ? check.least_text() : "");
     }
-    out << level_lines(check.levels);
+    out << level_lines(check.levels, check.given() > 1);
     if (const std::size_t given = check.given(); given > 0) {
         const std::size_t pairs = check.among_given.violations.size();
         out << "given         " << grouped(given) << " of them"

@@ -26,7 +26,7 @@ class Classes:
         table = real(classes, "classes").astype(np.float64)
         self.distances: NDArray[np.float64] | None = None
         if table.ndim == 0:
-            if table != int(table) or not 1 <= table <= _MOST:
+            if not 1 <= table <= _MOST or table != int(table):
                 raise e.invalid(f"classes is {classes!r}, not a number from 1 to {_MOST}, or a table")
             count = int(table)
             factors = np.full((count, count), 1 / math.sqrt(count))

@@ -22,7 +22,7 @@ from ._radii import radii_of
 from ._results import first_of, samples_of_parts
 from ._running import CountSearch, ProgressCallback, Runs
 from ._samples import Samples
-from ._values import check_exact, distance_of, integer
+from ._values import check_exact, check_pool, distance_of, integer
 
 
 class _Job:
@@ -105,7 +105,12 @@ class _Job:
         """Shows warnings about its samples."""
         assert self.result is not None
         found = oddities_of_set(
-            self.result, self.mesh._handle, self._count, mask=self._mask
+            self.result,
+            self.mesh._handle,
+            self._count,
+            mask=self._mask,
+            given=len(self.existing),
+            avoids=len(self._avoided) > 0,
         )
         warn([e.GeodiskWarning(f"{prefix}{one}", one.kind, one.count) for one in found])
 
@@ -132,6 +137,7 @@ def sample_many(
     mesh_format: str | None = None,
     device: DeviceLike | None = None,
     progress: bool | ProgressCallback = False,
+    **others: object,
 ) -> list[Samples]:
     """Samples several meshes as one job, which is faster than sampling them separately.
 
@@ -148,7 +154,8 @@ def sample_many(
         As for :func:`sample`; None for a mesh without.
     exact, pool_ratio, weld, keep_seams, columns, attributes, mesh_format, device,
     progress
-        As for :func:`sample`, for all meshes.
+        As for :func:`sample`, for all meshes. The other parameters of :func:`sample` are for single
+        meshes.
 
     Returns
     -------
@@ -170,6 +177,7 @@ def sample_many(
     >>> bool((b.points == alone.points).all())
     True
     """
+    _refuse(others)
     given = list(meshes)
     n = len(given)
     distances = [
@@ -202,6 +210,7 @@ def sample_many(
 
     for each in distances[2]:
         check_exact(exact, each)
+        check_pool(each, pool_ratio)
     jobs = [_named(i, job_at) for i in range(n)]
     with Runs(device, progress) as runs:
         active = jobs
@@ -210,6 +219,31 @@ def sample_many(
     for i, job in enumerate(jobs):
         job.warn(f"mesh {i}: ")
     return [job.result for job in jobs if job.result is not None]
+
+
+#: Parameters of sample() that one job of several meshes cannot have.
+_OF_ONE_MESH = (
+    "throws",
+    "stop_count",
+    "maximal",
+    "order",
+    "levels",
+    "level_factor",
+    "classes",
+    "features",
+    "metric",
+    "edge_lengths",
+)
+
+
+def _refuse(others: dict[str, object]) -> None:
+    """Raises TypeError if there are parameters that sample_many() has not."""
+    for name in others:
+        raise TypeError(
+            f"sample_many() takes no {name}; call sample() for each mesh"
+            if name in _OF_ONE_MESH
+            else f"sample_many() got an unexpected keyword argument {name!r}"
+        )
 
 
 def _groups(jobs: list[_Job]) -> list[list[_Job]]:

@@ -37,6 +37,8 @@ def oddities_of_set(
     stop_count: int = 0,
     throws: int = 0,
     mask: NDArray[np.uint8] | None = None,
+    given: int = 0,
+    avoids: bool = False,
 ) -> tuple[GeodiskWarning, ...]:
     """Returns what the program prints about samples on a mesh, or in a box."""
     faces = None if samples.face_index is None else np.ascontiguousarray(samples.face_index)
@@ -50,6 +52,8 @@ def oddities_of_set(
         stop_count=stop_count,
         throws=throws,
         face_mask=None if mask is None else mask.ctypes.data,
+        given=given,
+        avoids=int(avoids),
     )
     found = c.Handle("warnings", "geodisk_warnings_of_set", ctypes.byref(params))
     return tuple(GeodiskWarning(*one) for one in _listed(found))

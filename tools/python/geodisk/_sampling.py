@@ -24,7 +24,7 @@ from ._radii import radii_of
 from ._results import first_of, samples_of
 from ._running import Made, ProgressCallback, Runs, sampled
 from ._samples import Samples
-from ._values import check_exact, distance_of, integer
+from ._values import check_exact, check_pool, distance_of, integer
 
 
 def sample(
@@ -160,8 +160,8 @@ def sample(
     MeshWarning
         As :class:`Mesh` does.
     GeodiskWarning
-        For a number of samples that differs from the count, parts of the area without samples, and
-        a distance that leaves one sample per part.
+        For a number of samples that differs from the count, no room beside `existing` and `avoid`,
+        parts of the area without samples, and a distance that leaves one sample per part.
 
     Examples
     --------
@@ -184,6 +184,7 @@ def sample(
     seed = integer(seed, "seed", 2**64 - 1)
     stop_count = integer(stop_count, "stop_count", 2**32 - 1)
     check_exact(exact, count, stop_count)
+    check_pool(count, pool_ratio, throws)
     if metric not in s.METRICS:
         raise e.invalid(f"metric is {metric!r}, none of {', '.join(s.METRICS)}")
     mesh = mesh_of(
@@ -257,7 +258,11 @@ def sample(
     if edges is not None:
         samples = edges.marked(samples, len(kept))
     samples = first_of(samples, count if exact and count else stop_count)
-    warn(oddities_of_set(samples, mesh._handle, count, stop_count, throws, mask))
+    warn(
+        oddities_of_set(
+            samples, mesh._handle, count, stop_count, throws, mask, len(kept), len(points) > 0
+        )
+    )
     return samples
 
 
@@ -303,6 +308,7 @@ def sample_box(
     seed = integer(seed, "seed", 2**64 - 1)
     stop_count = integer(stop_count, "stop_count", 2**32 - 1)
     check_exact(exact, count, stop_count)
+    check_pool(count, pool_ratio, throws)
     params = s.BoxParams(
         extents=sides.ctypes.data_as(ctypes.POINTER(c_double)),
         dimension=len(sides),

@@ -118,8 +118,8 @@ class SurfaceParams(_Sized):
         ("stop_count", c_uint32),
         ("radii", c_void_p),
         ("face_keys", c_void_p),
-        ("face_mask", c_void_p),
         ("metric", c_int32),
+        ("face_mask", c_void_p),
         ("given", c_void_p),
         ("given_count", c_size_t),
         ("avoid", c_void_p),
@@ -297,6 +297,8 @@ class SampledSet(_Sized):
         ("stop_count", c_uint32),
         ("throws", c_uint32),
         ("face_mask", c_void_p),
+        ("given", c_size_t),
+        ("avoids", c_int32),
     ]
 
 

@@ -29,6 +29,16 @@ def check_exact(exact: bool, count: float | None, stop_count: int = 0) -> None:
         raise e.invalid("exact and stop_count contradict each other; give just one of them")
 
 
+def check_pool(count: float | None, pool_ratio: float, throws: int = 0) -> None:
+    """Checks that the pool for a count is not too large."""
+    candidates = float(count or 0) * float(pool_ratio)
+    if throws == 0 and candidates >= 2**32:
+        raise e.invalid(
+            f"count is {count}, which needs a pool of {candidates:.3g} candidates; the maximum is "
+            "4294967295"
+        )
+
+
 def distance_of(
     min_distance: float | None, radius: float | None, count: float | None, throws: int = 0
 ) -> float | None:

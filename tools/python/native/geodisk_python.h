@@ -112,6 +112,8 @@ typedef struct geodisk_sampled_set {
     uint32_t stop_count;      /* As in geodisk_surface_params. */
     uint32_t throws;
     const uint8_t *face_mask; /* As in geodisk_surface_params. */
+    size_t given;             /* Those of the samples that were given, the first. */
+    int32_t avoids;           /* Not 0 if there are points to avoid. */
 } geodisk_sampled_set;
 
 /* Lists what the program prints about the samples. */

@@ -59,6 +59,8 @@ std::vector<MeshWarning> warnings_of(const c::Mesh& mesh, const geodisk_source* 
 
 std::vector<MeshWarning> warnings_of_set(const geodisk_sampled_set& given) {
     SampledSet set{.samples = given.count,
+                   .given = given.given,
+                   .avoids = given.avoids != 0,
                    .min_distance = given.min_distance,
                    .wanted_count = given.wanted_count,
                    .cut = given.cut,
