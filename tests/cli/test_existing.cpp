@@ -195,7 +195,7 @@ TEST_CASE("points are avoided, each by a radius of its own, and verified") {
 TEST_CASE("points to avoid that leave no room are refused, unless samples are kept") {
     const TemporaryFolder folder;
     const Arguments sample{"sample", "builtin:cube", "-o", "b.ply"};
-    folder.write("one.xyz", "0.5 0.5 0\n");
+    folder.write("one.xyz", "0 0 0.5\n");
     const std::string none = "the points leave no room for samples; lower their radii";
     for (const Arguments& more :
          {Arguments{"-d", "0.1"}, Arguments{"-n", "100"}, Arguments{"-n", "10", "--exact"},
@@ -210,7 +210,7 @@ TEST_CASE("points to avoid that leave no room are refused, unless samples are ke
     check_fails(folder, 2, "--count: found no room for a sample, down to distance",
                 joined(sample, {"-n", "100", "--avoid", "one.xyz:2.1"}));
 
-    folder.write("points.csv", "x,y,z,size\n0.5,0.5,0,0.2\n0.5,0.5,1,1e9\n0,0,0,3\n");
+    folder.write("points.csv", "x,y,z,size\n0,0,0.5,0.2\n0,0,-0.5,1e9\n0.5,0.5,0,3\n");
     const Outcome kept =
         run(folder,
             joined(sample, {"-d", "0.1", "--existing", "one.xyz", "--avoid", "points.csv:size"}));

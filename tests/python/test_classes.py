@@ -49,6 +49,9 @@ def test_wrong_ones_are_refused():
     for options, text in (
         ({"classes": 0}, "not a number from 1 to 8"),
         ({"classes": 2.5}, "not a number from 1 to 8"),
+        ({"classes": np.nan}, "not a number from 1 to 8"),
+        ({"classes": np.inf}, "not a number from 1 to 8"),
+        ({"classes": []}, "has the shape"),
         ({"classes": np.ones((9, 9))}, "has the shape"),
         ({"classes": [[1, 2], [3, 1]]}, "not symmetric"),
         ({"classes": [[1, -2], [-2, 1]]}, "not positive"),

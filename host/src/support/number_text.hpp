@@ -9,6 +9,9 @@ namespace geodisk {
 
 /// Returns a number with three digits.
 inline std::string number_text(double value) {
+    if (std::isnan(value)) {
+        return "nan";
+    }
     if (!std::isfinite(value)) {
         return "more than 1e308";
     }

@@ -67,6 +67,9 @@ void take_classes(const SampleOptions& options, SampleJob& job) {
     if (options.density.is_given()) {
         fail_usage("--classes takes no radii that vary, so neither --density nor --radius-factor");
     }
+    if (options.method.is_maximal) {
+        fail_usage("--classes takes no --maximal; give --dense");
+    }
     if (!job.is_geodesic()) {
         fail_usage("--classes goes by distances along the surface, so it takes no --metric " +
                    options.metric);

@@ -55,9 +55,9 @@ def levels_of(
         raise e.invalid(f"order='progressive' goes by distances along the surface, not {metric}")
     if throws:
         raise e.invalid("order='progressive' takes no throws; darts fill no level")
-    count = 0 if levels is None else integer(levels, "levels", 32)
-    if levels is not None and count == 0:
-        raise e.invalid("levels is 0, not from 1 to 32")
+    count = 0 if levels is None else integer(levels, "levels", 2**32)
+    if levels is not None and not 1 <= count <= 32:
+        raise e.invalid(f"levels is {count}, not from 1 to 32")
     return Levels(count, 2.0 if factor is None else float(factor))
 
 

@@ -195,6 +195,8 @@ def sample(
         raise e.invalid("order='progressive' takes no classes, features and maximal")
     if maximal and (exact or (count is not None and stop_count)):
         raise e.invalid("maximal leaves no gaps, exact and stop_count drop the last samples")
+    if features is not None and density is not None:
+        raise e.invalid("features take no density; give radius_factor to vary the distance")
     radii = radii_of(mesh, density, radius_factor)
     part = 1.0 if radii is None else radii.distance_part
     keys = None if face_keys is None else keys_of(mesh, face_keys)

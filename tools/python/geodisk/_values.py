@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import numbers
 import operator
 from typing import Any
 
@@ -31,6 +32,8 @@ def check_exact(exact: bool, count: float | None, stop_count: int = 0) -> None:
 
 def check_pool(count: float | None, pool_ratio: float, throws: int = 0) -> None:
     """Checks that the pool for a count is not too large."""
+    if not pool_ratio >= 1:
+        raise e.invalid(f"pool_ratio is {pool_ratio}, not from 1 to 10,000")
     candidates = float(count or 0) * float(pool_ratio)
     if throws == 0 and candidates >= 2**32:
         raise e.invalid(
@@ -43,6 +46,8 @@ def distance_of(
     min_distance: float | None, radius: float | None, count: float | None, throws: int = 0
 ) -> float | None:
     """Returns the minimum distance, or None where a count chooses it."""
+    if count is not None and not (isinstance(count, numbers.Real) and 1 <= count < math.inf):
+        raise e.invalid(f"count is {count!r}, not a number of at least 1")
     if count is not None and 0 < throws < count:
         raise e.invalid(f"{throws} throws cannot give {count} samples; raise throws")
     given = [x is not None for x in (min_distance, radius, count)]
