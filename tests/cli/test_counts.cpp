@@ -114,11 +114,11 @@ TEST_CASE("exact counts that cannot be are refused without a file") {
     const Outcome full = run(
         folder, {"sample", kMesh, "-o", "a.ply", "-n", "5", "--exact", "--avoid", "one.csv:1000"});
     CHECK(full.status == 2);
-    CHECK(contains(full.err, "no distance tried gave more than 0 of 5 samples"));
+    CHECK(contains(full.err, "--avoid: the points leave no room for samples; lower their radii"));
     const Outcome none =
         run(folder, {"sample", kMesh, "-o", "a.ply", "-n", "50", "--avoid", "one.csv:1000"});
     CHECK(none.status == 2);
-    CHECK(contains(none.err, "--count: found room for 0 samples only, down to distance "));
+    CHECK(contains(none.err, "--avoid: the points leave no room for samples; lower their radii"));
     CHECK(!std::filesystem::exists(folder / "a.ply"));
 }
 

@@ -110,8 +110,9 @@ SampleFile read_points(const NeighbourOptions& options, const std::string& path,
                        const std::string& column, const MeshInput& mesh,
                        std::vector<MeshWarning>& warnings, ProgressLine& progress) {
     const HeaderEntries additions = options.mesh.additions();
-    SampleFile file = read_samples_silently_on(path, options.mesh.mesh, mesh, &additions,
-                                               options.tolerance, warnings, progress, {"point", column});
+    SampleFile file =
+        read_samples_silently_on(path, options.mesh.mesh, mesh, &additions, options.tolerance,
+                                 warnings, progress, {"point", column});
     if (file.rows.empty()) {
         fail_input(path, "has no points");
     }
