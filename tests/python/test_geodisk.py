@@ -164,7 +164,6 @@ def test_an_exact_count_keeps_the_first_samples_of_a_run():
     assert len(geodisk.sample_box([1, 2], count=77, exact=True)) == 77
     for wrong in [
         dict(min_distance=0.1),
-        dict(count=0),
         dict(count=10.5),
         dict(count=2**32),
         dict(count=10, stop_count=5),
