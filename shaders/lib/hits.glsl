@@ -16,6 +16,9 @@ uint weight_word(uint at) { return hits[1u + (at >> 2)][at & 3u]; }
 
 void note_hit(uint target, float distance) {
     uint at = atomicAdd(hits[0].x, 1u);
+    if (at >= kMostRecorded) {
+        atomicAdd(hits[0].x, 0xffffffffu);
+    }
     if (at < hits[0].y) {
         hits[hits[0].z + at] =
             uvec4(control.next_sample + lane.slot, target, floatBitsToUint(distance), 0u);

@@ -29,6 +29,9 @@ void begin_scan(float sx, float sy) {
     }
     bool inside = lane.mode == kModeInside;
     uint at = atomicAdd(lit[0].x, 1u);
+    if (at >= kMostRecorded) {
+        atomicAdd(lit[0].x, 0xffffffffu);
+    }
     if (at >= lit[0].y) {
         return;
     }
