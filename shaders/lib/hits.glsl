@@ -1,26 +1,20 @@
-// Records what a disk reaches: a HitRec for each path found to a vertex, or to a candidate if kScans. They are
-// behind a row with their number, the room for them and the row where they begin, and the weights of the
-// candidates. More than there is room for are counted alone.
+// Records what a disk reaches: a HitRec for each path found to a vertex, or to a candidate if kScans.
 #ifndef GEODISK_HITS_GLSL
 #define GEODISK_HITS_GLSL
 
 #include "job.glsl"
 #include "operation.glsl"
-
-layout(set = 0, binding = kBindWeights, std430) coherent buffer hits_buffer { uvec4 hits[]; };
+#include "recorded.glsl"
 
 layout(constant_id = kSpecPoints) const bool kScans = false;
 
 // Returns a word of the candidates' weights, two each.
-uint weight_word(uint at) { return hits[1u + (at >> 2)][at & 3u]; }
+uint weight_word(uint at) { return recorded[1u + (at >> 2)][at & 3u]; }
 
 void note_hit(uint target, float distance) {
-    uint at = atomicAdd(hits[0].x, 1u);
-    if (at >= kMostRecorded) {
-        atomicAdd(hits[0].x, 0xffffffffu);
-    }
-    if (at < hits[0].y) {
-        hits[hits[0].z + at] =
+    uint at = count_record();
+    if (has_room(at)) {
+        recorded[record_row(at, 1u)] =
             uvec4(control.next_sample + lane.slot, target, floatBitsToUint(distance), 0u);
     }
 }

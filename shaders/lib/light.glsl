@@ -1,13 +1,11 @@
-// Records how a disk lights faces, in place of scan.glsl: a LitRec for each operation, behind a row with
-// their number and the room for them. The record of a disk of another scale has lengths in the unit of the
-// job. More than there is room for are counted alone.
+// Records how a disk lights faces, in place of scan.glsl: a LitRec for each operation. The record of a disk of
+// another scale has lengths in the unit of the job.
 #ifndef GEODISK_LIGHT_GLSL
 #define GEODISK_LIGHT_GLSL
 
 #include "job.glsl"
 #include "operation.glsl"
-
-layout(set = 0, binding = kBindWeights, std430) coherent buffer lit_buffer { uvec4 lit[]; };
+#include "recorded.glsl"
 
 uint own_place;
 
@@ -28,11 +26,8 @@ void begin_scan(float sx, float sy) {
         return; // A candidate, which stands in where a job needs one.
     }
     bool inside = lane.mode == kModeInside;
-    uint at = atomicAdd(lit[0].x, 1u);
-    if (at >= kMostRecorded) {
-        atomicAdd(lit[0].x, 0xffffffffu);
-    }
-    if (at >= lit[0].y) {
+    uint at = count_record();
+    if (!has_room(at)) {
         return;
     }
     precise float back = uintBitsToFloat(0x7f000000u - floatBitsToUint(scale_of(-own_radius)));
@@ -40,10 +35,11 @@ void begin_scan(float sx, float sy) {
     precise vec4 source = vec4(sx, sy, interval.x, interval.y) * back;
     precise float sigma = lane.sigma * back;
     precise float limit = lit_limit() * back;
-    lit[2u * at + 1u] = uvec4(lane.half_edge << 1 | (inside ? 1u : 0u),
-                              control.next_sample + lane.slot, floatBitsToUint(sigma),
-                              floatBitsToUint(limit));
-    lit[2u * at + 2u] = floatBitsToUint(source);
+    uint row = record_row(at, 2u);
+    recorded[row] =
+        uvec4(lane.half_edge << 1 | (inside ? 1u : 0u), control.next_sample + lane.slot,
+              floatBitsToUint(sigma), floatBitsToUint(limit));
+    recorded[row + 1u] = floatBitsToUint(source);
 }
 
 #endif

@@ -139,26 +139,11 @@ Result<Domain> SurfaceDomain::listed(const PreparedMesh& mesh, const SampleParam
     return Domain::Impl::wrap(std::move(made));
 }
 
-Result<Domain> SurfaceDomain::lights(const PreparedMesh& mesh, const SampleParams& params,
-                                     const JobFrame& frame, std::uint32_t most_records) {
-    PlacedSurface surface = placed(mesh, params, frame);
-    surface.stages = listed_stages(surface.stages.samples, 1);
-    auto made = std::make_unique<SurfaceDomain>(std::vector{surface}, FaceCells{});
-    // A job needs a candidate. This one is never decided.
-    const ListedCandidate candidate{0, 0, 0};
-    made->is_listed = true;
-    made->listed_ = listed_buffers(surface, made->cells_, {&candidate, 1});
-    made->listed_.weights = {0, most_records, 1, 0};
-    made->kernels.ending = Ending::light;
-    made->record_bytes_ = kRowBytes + std::uint64_t{most_records} * sizeof(gpu::LitRec);
-    made->samples = std::max<double>(1, static_cast<double>(made->settled.size()));
-    return Domain::Impl::wrap(std::move(made));
-}
-
-Result<Domain> SurfaceDomain::reach(const PreparedMesh& mesh, const SampleParams& params,
-                                    const JobFrame& frame, std::span<const ListedCandidate> targets,
-                                    std::uint32_t most_records) {
-    // Without targets a job needs a candidate.
+Result<Domain> SurfaceDomain::recording(const PreparedMesh& mesh, const SampleParams& params,
+                                        const JobFrame& frame, Ending ending,
+                                        std::span<const ListedCandidate> targets,
+                                        std::uint32_t most_records) {
+    // A job needs a candidate. No candidate is ever decided.
     const ListedCandidate candidate{0, 0, 0};
     const auto candidates = targets.empty() ? std::span(&candidate, 1) : targets;
     PlacedSurface surface = placed(mesh, params, frame);
@@ -170,15 +155,15 @@ Result<Domain> SurfaceDomain::reach(const PreparedMesh& mesh, const SampleParams
     auto made = std::make_unique<SurfaceDomain>(std::vector{surface}, std::move(*cells));
     made->is_listed = true;
     made->listed_ = listed_buffers(surface, made->cells_, candidates);
-    made->kernels.ending = Ending::reach;
+    made->kernels.ending = ending;
     made->kernels.points = !targets.empty();
-    // Behind the head the weights, two to a row, then the records.
+    // A head, the weights of the targets, two to a row, then the records.
     std::vector<std::uint32_t>& words = made->listed_.weights;
-    words.resize((words.size() + 3) / 4 * 4, 0);
+    words.resize(targets.empty() ? 0 : (words.size() + 3) / 4 * 4, 0);
     const auto first = static_cast<std::uint32_t>(1 + words.size() / 4);
     words.insert(words.begin(), {0, most_records, first, 0});
-    made->record_bytes_ =
-        words.size() * sizeof words[0] + std::uint64_t{most_records} * sizeof(gpu::HitRec);
+    const std::size_t bytes = ending == Ending::light ? sizeof(gpu::LitRec) : sizeof(gpu::HitRec);
+    made->record_bytes_ = words.size() * sizeof words[0] + std::uint64_t{most_records} * bytes;
     made->samples = std::max<double>(1, static_cast<double>(made->settled.size()));
     return Domain::Impl::wrap(std::move(made));
 }

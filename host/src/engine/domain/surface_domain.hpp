@@ -23,20 +23,18 @@ class SurfaceDomain : public Domain::Impl {
                                  const JobFrame& frame,
                                  std::span<const ListedCandidate> candidates);
 
-    /// Makes the domain of the given samples and points to avoid of `params`, without candidates:
-    /// their disks record how they light faces, at most so many times (gpu::LitRec).
-    static Result<Domain> lights(const PreparedMesh& mesh, const SampleParams& params,
-                                 const JobFrame& frame, std::uint32_t most_records);
-    /// Makes the domain of the same disks that record which of the targets they reach and how far
-    /// these are, at most so many times (gpu::HitRec). Without targets, which vertices.
-    static Result<Domain> reach(const PreparedMesh& mesh, const SampleParams& params,
-                                const JobFrame& frame, std::span<const ListedCandidate> targets,
-                                std::uint32_t most_records);
+    /// Makes the domain of the given samples and points to avoid of `params`, whose disks record
+    /// what `ending` says, at most so many times. To record what they reach is for these targets,
+    /// or without any for vertices.
+    static Result<Domain> recording(const PreparedMesh& mesh, const SampleParams& params,
+                                    const JobFrame& frame, Ending ending,
+                                    std::span<const ListedCandidate> targets,
+                                    std::uint32_t most_records);
     /// Makes the domain of a surface whose parameters are checked.
     static Result<Domain> plain(const PreparedMesh& mesh, const SampleParams& params,
                                 const JobFrame& frame);
 
-    /// Returns the number of the target at each place, of reach() with targets.
+    /// Returns the number of the target at each place, of recording() with targets.
     std::span<const std::uint32_t> target_numbers() const { return listed_.numbers; }
 
     std::uint64_t most_candidates(const DeviceLimits& limits, std::uint32_t slots) const override;
@@ -63,7 +61,7 @@ class SurfaceDomain : public Domain::Impl {
     std::vector<PlacedSurface> surfaces_;
     double first_error_ = 0;
     FaceCells cells_;
-    std::uint64_t record_bytes_ = 0; ///< Of lights() and reach(): their records, with the head.
+    std::uint64_t record_bytes_ = 0; ///< Of recording(): the head, weights and records.
     ListedBuffers listed_;           ///< Empty unless the host gives the candidates.
     double full_ = 0;                ///< Samples that full surfaces hold, at least two each.
     double whole_ = 0; ///< The same without masks: no disk covers more than all faces.

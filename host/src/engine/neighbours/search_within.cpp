@@ -25,12 +25,9 @@ constexpr std::chrono::milliseconds kPatience(50);
 // Paths that a disk finds to a target, and records of a source besides.
 constexpr double kPathsPerTarget = 1.5;
 constexpr double kMoreRecords = 16;
-// Maximum of records read at once, and room for more than expected. Their part of the memory that
-// a run may take, and of a binding.
+// Maximum of records read at once, and room for more than expected.
 constexpr double kMostRecords = 0x1p22;
 constexpr double kSpareRecords = 1.25;
-constexpr double kPartOfMemory = 0.2;
-constexpr double kPartOfBinding = 0.5;
 constexpr double kLeastRecords = 4096;
 // Maximum of sources of a job.
 constexpr double kMostSources = 0x1p20;
@@ -74,7 +71,6 @@ class Search {
   private:
     /// Returns the records to provide for a source at first.
     double first_guess() const;
-    double most_records() const;
     /// Finds those of up to so many sources. Returns false if there are more records than room.
     Result<bool> find(std::size_t sources, std::uint32_t room);
     Result<Done> check_pairs() const;
@@ -100,14 +96,6 @@ double Search::first_guess() const {
     return kPathsPerTarget * all * std::min(1.0, part) + kMoreRecords;
 }
 
-double Search::most_records() const {
-    double bytes = static_cast<double>(impl_.engine().report.limits.max_storage_buffer_range);
-    if (impl_.options.device_bytes != 0) {
-        bytes = std::min(bytes, kPartOfMemory * static_cast<double>(impl_.options.device_bytes));
-    }
-    return std::clamp(kPartOfBinding * bytes / sizeof(gpu::HitRec), kLeastRecords, kMostRecords);
-}
-
 bool Search::report(const Progress& now) const {
     const auto all = static_cast<std::uint32_t>(query_.sources.size());
     const auto sources = static_cast<std::uint32_t>(done_) + now.disks;
@@ -129,7 +117,8 @@ Result<bool> Search::find(std::size_t sources, std::uint32_t room) {
         }
         params.avoid = disks;
     }
-    const auto domain = SurfaceDomain::reach(mesh_, params, frame_, targets_, room);
+    const auto domain =
+        SurfaceDomain::recording(mesh_, params, frame_, Ending::reach, targets_, room);
     if (!domain) {
         return domain.error();
     }
@@ -180,7 +169,8 @@ Result<Done> Search::check_pairs() const {
 
 Result<Neighbours> Search::go() {
     records_per_source_ = first_guess();
-    const double most = most_records();
+    const double most =
+        std::clamp(impl_.record_bytes() / sizeof(gpu::HitRec), kLeastRecords, kMostRecords);
     while (done_ < query_.sources.size()) {
         const auto left = static_cast<double>(query_.sources.size() - done_);
         // The first ones tell how many records a source has.

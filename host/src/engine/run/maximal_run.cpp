@@ -29,9 +29,6 @@ constexpr double kMostDarts = 0x1p24;
 // Maximum of records of lights read at once, and room for more than expected.
 constexpr double kMostRecords = 0x1p21;
 constexpr double kSpareRecords = 1.5;
-// Their part of the memory that a run may take, and of a binding.
-constexpr double kPartOfMemory = 0.2;
-constexpr double kPartOfBinding = 0.5;
 constexpr std::uint32_t kLeastRecords = 4096;
 
 class MaximalRun {
@@ -50,8 +47,6 @@ class MaximalRun {
     Task<Result<SampleSet>> run_pool();
     /// Lights faces by samples, and by the points to avoid.
     Task<Result<Done>> light(std::span<const Sample> samples, std::span<const KeepOut> avoid);
-    /// Returns how many records of lights to expect of a job, at most.
-    double most_records() const;
     /// Throws the darts of a round. Returns the samples of those that are accepted.
     Task<Result<std::vector<Sample>>> fill(std::uint32_t round, double goal);
     /// Refines the gaps with the lights from this one on.
@@ -77,18 +72,9 @@ Task<Result<SampleSet>> MaximalRun::run_pool() {
     co_return co_await run_job(runner_, *domain, nullptr);
 }
 
-double MaximalRun::most_records() const {
-    const RunnerOptions& options = runner_.options;
-    double bytes = static_cast<double>(runner_.engine().report.limits.max_storage_buffer_range);
-    if (options.device_bytes != 0) {
-        bytes = std::min(bytes, kPartOfMemory * static_cast<double>(options.device_bytes));
-    }
-    return std::min(kMostRecords, kPartOfBinding * bytes / sizeof(gpu::LitRec));
-}
-
 Task<Result<Done>> MaximalRun::light(std::span<const Sample> samples,
                                      std::span<const KeepOut> avoid) {
-    const double most = most_records();
+    const double most = std::min(kMostRecords, runner_.record_bytes() / sizeof(gpu::LitRec));
     while (!samples.empty() || !avoid.empty()) {
         const auto disks =
             std::max<std::size_t>(1, static_cast<std::size_t>(most / records_per_disk_));
@@ -97,8 +83,8 @@ Task<Result<Done>> MaximalRun::light(std::span<const Sample> samples,
         params.given = samples.first(std::min(samples.size(), disks - params.avoid.size()));
         const auto settled = static_cast<double>(params.avoid.size() + params.given.size());
         const double expected = records_per_disk_ * settled + kLeastRecords;
-        const auto domain = SurfaceDomain::lights(*job_.mesh, params, job_.frame,
-                                                  static_cast<std::uint32_t>(expected));
+        const auto domain = SurfaceDomain::recording(*job_.mesh, params, job_.frame, Ending::light,
+                                                     {}, static_cast<std::uint32_t>(expected));
         if (!domain) {
             co_return domain.error();
         }

@@ -21,6 +21,9 @@ constexpr double kSubmissionSeconds = 0.02;
 constexpr double kCpuSubmissionSeconds = 0.1;
 constexpr double kStallSeconds = 120;
 constexpr double kCpuStallSeconds = 600;
+// Part of the memory that a run may take, and of a binding, for records of disks.
+constexpr double kRecordsOfMemory = 0.2;
+constexpr double kRecordsOfBinding = 0.5;
 // Length of one wait for the end of a submission.
 constexpr std::chrono::milliseconds kPatience(50);
 
@@ -109,6 +112,14 @@ const Sampler& Runner::sampler() const noexcept {
 Result<DeviceBuffer> Runner::Impl::allocate(VkDeviceSize bytes, VkBufferUsageFlags usage,
                                             MemoryKind kind) const {
     return DeviceBuffer::create(engine().device, engine().vk, memory, bytes, usage, kind);
+}
+
+double Runner::Impl::record_bytes() const {
+    auto bytes = static_cast<double>(engine().report.limits.max_storage_buffer_range);
+    if (options.device_bytes != 0) {
+        bytes = std::min(bytes, kRecordsOfMemory * static_cast<double>(options.device_bytes));
+    }
+    return kRecordsOfBinding * bytes;
 }
 
 std::uint64_t Runner::Impl::bytes_allowed() const {

@@ -100,6 +100,8 @@ struct Runner::Impl {
     double submission_seconds() const;
     /// Returns the device bytes that a run may use: limited by the caller and by the free memory.
     std::uint64_t bytes_allowed() const;
+    /// Returns the bytes that records of disks may take at once.
+    double record_bytes() const;
     Result<DeviceBuffer> allocate(VkDeviceSize bytes, VkBufferUsageFlags usage,
                                   MemoryKind kind) const;
 
