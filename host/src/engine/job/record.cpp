@@ -374,11 +374,7 @@ void add_select(Recorder& recorder, Job::Impl& job) {
 void add_detect(Recorder& recorder, Job::Impl& job) {
     recorder.stage(Stage::detect);
     const bool by_groups = job.variant.groups && job.plan.disks_by == DisksBy::groups;
-    const Kernel kernel = by_groups                             ? Kernel::group_detect
-                          : job.variant.ending == Ending::light ? Kernel::light
-                          : job.variant.ending == Ending::reach
-                              ? Kernel::reach
-                              : kernels_of(job.variant.domain).detect;
+    const Kernel kernel = by_groups ? Kernel::group_detect : lanes_kernel(job.variant);
     const gpu::Push large = job.large_push();
     for (std::uint32_t pass = 0; pass < job.plan.detect_passes; ++pass) {
         recorder.dispatch_indirect(kernel, offsetof(gpu::ControlRec, detect_x));

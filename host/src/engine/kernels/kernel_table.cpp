@@ -118,4 +118,15 @@ DomainKernels kernels_of(DomainKind domain) noexcept {
     return {Kernel::count, Kernel::bin, Kernel::draw, Kernel::select, Kernel::detect};
 }
 
+Kernel lanes_kernel(const KernelVariant& variant) noexcept {
+    switch (variant.ending) {
+    case Ending::light:
+        return Kernel::light;
+    case Ending::reach:
+        return Kernel::reach;
+    default:
+        return kernels_of(variant.domain).detect;
+    }
+}
+
 } // namespace geodisk

@@ -111,6 +111,9 @@ struct DomainKernels {
 };
 DomainKernels kernels_of(DomainKind domain) noexcept;
 
+/// Returns the kernel by which lanes compute disks.
+Kernel lanes_kernel(const KernelVariant& variant) noexcept;
+
 const KernelInfo& kernel_info(Kernel kernel) noexcept;
 
 /// Returns the interface of KernelInfo::words. The first call reads those of all kernels.

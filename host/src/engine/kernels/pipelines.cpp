@@ -11,6 +11,14 @@
 #include "vk/result.hpp"
 
 namespace geodisk {
+namespace {
+
+/// Returns true for the kernels of surfaces of which a job has one, lanes_kernel().
+constexpr bool computes_by_lanes(Kernel kernel) {
+    return kernel == Kernel::detect || kernel == Kernel::light || kernel == Kernel::reach;
+}
+
+} // namespace
 
 Pipelines::~Pipelines() {
     if (abandoned_) {
@@ -68,8 +76,7 @@ Result<Done> Pipelines::compile_all(KernelPipelines& pipelines, const KernelVari
         const KernelInfo& info = kernel_info(kernel);
         if ((info.domain == DomainKind::any) != is_common || !info.serves(variant.domain) ||
             (kernel == Kernel::group_detect && !variant.groups) ||
-            (kernel == Kernel::light && variant.ending != Ending::light) ||
-            (kernel == Kernel::reach && variant.ending != Ending::reach)) {
+            (computes_by_lanes(kernel) && kernel != lanes_kernel(variant))) {
             continue;
         }
         const auto compiled = pipeline_of(kernel, variant.of(kernel));
