@@ -40,10 +40,7 @@ ProgressCallback show_progress(ProgressLine& progress, DeviceLog& log, double ex
             print_warning("sampling takes more than " + seconds_text(watch.seconds()) +
                           " on this device: disks cover very many triangles");
         }
-        std::string text = grouped(state.accepted) + " samples";
-        if (const auto left = time.left(); left && *left >= 1) {
-            text += ", about " + seconds_text(*left) + " left";
-        }
+        std::string text = grouped(state.accepted) + " samples" + time.left_text();
         if (const std::uint64_t each = state.windows / std::max(1u, state.disks);
             each >= kManyWindows) {
             text += ", " + grouped(each) + " windows in each disk";

@@ -27,11 +27,7 @@ ProgressCallback show_progress(ProgressLine& progress) {
             progress.clear();
             print_warning("searching takes about " + seconds_text(*seconds) + " on this device");
         }
-        std::string text = grouped(state.accepted) + " pairs";
-        if (const auto left = time.left(); left && *left >= 1) {
-            text += ", about " + seconds_text(*left) + " left";
-        }
-        progress.update(part, text);
+        progress.update(part, grouped(state.accepted) + " pairs" + time.left_text());
         return !is_interrupted();
     };
 }

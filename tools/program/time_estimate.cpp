@@ -1,5 +1,7 @@
 #include "program/time_estimate.hpp"
 
+#include "program/human_text.hpp"
+
 namespace geodisk::tools {
 namespace {
 
@@ -36,6 +38,10 @@ bool TimeEstimate::is_long_already() {
     const bool is_news = !is_told_already_ && !left_ && seconds_ >= kLongRun;
     is_told_already_ = is_told_already_ || is_news;
     return is_news;
+}
+
+std::string TimeEstimate::left_text() const {
+    return left_ && *left_ >= 1 ? ", about " + seconds_text(*left_) + " left" : "";
 }
 
 } // namespace geodisk::tools

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 namespace geodisk::tools {
 
@@ -18,6 +19,8 @@ class TimeEstimate {
     void note(double seconds, double part);
     /// Seconds that are left; none while too little is known.
     std::optional<double> left() const { return left_; }
+    /// The same as ", about 5 s left"; "" for less than a second and while too little is known.
+    std::string left_text() const;
     /// Seconds that the whole run takes, once, if that is a long time.
     std::optional<double> long_run();
     /// Returns true once, when that long has passed and nobody knows what is left.

@@ -18,10 +18,6 @@ namespace {
 
 static_assert(sizeof(geodisk_job_frame) == kJobFrameBytes);
 
-Sample sample_of(const geodisk_surface_point& point) {
-    return {point.face, {point.weights[0], point.weights[1], point.weights[2]}};
-}
-
 /// Fills in a part. Its params refer to data of the part, so it must not move afterwards.
 Result<Done> fill(const geodisk_mesh* mesh, const geodisk_surface_params& given, Part& part) {
     if (mesh == nullptr) {

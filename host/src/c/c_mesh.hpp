@@ -8,6 +8,7 @@
 #include <geodisk/geodisk.h>
 #include <geodisk/mesh.hpp>
 #include <geodisk/radius_field.hpp>
+#include <geodisk/sample.hpp>
 
 namespace geodisk::c {
 
@@ -23,6 +24,10 @@ struct Mesh {
 
     MeshView view() const { return {positions, triangles, dimension}; }
 };
+
+inline Sample sample_of(const geodisk_surface_point& point) {
+    return {point.face, {point.weights[0], point.weights[1], point.weights[2]}};
+}
 
 struct Radii {
     RadiusField field;

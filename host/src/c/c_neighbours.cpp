@@ -26,12 +26,8 @@ struct Sources {
 };
 
 std::vector<Sample> samples_of(const geodisk_surface_point* points, std::size_t count) {
-    std::vector<Sample> samples;
-    samples.reserve(count);
-    for (std::size_t i = 0; i < count; ++i) {
-        samples.push_back(
-            {points[i].face, {points[i].weights[0], points[i].weights[1], points[i].weights[2]}});
-    }
+    std::vector<Sample> samples(count);
+    std::transform(points, points + count, samples.begin(), sample_of);
     return samples;
 }
 

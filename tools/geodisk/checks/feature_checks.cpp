@@ -41,7 +41,7 @@ class FeaturePlaces {
     }
 
     FeatureKind of(const SampleRow& row) const {
-        const Sample sample{row.face, {row.bary[0], row.bary[1], row.bary[2]}};
+        const Sample sample = sample_of(row);
         const std::uint32_t corner = 3 * row.face;
         const FeatureKind kind = feature_of(sample);
         if (kind == FeatureKind::corner) {

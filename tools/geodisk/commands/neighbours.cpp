@@ -123,7 +123,7 @@ std::vector<Sample> samples_in(const SampleFile& file) {
     std::vector<Sample> samples;
     samples.reserve(file.rows.size());
     for (const SampleRow& row : file.rows) {
-        samples.push_back({row.face, {row.bary[0], row.bary[1], row.bary[2]}});
+        samples.push_back(sample_of(row));
     }
     return samples;
 }

@@ -23,10 +23,6 @@ void check_count(const SampleJob& job, std::size_t given) {
     }
 }
 
-Sample sample_of(const SampleRow& row) {
-    return {row.face, {row.bary[0], row.bary[1], row.bary[2]}};
-}
-
 /// Takes the points to avoid that matter. Throws UserError if they leave no room, unless there are
 /// samples to keep.
 void take_avoided(const std::vector<KeepOut>& avoided, const MeshInput& mesh, bool keeps_samples,

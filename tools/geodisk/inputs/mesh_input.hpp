@@ -11,6 +11,7 @@
 #include <geodisk/mesh.hpp>
 #include <geodisk/params.hpp>
 #include <geodisk/radius_field.hpp>
+#include <geodisk/sample.hpp>
 
 #include "files/grey_image.hpp"
 #include "files/sample_file.hpp"
@@ -23,6 +24,11 @@
 #include "program/arguments.hpp"
 
 namespace geodisk::tools {
+
+/// Returns the point of its mesh that a row names.
+inline Sample sample_of(const SampleRow& row) {
+    return {row.face, {row.bary[0], row.bary[1], row.bary[2]}};
+}
 
 struct MeshInput {
     MeshFile file;
