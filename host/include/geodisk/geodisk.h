@@ -584,7 +584,7 @@ GEODISK_C_API void geodisk_samples_release(geodisk_samples *samples);
 
 /* ---- Neighbours -------------------------------------------------------------------------------- */
 
-/* What the neighbours of a source are among. */
+/* Where to look for the neighbours of a source. */
 typedef int32_t geodisk_neighbour_kind;
 enum {
     GEODISK_AMONG_VERTICES = 0, /* Vertices of the mesh. Where vertices are joined, all of them. */
@@ -601,7 +601,7 @@ typedef struct geodisk_neighbour_params {
     size_t source_count;
     double within;        /* A neighbour is at most so far away, along the surface; 0 with `nearest`
                            * for any distance. */
-    const double *radii;  /* The same for each source of its own; NULL if all have `within`. */
+    const double *radii;  /* Distance of each source; NULL if `within` holds for all. */
     geodisk_neighbour_kind kind;
     const geodisk_surface_point *points; /* To find, for GEODISK_AMONG_POINTS. */
     size_t point_count;

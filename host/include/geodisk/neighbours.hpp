@@ -14,7 +14,7 @@
 
 namespace geodisk {
 
-/// What the neighbours of a source are among.
+/// Where to look for the neighbours of a source.
 enum class NeighbourKind : std::uint32_t {
     vertices, ///< The vertices of the mesh, by their index.
     points,   ///< NeighbourQuery::points, by their index.
@@ -30,7 +30,7 @@ struct NeighbourQuery {
     /// A neighbour is at most so far away, along the surface. Positive and finite; or 0 with
     /// `nearest`, to search as far as need be.
     double within = 0;
-    /// The same for each source of its own, in place of `within`; empty if all have that.
+    /// Distance of each source, in place of `within`; empty if `within` holds for all.
     std::span<const double> radii{};
     NeighbourKind kind = NeighbourKind::vertices;
     std::span<const Sample> points{}; ///< At least one if `kind` asks for them, up to 2^28.
