@@ -1,12 +1,14 @@
 // Candidates that the host gives.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <random>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "device_run.hpp"
+#include "engine/domain/drawn.hpp"
 #include "engine/domain/listed.hpp"
 #include "sets.hpp"
 #include "support/meshes.hpp"
@@ -50,6 +52,29 @@ void check_as_twin(const PreparedMesh& mesh, const SampleParams& params, std::si
     }
 }
 
+/// Checks that a run over the candidates that the host draws returns the set of a plain run.
+void check_drawn(const PreparedMesh& mesh, const SampleParams& params) {
+    const JobFrame frame = expect(frame_of(mesh, params));
+    const CandidateDraw draw(mesh, params, frame);
+    std::vector<DrawnCandidate> drawn;
+    for (std::uint32_t face = 0; face < mesh.face_count(); ++face) {
+        for (std::uint32_t stage = 0; stage < draw.stages().pool_stages(); ++stage) {
+            draw.draw(face, stage, drawn);
+        }
+    }
+    std::ranges::sort(drawn, [](const DrawnCandidate& a, const DrawnCandidate& b) {
+        return is_before(a, b, false);
+    });
+    std::vector<ListedCandidate> candidates;
+    for (const DrawnCandidate& candidate : drawn) {
+        candidates.push_back(candidate.point);
+    }
+    Runner runner = expect(Runner::create(shared_context().device(), shared_context().queue()));
+    const Domain domain = expect(listed_domain(mesh, params, frame, candidates));
+    CHECK(test::points_of(expect(runner.sample_and_wait(domain))) ==
+          test::points_of(sample(mesh, params)));
+}
+
 std::string refusal(const std::vector<ListedCandidate>& candidates, std::uint32_t throws = 0) {
     const PreparedMesh mesh = prepared(builtin("cube", 1));
     SampleParams params = params_for(mesh, 100);
@@ -73,6 +98,15 @@ TEST_SUITE("listed") {
         const std::vector<Sample> given = sample(knot, settled).samples;
         settled.given = std::span(given).first(60);
         check_as_twin(knot, settled, 2000);
+    }
+
+    TEST_CASE("candidates that the host draws give the set of those that kernels draw") {
+        for (const TestMesh& shape : {builtin("torus-knot", 8), builtin("cube", 1)}) {
+            const PreparedMesh mesh = prepared(shape);
+            const RadiusField radii = radius_field(mesh, wavy_factors(shape, 0.3));
+            check_drawn(mesh, params_for(mesh, 700, 3));
+            check_drawn(mesh, params_for(mesh, 700, 3, &radii));
+        }
     }
 
     TEST_CASE("in faces of many cells") {

@@ -48,21 +48,6 @@ std::uint64_t cell_count(float extent, float cells_per_unit) {
     return scaled < 0x1p30f ? static_cast<std::uint64_t>(scaled) + 1 : kTooMany;
 }
 
-/// Returns the radii of a face without the bound; all are half of the unit if radii do not vary.
-gpu::RadiiRec radii_of(const SampleParams& params, std::uint32_t face) {
-    if (params.radii == nullptr) {
-        return {0.5f, 0.5f, 0.5f, 0, 0, 0, 0, 0};
-    }
-    const float* const g = &params.radii->factors()[std::size_t{3} * face];
-    const float* const s = &params.radii->spreads()[std::size_t{3} * face];
-    const float density = params.radii->densities()[face];
-    if (params.radii->packing().empty()) {
-        return {0.5f * g[0], 0.5f * g[1], 0.5f * g[2], 0, s[0], s[1], s[2], density};
-    }
-    const float* const packing = &params.radii->packing()[std::size_t{3} * face];
-    return {-packing[0], -packing[1], -packing[2], 0, s[0], s[1], s[2], density};
-}
-
 /// Same as in shaders/lib/radii.glsl.
 float cells_per_unit(const gpu::RadiiRec& radii) {
     const float corner = std::max({radii.radius0, radii.radius1, radii.radius2});
@@ -156,11 +141,6 @@ std::uint32_t placed_around(const PlacedSurface& surface, std::uint32_t around) 
     return around + (first_half_edge(surface) << 1);
 }
 
-std::uint32_t key_of(const PlacedSurface& surface, std::uint32_t face) {
-    const auto keys = surface.params.face_keys;
-    return keys.empty() ? face : keys[face];
-}
-
 gpu::PartRec part_of(const PlacedSurface& surface) {
     const SampleParams& params = surface.params;
     return {static_cast<std::uint32_t>(params.seed),
@@ -239,6 +219,25 @@ float face_area(const PreparedMesh& mesh, std::uint32_t face, double unit) {
     const HalfEdge& edge = mesh.half_edges()[std::size_t{3} * face];
     const float height = previous_length(mesh, 3 * face, unit) * direction(edge.angle().sine);
     return 0.5f * (scaled(edge.length, unit) * height);
+}
+
+std::uint32_t key_of(const PlacedSurface& surface, std::uint32_t face) {
+    const auto keys = surface.params.face_keys;
+    return keys.empty() ? face : keys[face];
+}
+
+gpu::RadiiRec radii_of(const SampleParams& params, std::uint32_t face) {
+    if (params.radii == nullptr) {
+        return {0.5f, 0.5f, 0.5f, 0, 0, 0, 0, 0};
+    }
+    const float* const g = &params.radii->factors()[std::size_t{3} * face];
+    const float* const s = &params.radii->spreads()[std::size_t{3} * face];
+    const float density = params.radii->densities()[face];
+    if (params.radii->packing().empty()) {
+        return {0.5f * g[0], 0.5f * g[1], 0.5f * g[2], 0, s[0], s[1], s[2], density};
+    }
+    const float* const packing = &params.radii->packing()[std::size_t{3} * face];
+    return {-packing[0], -packing[1], -packing[2], 0, s[0], s[1], s[2], density};
 }
 
 std::size_t half_edge_bytes(PlacedSurfaces surfaces) {

@@ -12,6 +12,7 @@
 
 #include "engine/domain/placed_surface.hpp"
 #include "engine/domain/upload_parts.hpp"
+#include "records.h"
 
 namespace geodisk {
 
@@ -43,6 +44,12 @@ void for_face_grids(const PlacedSurface& surface,
 
 /// Returns the area of a face as kernels compute it, with lengths in units of `unit`.
 float face_area(const PreparedMesh& mesh, std::uint32_t face, double unit);
+
+/// Returns the key by which the candidates of a face are drawn.
+std::uint32_t key_of(const PlacedSurface& surface, std::uint32_t face);
+
+/// Returns the radii of a face without the bound; all are half of the unit if radii do not vary.
+gpu::RadiiRec radii_of(const SampleParams& params, std::uint32_t face);
 
 /// Bytes of a row of the buffers.
 inline constexpr std::size_t kRowBytes = 16;

@@ -9,6 +9,8 @@
 
 #include "constants.h"
 #include "engine/capacity.hpp"
+#include "engine/domain/check_frame.hpp"
+#include "engine/domain/stages.hpp"
 #include "engine/domain/surface_domain.hpp"
 #include "records.h"
 #include "support/guard.hpp"
@@ -175,10 +177,24 @@ Result<Domain> listed_domain(const PreparedMesh& mesh, const SampleParams& param
         if (!frame) {
             return frame.error();
         }
+        return listed_domain(mesh, params, *frame, candidates);
+    });
+}
+
+Result<Domain> listed_domain(const PreparedMesh& mesh, const SampleParams& params,
+                             const JobFrame& frame,
+                             std::span<const ListedCandidate> candidates) noexcept {
+    return guarded([&]() -> Result<Domain> {
+        if (auto checked = check_params(mesh, params); !checked) {
+            return checked.error();
+        }
+        if (auto checked = check_frame(frame, mesh, params); !checked) {
+            return checked.error();
+        }
         if (auto checked = check_listed(mesh, params, candidates); !checked) {
             return checked.error();
         }
-        return SurfaceDomain::listed(mesh, params, *frame, candidates);
+        return SurfaceDomain::listed(mesh, params, frame, candidates);
     });
 }
 

@@ -35,6 +35,12 @@ struct ListedCandidate {
 GEODISK_API Result<Domain> listed_domain(const PreparedMesh& mesh, const SampleParams& params,
                                          std::span<const ListedCandidate> candidates) noexcept;
 
+/// Makes the same in a frame: that of `mesh` itself, or of a mesh that it is a part of. Errors:
+/// those above, and of Domain::surface() in a frame.
+GEODISK_API Result<Domain> listed_domain(const PreparedMesh& mesh, const SampleParams& params,
+                                         const JobFrame& frame,
+                                         std::span<const ListedCandidate> candidates) noexcept;
+
 /// What the device holds of listed candidates: the contents of these buffers.
 struct ListedBuffers {
     std::vector<std::uint32_t> starts, cells, weights, orders;

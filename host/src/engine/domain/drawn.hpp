@@ -1,0 +1,48 @@
+// The candidates of faces, drawn on the host as kernels draw them.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <geodisk/export.hpp>
+#include <geodisk/job_frame.hpp>
+#include <geodisk/mesh.hpp>
+#include <geodisk/params.hpp>
+
+#include "engine/domain/listed.hpp"
+#include "engine/domain/placed_surface.hpp"
+
+namespace geodisk {
+
+/// A candidate and its place in dart order: by stage, then priority, then as is_before() says.
+struct DrawnCandidate {
+    std::uint32_t stage, priority; ///< The priority has gpu::kPriorityBits.
+    ListedCandidate point;
+
+    friend bool operator==(const DrawnCandidate&, const DrawnCandidate&) = default;
+};
+
+/// Returns true if `a` comes before `b` in dart order. Among equal priorities, candidates are
+/// ordered by face and weights, or by weights if faces have keys, as kernels do.
+GEODISK_API bool is_before(const DrawnCandidate& a, const DrawnCandidate& b,
+                           bool has_keys) noexcept;
+
+/// Draws the candidates of faces of a surface, or of a part of one in the frame of the whole: each
+/// is the one that kernels draw, to the bit. Without classes.
+class GEODISK_API CandidateDraw {
+  public:
+    /// `mesh`, and what `params` refers to, must outlive it. The parameters fit the mesh and the
+    /// frame.
+    CandidateDraw(const PreparedMesh& mesh, const SampleParams& params, const JobFrame& frame);
+
+    /// Returns the stages of the job.
+    const Stages& stages() const noexcept { return surface_.stages; }
+
+    /// Appends the candidates of a face in a stage, by number.
+    void draw(std::uint32_t face, std::uint32_t stage, std::vector<DrawnCandidate>& out) const;
+
+  private:
+    PlacedSurface surface_;
+};
+
+} // namespace geodisk
