@@ -3,6 +3,7 @@
 #pragma once
 
 #include <geodisk/box.hpp>
+#include <geodisk/cells.hpp>
 #include <geodisk/context.hpp>
 #include <geodisk/count_search.hpp>
 #include <geodisk/device.hpp>

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cstddef>
 #include <exception>
+#include <new>
 #include <thread>
 #include <vector>
 
@@ -57,6 +58,23 @@ void for_blocks(const ThreadOptions& options, std::size_t count, const Work& wor
         }
     }
     take_rest();
+}
+
+/// Calls `work(part)` once for each of so many parts, on threads as for_blocks(). `work` may throw
+/// only std::bad_alloc, which is thrown again once all parts have returned.
+template <class Work>
+void for_parts(const ThreadOptions& options, std::size_t parts, const Work& work) {
+    std::atomic<bool> is_short_of_memory = false;
+    for_blocks(options, parts * kBlock, [&](std::size_t begin, std::size_t) {
+        try {
+            work(begin / kBlock);
+        } catch (const std::bad_alloc&) {
+            is_short_of_memory = true;
+        }
+    });
+    if (is_short_of_memory) {
+        throw std::bad_alloc();
+    }
 }
 
 } // namespace geodisk

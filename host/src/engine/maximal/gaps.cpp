@@ -1,16 +1,15 @@
 #include "engine/maximal/gaps.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <limits>
-#include <new>
 #include <tuple>
 #include <utility>
 
 #include <geodisk/philox.hpp>
 
 #include "engine/domain/face_mask.hpp"
+#include "mesh/face_area.hpp"
 #include "support/blocks.hpp"
 
 namespace geodisk {
@@ -24,13 +23,6 @@ constexpr double kUnitArea = 1.299038105676658;
 constexpr std::uint64_t kSeedOfGaps = 0x6d6178696d616c00;
 // From so many splits on every cell gets a dart: few points are left in it.
 constexpr std::uint32_t kLastSplits = 22;
-
-bool has_area(const PreparedMesh& mesh, std::uint32_t face) {
-    const auto edges = mesh.half_edges().subspan(std::size_t{3} * face, 3);
-    const bool repeats = edges[0].origin == edges[1].origin || edges[1].origin == edges[2].origin ||
-                         edges[2].origin == edges[0].origin;
-    return !repeats && edges[0].length > 0 && edges[0].apex_y > 0;
-}
 
 /// Returns a point of the cell with weights that are multiples of 2^-24, given two random words.
 ListedCandidate point_in(const GapCell& cell, std::uint32_t a, std::uint32_t b) {
@@ -124,20 +116,11 @@ void Gaps::split(std::span<const Living> cells, double goal, Part& part) const {
 void Gaps::refine(double goal) {
     const std::size_t count = (cells_.size() + kCellsPerPart - 1) / kCellsPerPart;
     std::vector<Part> parts(count);
-    std::atomic<bool> is_short_of_memory = false;
-    for_blocks(threads_, count * kBlock, [&](std::size_t begin, std::size_t) {
-        const std::size_t number = begin / kBlock;
+    for_parts(threads_, count, [&](std::size_t number) {
         const std::size_t first = number * kCellsPerPart;
         const std::size_t length = std::min(kCellsPerPart, cells_.size() - first);
-        try {
-            split(std::span(cells_).subspan(first, length), goal, parts[number]);
-        } catch (const std::bad_alloc&) {
-            is_short_of_memory = true;
-        }
+        split(std::span(cells_).subspan(first, length), goal, parts[number]);
     });
-    if (is_short_of_memory) {
-        throw std::bad_alloc();
-    }
     cells_.clear();
     lists_.resize(count);
     for (std::size_t number = 0; number < count; ++number) {

@@ -16,6 +16,12 @@ struct Offset {
     double x, y, distance;
 };
 
+Offset offset_of(const gpu::LitRec& record, const LitFaces::Target& target) {
+    const LitFaces::Target::Place& at = target.at[(record.place >> 1) % 3];
+    const double x = at.x - double{record.x}, y = at.y - double{record.y};
+    return {x, y, std::sqrt(x * x + y * y) + double{record.sigma}};
+}
+
 /// How far the target is outside the borders of the lit part; 0 within.
 double aside(const gpu::LitRec& record, const Offset& offset, double slack) {
     if ((record.place & 1) != 0) {
@@ -56,6 +62,11 @@ LitFaces::LitFaces(const PreparedMesh& mesh, const SampleParams& params, const J
 
 void LitFaces::add(std::span<const gpu::LitRec> records) {
     records_.insert(records_.end(), records.begin(), records.end());
+}
+
+void LitFaces::drop(std::span<const std::uint8_t> marks) {
+    std::erase_if(records_,
+                  [&](const gpu::LitRec& record) { return marks[record.sample_index] != 0; });
 }
 
 void LitFaces::sort_from(std::size_t first) {
@@ -126,30 +137,30 @@ double LitFaces::limit_of(const gpu::LitRec& record, double radius) const {
     return record.limit < 0 ? -double{record.limit} : double{record.limit} + radius;
 }
 
+LitFaces::Sight LitFaces::sight(std::uint32_t light, const Target& target) const {
+    const gpu::LitRec& record = records_[light];
+    const Offset offset = offset_of(record, target);
+    return {offset.distance, aside(record, offset, slack_)};
+}
+
 Cover LitFaces::cover(std::uint32_t light, const Target& target) const {
     const gpu::LitRec& record = records_[light];
-    const Target::Place& at = target.at[(record.place >> 1) % 3];
-    const double x = at.x - double{record.x}, y = at.y - double{record.y};
-    const double distance = std::sqrt(x * x + y * y) + double{record.sigma};
-    if (distance - target.margin >= limit_of(record, target.largest_radius)) {
+    const Offset offset = offset_of(record, target);
+    if (offset.distance - target.margin >= limit_of(record, target.largest_radius)) {
         return Cover::none;
     }
-    const double outside = aside(record, {x, y, distance}, slack_);
+    const double outside = aside(record, offset, slack_);
     if (outside > target.margin) {
         return Cover::none;
     }
-    const bool is_near = distance + target.reach < limit_of(record, target.least_radius);
+    const bool is_near = offset.distance + target.reach < limit_of(record, target.least_radius);
     return outside == 0 && is_near ? Cover::all : Cover::some;
 }
 
 double LitFaces::excess(std::uint32_t light, const Target& target) const {
-    const gpu::LitRec& record = records_[light];
-    const Target::Place& at = target.at[(record.place >> 1) % 3];
-    const double x = at.x - double{record.x}, y = at.y - double{record.y};
-    const double distance = std::sqrt(x * x + y * y) + double{record.sigma};
-    return aside(record, {x, y, distance}, slack_) > 0
-               ? std::numeric_limits<double>::infinity()
-               : distance + target.reach - limit_of(record, target.least_radius);
+    const auto [distance, outside] = sight(light, target);
+    return outside > 0 ? std::numeric_limits<double>::infinity()
+                       : distance + target.reach - limit_of(records_[light], target.least_radius);
 }
 
 } // namespace geodisk

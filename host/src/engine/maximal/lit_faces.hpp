@@ -53,11 +53,21 @@ class LitFaces {
     /// where it is not lit.
     double excess(std::uint32_t light, const Target& target) const;
 
+    /// How far a target is from the sample of a light, and how far it is outside what is lit: 0
+    /// within.
+    struct Sight {
+        double distance, outside;
+    };
+    Sight sight(std::uint32_t light, const Target& target) const;
+    const gpu::LitRec& record(std::uint32_t light) const { return records_[light]; }
+
     /// Returns the lights that were added to a face since the number `first`.
     std::span<const std::uint32_t> lights_of(std::uint32_t face) const;
     /// Sorts the lights from `first` on by face, for lights_of().
     void sort_from(std::size_t first);
     std::size_t size() const { return records_.size(); }
+    /// Drops the lights whose sample has a mark. Those left are numbered anew.
+    void drop(std::span<const std::uint8_t> marks);
 
     /// Returns the area of a face, in units of the frame.
     double area(std::uint32_t face) const;

@@ -1,7 +1,6 @@
 #include "engine/neighbours/search_within.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -13,7 +12,7 @@
 #include "engine/domain/surface_domain.hpp"
 #include "engine/domain/tolerances.hpp"
 #include "engine/neighbours/neighbour_lists.hpp"
-#include "engine/run/run.hpp"
+#include "engine/run/record_disks.hpp"
 #include "engine/run/runner_impl.hpp"
 #include "support/invalid.hpp"
 #include "support/number_text.hpp"
@@ -21,7 +20,6 @@
 namespace geodisk {
 namespace {
 
-constexpr std::chrono::milliseconds kPatience(50);
 // Paths that a disk finds to a target, and records of a source besides.
 constexpr double kPathsPerTarget = 1.5;
 constexpr double kMoreRecords = 16;
@@ -124,19 +122,11 @@ Result<bool> Search::find(std::size_t sources, std::uint32_t room) {
     }
     DiskRecords records;
     const auto heard = [this](const Progress& now) { return report(now); };
-    if (auto begun = impl_.begin(*domain, &records, heard); !begun) {
-        return begun.error();
+    const auto recorded = record_disks(runner_, *domain, records, heard);
+    if (!recorded) {
+        return recorded.error();
     }
-    for (;;) {
-        const auto ended = runner_.poll(kPatience);
-        if (!ended) {
-            return ended.error();
-        }
-        if (*ended) {
-            report_.add((*ended)->report);
-            break;
-        }
-    }
+    report_.add(*recorded);
     records_per_source_ =
         std::max(records_per_source_, records.wanted / static_cast<double>(sources));
     if (records.wanted > records.hits.size()) {

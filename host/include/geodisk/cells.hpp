@@ -1,0 +1,71 @@
+// Cells: which part of a surface is nearer to a sample than to all others, along the surface.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <geodisk/export.hpp>
+#include <geodisk/mesh.hpp>
+#include <geodisk/runner.hpp>
+#include <geodisk/sample.hpp>
+#include <geodisk/status.hpp>
+
+namespace geodisk {
+
+/// What to find of cells.
+struct CellParams {
+    /// Finds which cells touch, and where three meet.
+    bool has_dual = true;
+    /// Maximum number of records of paths, 36 bytes each on the host. Some 10 to 1,000 per sample
+    /// are usual.
+    std::uint64_t most_records = std::uint64_t{1} << 27;
+};
+
+/// The shape of a dual graph beside that of the mesh.
+struct DualReport {
+    std::uint64_t vertices = 0;  ///< Samples with a cell.
+    std::uint64_t edges = 0;     ///< Pairs of cells that touch.
+    std::uint64_t triangles = 0; ///< Places where three cells meet.
+    std::uint64_t manifold = 0;  ///< Triangles whose edges have one or two triangles each, and
+                                 ///< whose corners have one fan of triangles each.
+    std::int64_t euler = 0;      ///< vertices - edges + triangles.
+    std::int64_t mesh_euler = 0; ///< The same of the mesh.
+};
+
+/// The geodesic Voronoi cells of samples.
+struct SurfaceCells {
+    /// Area of the cell of each sample, in mesh units. They sum to the area of the surface, without
+    /// `unreached`.
+    std::vector<double> areas;
+    /// No area is off by more. Where a part of the surface is equally far from several samples, as
+    /// behind a saddle vertex, its area counts here as well.
+    double area_error = 0;
+    double distance_error = 0; ///< Bound on the error of distances, in mesh units.
+    double unreached = 0;      ///< Area of the parts of the mesh without a sample.
+    /// Pairs of samples whose cells touch along a line, each once: the lower sample first.
+    /// Ascending. Empty without CellParams::has_dual.
+    std::vector<std::array<std::uint32_t, 2>> edges;
+    /// Three samples for each place where their cells meet, turning as the faces there. Where more
+    /// meet at a point, there are several, all with the same sample.
+    std::vector<std::array<std::uint32_t, 3>> triangles;
+    DualReport dual;
+    RunReport report;
+};
+
+/// Finds the cells of all samples: the points of the surface that are nearer to each than to any
+/// other, by exact geodesic distances. At places equally near to several the cell is that of the
+/// first. The result is the same on every device, whatever the memory. Progress counts samples
+/// twice as candidates: as their disks are computed, and as their cells are; returns `cancelled`
+/// if it asks to stop.
+///
+/// Errors: `invalid_argument` for no sample; for a sample, naming it, in a face that does not exist
+/// or repeats a vertex or with weights that are negative or do not sum to 1. `job_too_large` for
+/// more than `most_records`, naming how many to expect. Others as Runner::sample_and_wait().
+GEODISK_API Result<SurfaceCells> find_cells(Runner& runner, const PreparedMesh& mesh,
+                                            std::span<const Sample> samples,
+                                            const CellParams& params = {},
+                                            const ProgressCallback& progress = {}) noexcept;
+
+} // namespace geodisk

@@ -1,0 +1,92 @@
+// CellSplitter: splits faces until it is known which sample is the nearest one where.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "engine/cells/flat_pieces.hpp"
+#include "engine/cells/grid_points.hpp"
+#include "engine/cells/lower_parts.hpp"
+#include "engine/cells/near_lights.hpp"
+
+namespace geodisk {
+
+/// A part of the cell of a sample, in units of the frame.
+struct CellShare {
+    std::uint32_t sample;
+    double area;
+    double doubt; ///< The area may be off by so much.
+};
+
+/// A triangle of the grid whose corners are nearest to three samples. Triangles of the grid that
+/// touch, and of which none is provably nearest to one or two samples, are a knot.
+struct Meeting {
+    std::array<std::uint32_t, 3> samples; ///< Ascending.
+    std::uint32_t knot;
+    bool turns_back; ///< They turn the other way than the face.
+};
+
+/// A point of edges or at a vertex with a triangle of a knot.
+struct KnotEnd {
+    GridPoint point;
+    std::uint32_t knot;
+    auto operator<=>(const KnotEnd&) const = default;
+};
+
+/// What is found in some faces.
+struct FoundCells {
+    std::vector<CellShare> shares;
+    std::vector<std::array<std::uint32_t, 2>> pairs; ///< Of cells that touch: the lower first.
+    std::uint32_t knots = 0;                         ///< Their number, of these faces.
+    std::vector<Meeting> meetings;
+    std::vector<KnotEnd> ends; ///< Where they go on in other faces.
+    double unreached = 0;      ///< Area that no disk reaches.
+};
+
+class CellSplitter {
+  public:
+    /// Distances may be off by a quarter of `tolerance`.
+    CellSplitter(const LitFaces& lit, const GridPoints& grid, double tolerance, bool has_dual)
+        : lit_(lit), grid_(grid), tolerance_(tolerance), has_dual_(has_dual), near_(lit, tolerance),
+          flat_(lit, tolerance) {}
+
+    /// Finds the cells in a face with area.
+    void split(std::uint32_t face, FoundCells& found);
+    /// Sums what was found of each sample and each pair.
+    static void merge(FoundCells& found);
+
+  private:
+    struct State {
+        NearLights::Range lights;
+        bool is_lit;   ///< The centroid of the part around it is.
+        bool has_area; ///< Areas are known already.
+    };
+    void split(const GapCell& cell, const State& around);
+    void share_out(double area);
+    /// Returns how many samples may be nearest in a cell, up to 3.
+    std::uint32_t count_near(bool is_flat, std::span<const std::uint32_t> lights);
+    void note_pair();
+    void note_meeting(const GapCell& cell, std::span<const std::uint32_t> lights);
+    /// Tells apart the knots of the face.
+    void tie_knots();
+    std::uint32_t nearest_at(const FacePlace& place, std::span<const std::uint32_t> lights) const;
+    void give(std::uint32_t sample, double area, double doubt) {
+        found_->shares.push_back({sample, area, doubt});
+    }
+
+    const LitFaces& lit_;
+    const GridPoints& grid_;
+    double tolerance_;
+    bool has_dual_;
+    NearLights near_;
+    FlatPieces flat_;
+    LowerParts parts_;
+    FoundCells* found_ = nullptr;
+    std::uint64_t left_ = 0; ///< Cells that may still be split.
+    /// Corners of the grid's triangles in knots, and meetings with their number as the knot.
+    std::vector<std::array<GridPoint, 3>> knotted_;
+    std::vector<Meeting> meetings_;
+};
+
+} // namespace geodisk

@@ -1,0 +1,232 @@
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <geodisk/cells.hpp>
+
+#include "engine/cells/cell_splitter.hpp"
+#include "engine/cells/dual_graph.hpp"
+#include "engine/cells/lit_cells.hpp"
+#include "engine/domain/given.hpp"
+#include "mesh/face_area.hpp"
+#include "support/blocks.hpp"
+#include "support/guard.hpp"
+#include "support/invalid.hpp"
+
+namespace geodisk {
+namespace {
+
+// Disks of even samples cover the surface, with this radius in parts of the square root of the area
+// per sample.
+constexpr double kFirstRadius = 0.85;
+// No edge may be too long for it.
+constexpr double kLongestEdge = 1000;
+// The longest edge of the grid, in parts of the smallest disk, but not too small for the largest.
+constexpr double kSmallestCell = 0x1p-14;
+constexpr double kSmallestOfAll = 0x1p-20;
+constexpr std::uint32_t kFacesPerPart = 256;
+constexpr std::size_t kPartsAtOnce = 64;
+
+std::uint32_t grid_level(const JobFrame& frame, const LitCells& lit) {
+    const double step =
+        std::max(kSmallestCell * lit.smallest_radius(), kSmallestOfAll * lit.largest_radius());
+    const double splits = std::ceil(std::log2(std::max(2.0, frame.longest_edge / step)));
+    return static_cast<std::uint32_t>(std::min<double>(splits, kMostSplits - 1));
+}
+
+class CellSearch {
+  public:
+    CellSearch(Runner& runner, const PreparedMesh& mesh, std::size_t samples, const LitCells& lit,
+               const JobFrame& frame, const CellParams& params, const ProgressCallback& progress)
+        : impl_(Runner::Impl::of(runner)), mesh_(mesh), lit_(lit), frame_(frame), params_(params),
+          progress_(progress), grid_(mesh, grid_level(frame, lit)) {
+        cells_.areas.resize(samples, 0);
+        doubts_.resize(samples, 0);
+    }
+
+    Result<SurfaceCells> go();
+
+  private:
+    void split(std::uint32_t part, FoundCells& found) const;
+    void add(const FoundCells& found);
+    bool report(double part) const;
+
+    Runner::Impl& impl_;
+    const PreparedMesh& mesh_;
+    const LitCells& lit_;
+    const JobFrame& frame_;
+    const CellParams& params_;
+    const ProgressCallback& progress_;
+    GridPoints grid_;
+    SurfaceCells cells_;
+    std::vector<double> doubts_;
+    std::vector<std::array<std::uint32_t, 2>> pairs_;
+    std::vector<Meeting> meetings_;
+    std::vector<KnotEnd> ends_;
+    std::uint32_t knots_ = 0;
+};
+
+void CellSearch::split(std::uint32_t part, FoundCells& found) const {
+    CellSplitter splitter(lit_.faces(), grid_, lit_.tolerance(), params_.has_dual);
+    const std::uint32_t first = part * kFacesPerPart;
+    const std::uint32_t end = std::min(first + kFacesPerPart, mesh_.face_count());
+    for (std::uint32_t face = first; face < end; ++face) {
+        if (has_area(mesh_, face)) {
+            splitter.split(face, found);
+        }
+    }
+    CellSplitter::merge(found);
+}
+
+void CellSearch::add(const FoundCells& found) {
+    for (const auto& [sample, area, doubt] : found.shares) {
+        cells_.areas[sample] += area;
+        doubts_[sample] += doubt;
+    }
+    cells_.unreached += found.unreached;
+    pairs_.insert(pairs_.end(), found.pairs.begin(), found.pairs.end());
+    for (Meeting meeting : found.meetings) {
+        meeting.knot += knots_;
+        meetings_.push_back(meeting);
+    }
+    for (KnotEnd end : found.ends) {
+        end.knot += knots_;
+        ends_.push_back(end);
+    }
+    knots_ += found.knots;
+}
+
+bool CellSearch::report(double part) const {
+    const auto all = static_cast<double>(cells_.areas.size());
+    return !progress_ || progress_({static_cast<std::uint32_t>((1 + part) * all),
+                                    static_cast<std::uint32_t>(2 * all), 0, lit_.report().disks,
+                                    lit_.report().windows});
+}
+
+Result<SurfaceCells> CellSearch::go() {
+    const double start = impl_.now();
+    const std::uint32_t parts = (mesh_.face_count() + kFacesPerPart - 1) / kFacesPerPart;
+    for (std::uint32_t first = 0; first < parts; first += kPartsAtOnce) {
+        const std::size_t count = std::min<std::size_t>(kPartsAtOnce, parts - first);
+        std::vector<FoundCells> found(count);
+        for_parts(impl_.options.threads, count,
+                  [&](std::size_t i) { split(first + static_cast<std::uint32_t>(i), found[i]); });
+        for (const FoundCells& part : found) {
+            add(part);
+        }
+        if (!report(static_cast<double>(first + count) / parts)) {
+            return Error{Status::cancelled, "cancelled"};
+        }
+    }
+    const double square = frame_.unit * frame_.unit;
+    for (double& area : cells_.areas) {
+        area *= square;
+    }
+    cells_.unreached *= square;
+    cells_.area_error = *std::ranges::max_element(doubts_) * square;
+    cells_.distance_error = lit_.tolerance() / 4 * frame_.unit;
+    if (params_.has_dual) {
+        cells_.triangles = dual_triangles(std::move(meetings_), std::move(ends_), knots_);
+        cells_.edges = dual_edges(std::move(pairs_), cells_.triangles);
+        cells_.dual = dual_report(mesh_, cells_);
+    }
+    cells_.report = lit_.report();
+    cells_.report.seconds.sample += impl_.now() - start;
+    return std::move(cells_);
+}
+
+Result<Done> check_samples(const PreparedMesh& mesh, std::span<const Sample> samples) {
+    if (samples.empty()) {
+        return invalid("there is no sample");
+    }
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+        if (const std::string fault = fault_of(samples[i], mesh); !fault.empty()) {
+            return invalid("sample " + std::to_string(i) + " " + fault);
+        }
+    }
+    return Done{};
+}
+
+/// Returns the first of all samples at each place.
+std::vector<std::uint32_t> unlike_samples(const PreparedMesh& mesh,
+                                          std::span<const Sample> samples) {
+    const GridPoints grid(mesh, 24);
+    std::vector<std::pair<GridPoint, std::uint32_t>> places;
+    for (std::uint32_t i = 0; i < samples.size(); ++i) {
+        const auto [second, third] = rounded_weights(samples[i].weights);
+        places.emplace_back(grid.point(samples[i].face,
+                                       static_cast<std::uint32_t>(second * 0x1p24f),
+                                       static_cast<std::uint32_t>(third * 0x1p24f)),
+                            i);
+    }
+    std::ranges::sort(places);
+    std::vector<std::uint32_t> first;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        if (i == 0 || places[i].first != places[i - 1].first) {
+            first.push_back(places[i].second);
+        }
+    }
+    std::ranges::sort(first);
+    return first;
+}
+
+/// Names samples by their numbers among all.
+void renumber(SurfaceCells& cells, std::span<const std::uint32_t> numbers, std::size_t all) {
+    if (numbers.size() == all) {
+        return;
+    }
+    std::vector<double> areas(all, 0);
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+        areas[numbers[i]] = cells.areas[i];
+    }
+    cells.areas = std::move(areas);
+    for (auto& edge : cells.edges) {
+        edge = {numbers[edge[0]], numbers[edge[1]]};
+    }
+    for (auto& [a, b, c] : cells.triangles) {
+        a = numbers[a], b = numbers[b], c = numbers[c];
+    }
+}
+
+} // namespace
+
+Result<SurfaceCells> find_cells(Runner& runner, const PreparedMesh& mesh,
+                                std::span<const Sample> samples, const CellParams& params,
+                                const ProgressCallback& progress) noexcept {
+    return guarded([&]() -> Result<SurfaceCells> {
+        if (auto checked = check_samples(mesh, samples); !checked) {
+            return checked.error();
+        }
+        const std::vector<std::uint32_t> unlike = unlike_samples(mesh, samples);
+        std::vector<Sample> different;
+        for (const std::uint32_t sample : unlike) {
+            different.push_back(samples[sample]);
+        }
+        const MeshStatistics& statistics = mesh.statistics();
+        const double each = statistics.area / static_cast<double>(unlike.size());
+        SampleParams job;
+        job.min_distance =
+            std::max(kFirstRadius * std::sqrt(each), statistics.longest_edge / kLongestEdge);
+        job.throws = 1; // A pool might be too large, and none is drawn.
+        const auto frame = frame_of(mesh, job);
+        job.throws = 0;
+        if (!frame) {
+            return frame.error();
+        }
+        LitCells lit(runner, mesh, different, job, *frame, params, progress);
+        if (auto done = lit.light(); !done) {
+            return done.error();
+        }
+        CellSearch search(runner, mesh, unlike.size(), lit, *frame, params, progress);
+        auto cells = search.go();
+        if (cells) {
+            renumber(*cells, unlike, samples.size());
+        }
+        return cells;
+    });
+}
+
+} // namespace geodisk

@@ -1,0 +1,63 @@
+// FlatPieces: the distances of samples in a part of a face that is so small, or so evenly lit, that
+// linear functions tell which sample is the nearest where.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "engine/cells/lower_parts.hpp"
+#include "engine/cells/near_lights.hpp"
+#include "engine/maximal/lit_faces.hpp"
+
+namespace geodisk {
+
+/// A distance d becomes the function (d - s)^2 - |p|^2, with s the least distance of a source and p
+/// the place: linear where that source is the sample's, and as large where d is.
+class FlatPieces {
+  public:
+    /// Lengths are in units of the frame. Distances may be off by a quarter of `tolerance`.
+    FlatPieces(const LitFaces& lit, double tolerance) : lit_(lit), tolerance_(tolerance) {}
+
+    /// Finds the distances of all lights that NearLights::look() found for a cell. Returns false
+    /// if it is too large, or partly lit.
+    bool find(const GapCell& cell, const LitFaces::Target& target, const NearLights::View& view,
+              std::span<const std::uint32_t> lights);
+
+    // As find() found them. A sample may have several functions.
+
+    std::span<const CornerValues> functions() const { return functions_; }
+    std::span<const std::uint32_t> samples() const { return samples_; }
+    /// Returns by how much functions may be off from linear ones and by rounding.
+    double band() const { return band_; }
+    /// Returns the largest difference of functions with which nearest() may still name a sample.
+    double wide_band() const { return wide_band_; }
+    /// Returns true if distances are so close to linear that areas are exact.
+    bool is_exact() const { return is_exact_; }
+    /// Returns the sample of each corner: the first of those that are nearest up to the tolerance.
+    std::array<std::uint32_t, 3> nearest() const;
+
+  private:
+    struct Piece {
+        std::uint32_t sample;
+        std::array<double, 3> distances; ///< At the corners.
+        CornerValues values;             ///< Of its function.
+        double bend;                     ///< By how much that may be off from linear.
+        std::uint32_t lit;               ///< Bit of each corner that is lit.
+    };
+    void gather(const GapCell& cell, const LitFaces::Target& target,
+                std::span<const std::uint32_t> lights);
+    bool drop_beaten();
+
+    const LitFaces& lit_;
+    double tolerance_;
+    std::vector<Piece> pieces_;
+    std::vector<CornerValues> functions_;
+    std::vector<std::uint32_t> samples_;
+    double nearest_source_ = 0;
+    double band_ = 0, wide_band_ = 0;
+    bool is_exact_ = false;
+};
+
+} // namespace geodisk

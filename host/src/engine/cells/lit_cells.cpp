@@ -1,0 +1,185 @@
+#include "engine/cells/lit_cells.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <string>
+#include <utility>
+
+#include "engine/cells/open_cells.hpp"
+#include "engine/domain/surface_domain.hpp"
+#include "engine/domain/tolerances.hpp"
+#include "engine/run/record_disks.hpp"
+#include "mesh/extent.hpp"
+#include "support/number_text.hpp"
+
+namespace geodisk {
+namespace {
+
+// Samples whose disks tell how many records there will be.
+constexpr std::size_t kFewSamples = 64;
+// Disks begin no smaller, in parts of those that cover the surface if samples are even.
+constexpr double kSmallest = 0x1p-10;
+constexpr double kGrowth = 1.5;
+// Maximum of records read at once and of disks of a job, and room for more than expected.
+constexpr double kMostRecords = 0x1p21;
+constexpr double kMostDisks = 0x1p20;
+constexpr double kSpareRecords = 1.5;
+constexpr double kLeastRecords = 4096;
+
+} // namespace
+
+LitCells::LitCells(Runner& runner, const PreparedMesh& mesh, std::span<const Sample> samples,
+                   const SampleParams& params, const JobFrame& frame, const CellParams& cells,
+                   const ProgressCallback& progress)
+    : runner_(runner), impl_(Runner::Impl::of(runner)), mesh_(mesh), samples_(samples),
+      params_(params), frame_(frame), cells_(cells), progress_(progress),
+      lit_(mesh, params, frame, double{ErrorModel(frame).tolerances(frame.error_bound).slack}),
+      radii_(samples.size(), 1), left_(samples.size()) {}
+
+double LitCells::largest_radius() const {
+    return *std::ranges::max_element(radii_);
+}
+
+double LitCells::smallest_radius() const {
+    return *std::ranges::min_element(radii_);
+}
+
+double LitCells::tolerance() const {
+    // Lengths of larger disks are scaled down to less than 2.
+    return 4 * ErrorModel(frame_).error_of(report_.longest_chain) *
+           std::max(1.0, 2 * largest_radius());
+}
+
+bool LitCells::report(const Progress& now) const {
+    const auto all = static_cast<std::uint32_t>(samples_.size());
+    const auto done = all - static_cast<std::uint32_t>(left_) + now.disks;
+    return !progress_ || progress_({std::min(done, all), 2 * all, 0, report_.disks + now.disks,
+                                    report_.windows + now.windows});
+}
+
+Error LitCells::too_many(double records) const {
+    return {Status::job_too_large, "the cells take about " + number_text(records) +
+                                       " records of paths, more than the " +
+                                       std::to_string(cells_.most_records) +
+                                       " that are allowed; take fewer samples or a simpler mesh"};
+}
+
+Result<std::vector<gpu::LitRec>> LitCells::disks_of(std::span<const std::uint32_t> samples) {
+    std::vector<KeepOut> disks;
+    disks.reserve(samples.size());
+    for (const std::uint32_t sample : samples) {
+        disks.push_back({samples_[sample], radii_[sample] * frame_.unit});
+    }
+    SampleParams params = params_;
+    params.avoid = disks;
+    const auto heard = [this](const Progress& now) { return this->report(now); };
+    const auto count = static_cast<double>(samples.size());
+    for (double room = kSpareRecords * records_per_disk_ * count + kLeastRecords;;) {
+        if (room > 0x1p31) {
+            return too_many(room);
+        }
+        const auto domain = SurfaceDomain::recording(mesh_, params, frame_, Ending::light, {},
+                                                     static_cast<std::uint32_t>(room));
+        if (!domain) {
+            return domain.error();
+        }
+        DiskRecords records;
+        const auto recorded = record_disks(runner_, *domain, records, heard);
+        if (!recorded) {
+            return recorded.error();
+        }
+        report_.add(*recorded);
+        records_per_disk_ = std::max(records_per_disk_, records.wanted / count);
+        if (records.wanted <= records.lights.size()) {
+            for (gpu::LitRec& record : records.lights) {
+                record.sample_index = samples[record.sample_index];
+            }
+            return std::move(records.lights);
+        }
+        room = records.wanted;
+    }
+}
+
+Result<Done> LitCells::choose_radii() {
+    if (samples_.size() <= kFewSamples) {
+        return Done{};
+    }
+    std::vector<std::uint32_t> few;
+    for (std::size_t i = 0; i < kFewSamples; ++i) {
+        few.push_back(static_cast<std::uint32_t>(i * samples_.size() / kFewSamples));
+    }
+    for (double radius = 1; radius >= kSmallest; radius /= 2) {
+        std::ranges::fill(radii_, radius);
+        records_per_disk_ = 1;
+        const auto lights = disks_of(few);
+        if (!lights) {
+            return lights.error();
+        }
+        const auto all = static_cast<double>(lights->size()) / kFewSamples *
+                         static_cast<double>(samples_.size());
+        if (all <= static_cast<double>(cells_.most_records)) {
+            return Done{};
+        }
+        if (radius == kSmallest) {
+            return too_many(all);
+        }
+    }
+    return Done{};
+}
+
+Result<Done> LitCells::light(std::span<const std::uint32_t> samples) {
+    left_ = samples.size();
+    const double most = std::min(kMostRecords, impl_.record_bytes() / sizeof(gpu::LitRec));
+    while (!samples.empty()) {
+        const double at_once =
+            std::clamp(most / (kSpareRecords * records_per_disk_), 1.0, kMostDisks);
+        const auto count =
+            static_cast<std::size_t>(std::min(at_once, static_cast<double>(samples.size())));
+        const auto lights = disks_of(samples.first(count));
+        if (!lights) {
+            return lights.error();
+        }
+        lit_.add(*lights);
+        if (lit_.size() > cells_.most_records) {
+            return too_many(static_cast<double>(lit_.size()) * static_cast<double>(left_) /
+                            static_cast<double>(left_ - samples.size() + count));
+        }
+        samples = samples.subspan(count);
+        left_ -= count;
+    }
+    return Done{};
+}
+
+Result<Done> LitCells::light() {
+    if (auto chosen = choose_radii(); !chosen) {
+        return chosen;
+    }
+    std::vector<std::uint32_t> samples(samples_.size());
+    std::iota(samples.begin(), samples.end(), 0u);
+    const double bound = 1.01 * distance_bound(mesh_) / frame_.unit;
+    for (;;) {
+        if (auto lit = light(samples); !lit) {
+            return lit;
+        }
+        const double start = impl_.now();
+        lit_.sort_from(0);
+        std::vector<std::uint8_t> marks =
+            open_cells(mesh_, lit_, radii_, tolerance(), impl_.options.threads);
+        samples.clear();
+        for (std::uint32_t i = 0; i < marks.size(); ++i) {
+            marks[i] = marks[i] != 0 && radii_[i] < bound ? 1 : 0;
+            if (marks[i] != 0) {
+                radii_[i] = std::min(bound, radii_[i] * kGrowth);
+                samples.push_back(i);
+            }
+        }
+        report_.seconds.sample += impl_.now() - start;
+        if (samples.empty()) {
+            return Done{};
+        }
+        lit_.drop(marks);
+    }
+}
+
+} // namespace geodisk

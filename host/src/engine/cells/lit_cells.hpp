@@ -1,0 +1,57 @@
+// LitCells: the disks of samples, as large as their cells.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <geodisk/cells.hpp>
+#include <geodisk/job_frame.hpp>
+
+#include "engine/maximal/lit_faces.hpp"
+#include "engine/run/runner_impl.hpp"
+
+namespace geodisk {
+
+class LitCells {
+  public:
+    /// Samples must be checked. All arguments must outlive it. Of progress() half is its own.
+    LitCells(Runner& runner, const PreparedMesh& mesh, std::span<const Sample> samples,
+             const SampleParams& params, const JobFrame& frame, const CellParams& cells,
+             const ProgressCallback& progress);
+
+    /// Computes the disks, and larger ones where cells may be larger.
+    Result<Done> light();
+
+    const LitFaces& faces() const { return lit_; }
+    /// Returns four times a bound on the error of distances, in units of the frame.
+    double tolerance() const;
+    double largest_radius() const;
+    double smallest_radius() const;
+    const RunReport& report() const { return report_; }
+
+  private:
+    /// Makes disks smaller until so many as there are may be expected to have few enough records.
+    Result<Done> choose_radii();
+    /// Computes the disks of these samples.
+    Result<Done> light(std::span<const std::uint32_t> samples);
+    Result<std::vector<gpu::LitRec>> disks_of(std::span<const std::uint32_t> samples);
+    Error too_many(double records) const;
+    bool report(const Progress& now) const;
+
+    Runner& runner_;
+    Runner::Impl& impl_;
+    const PreparedMesh& mesh_;
+    std::span<const Sample> samples_;
+    const SampleParams& params_;
+    const JobFrame& frame_;
+    const CellParams& cells_;
+    const ProgressCallback& progress_;
+    LitFaces lit_;
+    std::vector<double> radii_; ///< In units of the frame.
+    double records_per_disk_ = 64;
+    std::size_t left_; ///< Samples whose disks are still to be computed, or larger ones.
+    RunReport report_;
+};
+
+} // namespace geodisk

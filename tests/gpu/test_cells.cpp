@@ -1,0 +1,368 @@
+// Cells: areas by other means, duals that are known, and what has no cells.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <numeric>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <geodisk/cells.hpp>
+
+#include "device_run.hpp"
+#include "support/geodesic_query.hpp"
+#include "support/meshes.hpp"
+
+namespace geodisk::test {
+namespace {
+
+using Triangle = std::array<std::uint32_t, 3>;
+
+Runner& shared_runner() {
+    static Runner runner =
+        expect(Runner::create(shared_context().device(), shared_context().queue()));
+    return runner;
+}
+
+Sample sample_at(const Point& p) {
+    return {p.face,
+            {static_cast<float>(1 - p.weight1 - p.weight2), static_cast<float>(p.weight1),
+             static_cast<float>(p.weight2)}};
+}
+
+std::vector<Sample> samples_at(const std::vector<Point>& points) {
+    std::vector<Sample> samples;
+    for (const Point& point : points) {
+        samples.push_back(sample_at(point));
+    }
+    return samples;
+}
+
+/// Finds the cells, and checks what holds of all.
+SurfaceCells cells_of(const PreparedMesh& mesh, std::span<const Sample> samples) {
+    const SurfaceCells cells = expect(find_cells(shared_runner(), mesh, samples));
+    const double area = mesh.statistics().area;
+    const double sum = std::accumulate(cells.areas.begin(), cells.areas.end(), 0.0);
+    CHECK(cells.areas.size() == samples.size());
+    CHECK(std::abs(sum + cells.unreached - area) < 1e-9 * area);
+    CHECK(std::ranges::is_sorted(cells.edges));
+    CHECK(cells.dual.edges == cells.edges.size());
+    CHECK(cells.dual.triangles == cells.triangles.size());
+    return cells;
+}
+
+/// Returns the sample that is nearest to each point, by the twin in double precision.
+std::vector<std::uint32_t> nearest_by_twin(const PreparedMesh& mesh,
+                                           const std::vector<Point>& samples,
+                                           const std::vector<Point>& points, double reach) {
+    GeodesicQuery<double> twin(mesh, reach, points, tight_tolerances());
+    std::vector<double> least(points.size(), kUnreachable);
+    std::vector<std::uint32_t> nearest(points.size(), ~0u);
+    for (std::uint32_t i = 0; i < samples.size(); ++i) {
+        const std::vector<double> distances = twin.from(samples[i]);
+        for (std::size_t p = 0; p < points.size(); ++p) {
+            if (distances[p] < least[p]) {
+                least[p] = distances[p];
+                nearest[p] = i;
+            }
+        }
+    }
+    return nearest;
+}
+
+/// Checks areas against the part of random points that are nearest to each sample.
+void check_areas(const PreparedMesh& mesh, std::uint32_t count) {
+    const std::vector<Point> samples = random_points(mesh, 4, count);
+    const std::vector<Point> points = random_points(mesh, 11, 200 * count);
+    const SurfaceCells cells = cells_of(mesh, samples_at(samples));
+    CHECK(cells.unreached == 0);
+    const double reach = 2.5 * std::sqrt(mesh.statistics().area / count);
+    const auto nearest = nearest_by_twin(mesh, samples, points, reach);
+    std::vector<double> counts(count, 0);
+    for (const std::uint32_t sample : nearest) {
+        REQUIRE(sample != ~0u);
+        ++counts[sample];
+    }
+    double worst = 0, chi_square = 0;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const double expected =
+            cells.areas[i] / mesh.statistics().area * static_cast<double>(points.size());
+        const double off = counts[i] - expected;
+        worst = std::max(worst, std::abs(off) / std::sqrt(expected + 1));
+        chi_square += off * off / expected;
+    }
+    CHECK(worst < 5);
+    CHECK(chi_square < count + 5 * std::sqrt(2.0 * count));
+}
+
+Triangle turned(Triangle t) {
+    std::ranges::rotate(t, std::ranges::min_element(t));
+    return t;
+}
+
+/// The triangles, each beginning with its lowest corner, ascending.
+std::vector<Triangle> sorted(std::vector<Triangle> triangles) {
+    for (Triangle& triangle : triangles) {
+        triangle = turned(triangle);
+    }
+    std::ranges::sort(triangles);
+    return triangles;
+}
+
+std::vector<Sample> vertices_of(const TestMesh& mesh) {
+    std::vector<Sample> samples;
+    for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) {
+        samples.push_back(sample_at(points_at_vertex(mesh, v).front()));
+    }
+    return samples;
+}
+
+TestMesh octahedron() {
+    TestMesh mesh;
+    for (const Vec3& p : {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}, Vec3{-1, 0, 0},
+                          Vec3{0, -1, 0}, Vec3{0, 0, -1}}) {
+        mesh.add_vertex(p);
+    }
+    for (std::uint32_t a : {0u, 3u}) {
+        for (std::uint32_t b : {1u, 4u}) {
+            for (std::uint32_t c : {2u, 5u}) {
+                const bool turns = (a == 3) != ((b == 4) != (c == 5));
+                turns ? mesh.add_triangle(a, c, b) : mesh.add_triangle(a, b, c);
+            }
+        }
+    }
+    return mesh;
+}
+
+/// A polygon of the plane, cut by lines.
+class Polygon {
+  public:
+    Polygon() : corners_{{0, 0}, {1, 0}, {1, 1}, {0, 1}} {}
+    /// Keeps what is nearer to `a` than to `b`.
+    void keep_nearer(Vec3 a, Vec3 b) {
+        const auto side = [&](const std::array<double, 2>& p) {
+            return std::hypot(p[0] - b.x, p[1] - b.y) - std::hypot(p[0] - a.x, p[1] - a.y);
+        };
+        const double mx = (a.x + b.x) / 2, my = (a.y + b.y) / 2;
+        const auto linear = [&](const std::array<double, 2>& p) {
+            return (p[0] - mx) * (a.x - b.x) + (p[1] - my) * (a.y - b.y);
+        };
+        std::vector<std::array<double, 2>> kept;
+        for (std::size_t i = 0; i < corners_.size(); ++i) {
+            const auto& p = corners_[i];
+            const auto& q = corners_[(i + 1) % corners_.size()];
+            if (side(p) >= 0) {
+                kept.push_back(p);
+            }
+            if ((side(p) >= 0) != (side(q) >= 0)) {
+                const double t = linear(p) / (linear(p) - linear(q));
+                kept.push_back({p[0] + t * (q[0] - p[0]), p[1] + t * (q[1] - p[1])});
+            }
+        }
+        corners_ = kept;
+    }
+    double area() const {
+        double sum = 0;
+        for (std::size_t i = 0; i < corners_.size(); ++i) {
+            const auto& p = corners_[i];
+            const auto& q = corners_[(i + 1) % corners_.size()];
+            sum += p[0] * q[1] - p[1] * q[0];
+        }
+        return sum / 2;
+    }
+
+  private:
+    std::vector<std::array<double, 2>> corners_;
+};
+
+/// The Delaunay triangles in the plane whose circles have their centers in the unit square.
+std::vector<Triangle> plane_triangles(const std::vector<Vec3>& at) {
+    std::vector<Triangle> triangles;
+    const auto count = static_cast<std::uint32_t>(at.size());
+    for (std::uint32_t a = 0; a < count; ++a) {
+        for (std::uint32_t b = a + 1; b < count; ++b) {
+            for (std::uint32_t c = b + 1; c < count; ++c) {
+                const double bx = at[b].x - at[a].x, by = at[b].y - at[a].y;
+                const double cx = at[c].x - at[a].x, cy = at[c].y - at[a].y;
+                const double d = 2 * (bx * cy - by * cx);
+                const double b2 = bx * bx + by * by, c2 = cx * cx + cy * cy;
+                const double x = (cy * b2 - by * c2) / d, y = (bx * c2 - cx * b2) / d;
+                const double ux = at[a].x + x, uy = at[a].y + y, square = x * x + y * y;
+                const bool is_empty = std::ranges::none_of(at, [&](const Vec3& p) {
+                    return (p.x - ux) * (p.x - ux) + (p.y - uy) * (p.y - uy) < square * (1 - 1e-12);
+                });
+                if (is_empty && ux > 0 && ux < 1 && uy > 0 && uy < 1) {
+                    triangles.push_back(d > 0 ? Triangle{a, b, c} : Triangle{a, c, b});
+                }
+            }
+        }
+    }
+    return triangles;
+}
+
+} // namespace
+
+TEST_SUITE("cells") {
+    TEST_CASE("have the areas that random points tell") {
+        check_areas(prepared(builtin("torus-knot", 8)), 60);
+        check_areas(prepared(builtin("cube", 3)), 40);
+        check_areas(prepared(builtin("plate", 4)), 30);
+        check_areas(prepared(builtin("moebius", 4)), 20);
+        check_areas(prepared(tetrahedra(2, 0.2)), 50);
+    }
+
+    TEST_CASE("are alike around the corners of a regular solid, which is their dual") {
+        const TestMesh solid = octahedron();
+        const PreparedMesh mesh = prepared(solid);
+        const SurfaceCells cells = cells_of(mesh, vertices_of(solid));
+        for (const double area : cells.areas) {
+            CHECK(area == doctest::Approx(mesh.statistics().area / 6).epsilon(1e-6));
+        }
+        std::vector<Triangle> faces;
+        for (std::uint32_t f = 0; f < solid.face_count(); ++f) {
+            const std::size_t at = std::size_t{3} * f;
+            faces.push_back(
+                {solid.triangles[at], solid.triangles[at + 1], solid.triangles[at + 2]});
+        }
+        CHECK(sorted(cells.triangles) == sorted(faces));
+        CHECK(cells.edges.size() == 12);
+        CHECK(cells.dual.manifold == 8);
+        CHECK(cells.dual.euler == 2);
+        CHECK(cells.dual.mesh_euler == 2);
+    }
+
+    TEST_CASE("make fans where four meet") {
+        const TestMesh cube = builtin("cube", 1);
+        const PreparedMesh mesh = prepared(cube);
+        REQUIRE(cube.vertex_count() == 8);
+        const SurfaceCells cells = cells_of(mesh, vertices_of(cube));
+        for (const double area : cells.areas) {
+            CHECK(area == doctest::Approx(mesh.statistics().area / 8).epsilon(1e-5));
+        }
+        CHECK(cells.dual.triangles == 12);
+        CHECK(cells.dual.manifold == 12);
+        CHECK(cells.dual.euler == 2);
+    }
+
+    TEST_CASE("are those of the plane") {
+        const TestMesh square = flat_irregular(6, 3);
+        const PreparedMesh mesh = prepared(square);
+        const std::vector<Point> samples = random_points(mesh, 5, 40);
+        std::vector<Vec3> at;
+        for (const Point& sample : samples) {
+            at.push_back(square.position(sample));
+        }
+        const SurfaceCells cells = cells_of(mesh, samples_at(samples));
+        for (std::size_t i = 0; i < at.size(); ++i) {
+            Polygon polygon;
+            for (std::size_t j = 0; j < at.size(); ++j) {
+                if (i != j) {
+                    polygon.keep_nearer(at[i], at[j]);
+                }
+            }
+            CHECK(std::abs(cells.areas[i] - polygon.area()) <= cells.area_error);
+        }
+        CHECK(cells.area_error < 0.01 / 40);
+        CHECK(sorted(cells.triangles) == sorted(plane_triangles(at)));
+        CHECK(cells.dual.euler == 1);
+    }
+
+    TEST_CASE("give a torus where there are enough of them") {
+        const PreparedMesh torus = prepared(builtin("torus-knot", 12));
+        const SurfaceCells cells = cells_of(torus, samples_at(random_points(torus, 5, 700)));
+        CHECK(cells.dual.mesh_euler == 0);
+        CHECK(cells.dual.euler == 0);
+        CHECK(cells.dual.manifold == cells.dual.triangles);
+    }
+
+    TEST_CASE("of few samples, of equal ones and of parts without any") {
+        const TestMesh sphere = builtin("icosphere", 2);
+        const PreparedMesh mesh = prepared(sphere);
+        const double area = mesh.statistics().area;
+        const std::vector<Sample> three = samples_at(random_points(mesh, 9, 3));
+        const SurfaceCells one = cells_of(mesh, std::span(three).first(1));
+        CHECK(one.areas[0] == doctest::Approx(area));
+        CHECK(one.edges.empty());
+        CHECK(one.dual.euler == 1);
+        const SurfaceCells two = cells_of(mesh, std::span(three).first(2));
+        CHECK(two.edges.size() == 1);
+        CHECK(two.triangles.empty());
+        // Two places, whose triangles have the same corners and turn against each other.
+        const SurfaceCells all = cells_of(mesh, three);
+        CHECK(all.edges.size() == 3);
+        CHECK(sorted(all.triangles) == std::vector<Triangle>{{0, 1, 2}, {0, 2, 1}});
+        CHECK(all.dual.manifold == 2);
+        CHECK(all.dual.euler == 2);
+        const std::vector<Sample> equal{three[0], three[1], three[0], three[0]};
+        const SurfaceCells same = cells_of(mesh, equal);
+        CHECK(same.areas[0] == two.areas[0]);
+        CHECK(same.areas[2] == 0);
+        CHECK(same.edges == two.edges);
+
+        TestMesh pair = sphere;
+        const std::uint32_t first = pair.vertex_count(), faces = pair.face_count();
+        for (std::uint32_t v = 0; v < first; ++v) {
+            const Vec3 p = pair.vertex(v);
+            pair.add_vertex({2 * p.x + 9, 2 * p.y, 2 * p.z});
+        }
+        for (std::uint32_t f = 0; f < faces; ++f) {
+            const std::size_t at = std::size_t{3} * f;
+            pair.add_triangle(pair.triangles[at] + first, pair.triangles[at + 1] + first,
+                              pair.triangles[at + 2] + first);
+        }
+        const SurfaceCells part = cells_of(prepared(pair), three);
+        CHECK(part.unreached == doctest::Approx(4 * area));
+        CHECK(part.areas[0] == doctest::Approx(all.areas[0]).epsilon(1e-5));
+        CHECK(part.triangles == all.triangles);
+        CHECK(part.dual.mesh_euler == 4);
+    }
+
+    TEST_CASE("do not depend on memory or lanes") {
+        const PreparedMesh knot = prepared(builtin("torus-knot", 8));
+        const std::vector<Sample> samples = samples_at(random_points(knot, 5, 150));
+        const SurfaceCells cells = cells_of(knot, samples);
+        RunnerOptions narrow;
+        narrow.plan.slots = 16;
+        narrow.plan.window_capacity = 8;
+        narrow.plan.table_capacity = 16;
+        narrow.device_bytes = 4 << 20;
+        narrow.threads.most_threads = 1;
+        Runner runner =
+            expect(Runner::create(shared_context().device(), shared_context().queue(), narrow));
+        const SurfaceCells other = expect(find_cells(runner, knot, samples));
+        CHECK(other.areas == cells.areas);
+        CHECK(other.area_error == cells.area_error);
+        CHECK(other.edges == cells.edges);
+        CHECK(other.triangles == cells.triangles);
+        CellParams areas_alone;
+        areas_alone.has_dual = false;
+        const SurfaceCells less = expect(find_cells(runner, knot, samples, areas_alone));
+        CHECK(less.areas == cells.areas);
+        CHECK(less.edges.empty());
+    }
+
+    TEST_CASE("that cannot be found are refused") {
+        const PreparedMesh cube = prepared(builtin("cube", 2));
+        std::vector<Sample> samples = samples_at(random_points(cube, 1, 100));
+        Runner& runner = shared_runner();
+        CHECK(find_cells(runner, cube, {}).error().message == "there is no sample");
+        CellParams few;
+        few.most_records = 10;
+        const auto large = find_cells(runner, cube, samples, few);
+        REQUIRE_FALSE(large);
+        CHECK(large.error().status == Status::job_too_large);
+        CHECK(large.error().message.find("more than the 10 that are allowed") != std::string::npos);
+        const auto stopped =
+            find_cells(runner, cube, samples, {}, [](const Progress&) { return false; });
+        REQUIRE_FALSE(stopped);
+        CHECK(stopped.error().status == Status::cancelled);
+        samples[7].face = 1000;
+        CHECK(find_cells(runner, cube, samples).error().message ==
+              "sample 7 is in face 1000, but there are 48");
+    }
+}
+
+} // namespace geodisk::test
