@@ -8,4 +8,7 @@ namespace geodisk::test {
 /// Every field of every array, and the statistics.
 bool same_mesh(const PreparedMesh& a, const PreparedMesh& b);
 
+/// Every field of every array.
+bool same_surface(const PreparedMesh& a, const PreparedMesh& b);
+
 } // namespace geodisk::test

@@ -119,6 +119,15 @@ class PreparedMesh {
     GEODISK_API static Result<PreparedMesh> load(std::span<const std::byte> bytes,
                                                  const ThreadOptions& threads = {}) noexcept;
 
+    /// Returns the part that some faces make: its face i is `faces[i]`. Its vertices are those of
+    /// the faces, in the order that they have here. Half-edges, and the fans of vertices all of
+    /// whose faces belong to the part, are equal to the bit. An edge or vertex at the cut is as if
+    /// the other faces did not exist. Takes time by the size of the part.
+    ///
+    /// Errors: `invalid_argument` unless `faces` ascend and are below face_count();
+    /// `mesh_rejected` if no face of them has area; `out_of_host_memory`.
+    GEODISK_API Result<PreparedMesh> part(std::span<const std::uint32_t> faces) const noexcept;
+
     /// Returns the half-edges, three per face.
     std::span<const HalfEdge> half_edges() const noexcept { return half_edges_; }
     /// Returns the fans, one per vertex.

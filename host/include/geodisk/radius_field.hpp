@@ -44,6 +44,18 @@ class RadiusField {
     GEODISK_API static Result<RadiusField> from_density(const PreparedMesh& mesh,
                                                         std::span<const double> density) noexcept;
 
+    /// Returns the field on a part of its mesh: face i of `part` is face `faces[i]` here.
+    GEODISK_API RadiusField on_part(const PreparedMesh& part,
+                                    std::span<const std::uint32_t> faces) const;
+
+    /// Returns the field as bytes for load(), 28 to 40 per face. Errors: `out_of_host_memory`.
+    GEODISK_API Result<std::vector<std::byte>> save() const noexcept;
+
+    /// Returns the field that save() wrote, on the same mesh or an equal one. Errors:
+    /// `invalid_argument` for bytes that are no saved field, of another version or byte order, or
+    /// with values that no field has; `out_of_host_memory`.
+    GEODISK_API static Result<RadiusField> load(std::span<const std::byte> bytes) noexcept;
+
     /// Returns g at the origin of each half-edge, three per face.
     std::span<const float> factors() const noexcept { return factors_; }
     std::uint32_t face_count() const noexcept {

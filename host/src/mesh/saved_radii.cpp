@@ -1,0 +1,100 @@
+// Radii as bytes: a header, then the arrays of a field. Derived values that a run could stumble
+// over are checked, because the bytes may come from any source.
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <string>
+#include <utility>
+
+#include "geodisk/radius_field.hpp"
+#include "support/guard.hpp"
+#include "support/invalid.hpp"
+
+namespace geodisk {
+namespace {
+
+constexpr char kMagic[8] = {'g', 'e', 'o', 'd', 'i', 's', 'k', 'R'};
+constexpr std::uint32_t kVersion = 1;
+constexpr std::uint32_t kByteOrder = 0x01020304;
+
+struct Header {
+    char magic[8];
+    std::uint32_t version;
+    std::uint32_t byte_order;
+    std::uint64_t faces;
+    std::uint32_t has_packing;
+    float largest_density;
+    double effective_area;
+};
+static_assert(sizeof(Header) == 40);
+
+bool are_within(std::span<const float> values, float least, float most) {
+    return std::ranges::all_of(values, [&](float x) { return x >= least && x <= most; });
+}
+
+} // namespace
+
+Result<std::vector<std::byte>> RadiusField::save() const noexcept {
+    return guarded([&]() -> Result<std::vector<std::byte>> {
+        Header header{{},
+                      kVersion,
+                      kByteOrder,
+                      face_count(),
+                      packing_.empty() ? 0u : 1u,
+                      largest_density_,
+                      effective_area_};
+        std::memcpy(header.magic, kMagic, sizeof kMagic);
+        std::vector<std::byte> bytes(sizeof header);
+        std::memcpy(bytes.data(), &header, sizeof header);
+        for (const std::vector<float>* values : {&factors_, &spreads_, &packing_, &densities_}) {
+            const auto more = std::as_bytes(std::span(*values));
+            bytes.insert(bytes.end(), more.begin(), more.end());
+        }
+        return bytes;
+    });
+}
+
+Result<RadiusField> RadiusField::load(std::span<const std::byte> bytes) noexcept {
+    return guarded([&]() -> Result<RadiusField> {
+        Header header;
+        if (bytes.size() < sizeof header || std::memcmp(bytes.data(), kMagic, sizeof kMagic) != 0) {
+            return invalid("these bytes are no saved radii");
+        }
+        std::memcpy(&header, bytes.data(), sizeof header);
+        if (header.byte_order != kByteOrder || header.version != kVersion) {
+            return invalid("the radii were saved by another version, or by a machine of another "
+                           "byte order");
+        }
+        bytes = bytes.subspan(sizeof header);
+        const std::uint64_t per_face = header.has_packing != 0 ? 10 : 7;
+        if (header.has_packing > 1 || bytes.size() % (per_face * sizeof(float)) != 0 ||
+            bytes.size() / (per_face * sizeof(float)) != header.faces) {
+            return invalid("the saved radii are not complete");
+        }
+        RadiusField field;
+        field.largest_density_ = header.largest_density;
+        field.effective_area_ = header.effective_area;
+        const auto take = [&](std::vector<float>& values, std::uint64_t count) {
+            values.resize(count);
+            if (count > 0) {
+                std::memcpy(values.data(), bytes.data(), count * sizeof(float));
+            }
+            bytes = bytes.subspan(count * sizeof(float));
+        };
+        take(field.factors_, 3 * header.faces);
+        take(field.spreads_, 3 * header.faces);
+        take(field.packing_, header.has_packing * 3 * header.faces);
+        take(field.densities_, header.faces);
+        const auto least = static_cast<float>(kLeastFactor);
+        const float most = 1 / (least * least);
+        if (!are_within(field.factors_, least, 1) || !are_within(field.spreads_, 0, most) ||
+            !are_within(field.packing_, 0, most) || !are_within(field.densities_, 0, most) ||
+            !(field.largest_density_ >= 0 && field.largest_density_ <= most) ||
+            !(field.effective_area_ >= 0 && std::isfinite(field.effective_area_))) {
+            return invalid("the saved radii are damaged");
+        }
+        return field;
+    });
+}
+
+} // namespace geodisk
