@@ -1,0 +1,173 @@
+// Divides a surface: finds the halo of each part, and who must know whose samples.
+#include <algorithm>
+#include <map>
+#include <string>
+#include <utility>
+
+#include "engine/domain/tolerances.hpp"
+#include "parts/halo.hpp"
+#include "parts/part.hpp"
+#include "parts/part_bytes.hpp"
+#include "support/guard.hpp"
+#include "support/invalid.hpp"
+
+namespace geodisk {
+namespace {
+
+// Distances are tested against D * (1 + guard). Long paths widen the guard; hardly ever by so much.
+constexpr double kLeastMargin = 0x1p-6;
+
+Result<Done> check_params(const SampleParams& params) {
+    const auto no = [](const char* what) {
+        return invalid(std::string("many processes take no ") + what + "; sample with one");
+    };
+    if (params.throws != 0) {
+        return no("exact number of darts");
+    }
+    if (!params.class_factors.empty()) {
+        return no("classes");
+    }
+    return params.maximal ? Result<Done>(no("maximal set")) : Result<Done>(Done{});
+}
+
+/// Faces of all parts that are known so far.
+class Division {
+  public:
+    Division(const PreparedMesh& mesh, const SampleParams& params, const JobFrame& frame,
+             std::span<const std::uint32_t> owners, std::uint32_t processes)
+        : mesh_(mesh), params_(params), owners_(owners), parts_(processes) {
+        const double margin =
+            std::max(kLeastMargin, 2 * ErrorModel(frame).guard_for(frame.error_bound));
+        for (Part& part : parts_) {
+            part.frame = frame;
+            part.reach = params.min_distance * (1 + margin);
+            part.seed = params.seed;
+            part.pool_ratio = params.pool_ratio;
+            part.has_keys = !params.face_keys.empty();
+        }
+        widest_ = parts_.front().reach;
+        for (const KeepOut& avoided : params.avoid) {
+            widest_ = std::max(widest_, avoided.radius * (1 + margin));
+        }
+    }
+
+    /// Chooses the faces of a part, and notes which of them their owners must tell it of.
+    void choose(std::uint32_t process) {
+        Part& part = parts_[process];
+        std::vector<std::uint8_t> is_own(mesh_.face_count());
+        for (std::uint32_t face = 0; face < mesh_.face_count(); ++face) {
+            is_own[face] = owners_[face] == process ? 1 : 0;
+        }
+        // Disks of near samples reach as far again.
+        const std::vector<double> distances = distances_from(mesh_, is_own, 2 * widest_);
+        std::vector<double> to_faces(mesh_.face_count());
+        for (std::uint32_t face = 0; face < mesh_.face_count(); ++face) {
+            to_faces[face] = nearest_corner(mesh_, distances, face);
+            if (to_faces[face] > 2 * widest_) {
+                continue;
+            }
+            part.faces.push_back(face);
+            const bool is_near = to_faces[face] <= part.reach;
+            part.roles.push_back(is_own[face] != 0 ? FaceRole::own
+                                 : is_near         ? FaceRole::near
+                                                   : FaceRole::surface);
+            part.keys.push_back(params_.face_keys.empty() ? face : params_.face_keys[face]);
+            if (!params_.face_mask.empty()) {
+                part.mask.push_back(params_.face_mask[face]);
+            }
+            if (part.roles.back() == FaceRole::near) {
+                asked_[{owners_[face], process}].push_back(face);
+            }
+        }
+        for (Sample sample : params_.given) {
+            if (to_faces[sample.face] <= part.reach) {
+                sample.face = local(part, sample.face);
+                part.given.push_back(sample);
+            }
+        }
+        for (KeepOut avoided : params_.avoid) {
+            if (to_faces[avoided.center.face] <= widest_) {
+                avoided.center.face = local(part, avoided.center.face);
+                part.avoid.push_back(avoided);
+            }
+        }
+    }
+
+    /// Links neighbours, once all parts have their faces.
+    void link() {
+        for (const auto& [pair, faces] : asked_) {
+            const auto [owner, other] = pair;
+            Neighbour& neighbour = neighbour_of(owner, other);
+            for (const std::uint32_t face : faces) {
+                neighbour.faces.push_back(local(parts_[owner], face));
+            }
+            neighbour_of(other, owner); // It sends too, if only nothing.
+        }
+    }
+
+    /// Returns the message of a part.
+    Result<Bytes> message(std::uint32_t process) {
+        Part& part = parts_[process];
+        auto mesh = mesh_.part(part.faces);
+        if (!mesh) {
+            return mesh.error();
+        }
+        part.mesh = std::move(*mesh);
+        if (params_.radii != nullptr) {
+            part.radii = params_.radii->on_part(part.mesh, part.faces);
+        }
+        auto bytes = message_of(part);
+        part = {}; // Only one is held at a time.
+        return bytes;
+    }
+
+  private:
+    static std::uint32_t local(const Part& part, std::uint32_t face) {
+        return static_cast<std::uint32_t>(std::ranges::lower_bound(part.faces, face) -
+                                          part.faces.begin());
+    }
+    Neighbour& neighbour_of(std::uint32_t process, std::uint32_t other) {
+        auto& all = parts_[process].neighbours;
+        const auto at = std::ranges::lower_bound(all, other, {}, &Neighbour::process);
+        return at != all.end() && at->process == other ? *at : *all.insert(at, {other, {}});
+    }
+
+    const PreparedMesh& mesh_;
+    const SampleParams& params_;
+    std::span<const std::uint32_t> owners_;
+    std::vector<Part> parts_;
+    double widest_;
+    /// Faces of the first process whose samples the second one must know.
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::uint32_t>> asked_;
+};
+
+} // namespace
+
+Result<std::vector<Bytes>> divide(const PreparedMesh& mesh, const SampleParams& params,
+                                  std::span<const std::uint32_t> owners, std::uint32_t processes) {
+    return guarded([&]() -> Result<std::vector<Bytes>> {
+        if (auto checked = check_params(params); !checked) {
+            return checked.error();
+        }
+        const auto frame = frame_of(mesh, params);
+        if (!frame) {
+            return frame.error();
+        }
+        Division division(mesh, params, *frame, owners, processes);
+        for (std::uint32_t process = 0; process < processes; ++process) {
+            division.choose(process);
+        }
+        division.link();
+        std::vector<Bytes> messages;
+        for (std::uint32_t process = 0; process < processes; ++process) {
+            auto message = division.message(process);
+            if (!message) {
+                return message.error();
+            }
+            messages.push_back(std::move(*message));
+        }
+        return messages;
+    });
+}
+
+} // namespace geodisk

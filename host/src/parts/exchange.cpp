@@ -1,0 +1,88 @@
+#include "parts/exchange.hpp"
+
+#include <cstring>
+#include <string>
+#include <utility>
+
+namespace geodisk {
+namespace {
+
+constexpr std::uint32_t kRoot = 0;
+
+Bytes to_bytes(const Error* error) {
+    if (error == nullptr) {
+        return {};
+    }
+    Bytes bytes(1 + error->message.size(), static_cast<std::byte>(error->status));
+    std::memcpy(bytes.data() + 1, error->message.data(), error->message.size());
+    return bytes;
+}
+
+} // namespace
+
+Exchange::~Exchange() = default;
+
+std::vector<std::uint32_t> Exchange::all_others() const {
+    std::vector<std::uint32_t> others;
+    for (std::uint32_t other = 0; other < size(); ++other) {
+        if (other != rank()) {
+            others.push_back(other);
+        }
+    }
+    return others;
+}
+
+Result<Bytes> Exchange::scatter(std::vector<Bytes> messages) {
+    if (rank() != kRoot) {
+        auto received = swap(std::vector{kRoot}, std::vector<Bytes>(1));
+        return received ? Result<Bytes>(std::move(received->front())) : received.error();
+    }
+    Bytes own = std::move(messages.front());
+    messages.erase(messages.begin());
+    if (auto sent = swap(all_others(), messages); !sent) {
+        return sent.error();
+    }
+    return own;
+}
+
+Result<std::vector<Bytes>> Exchange::gather(Bytes message) {
+    if (rank() != kRoot) {
+        auto sent = swap(std::vector{kRoot}, std::vector<Bytes>{std::move(message)});
+        return sent ? Result<std::vector<Bytes>>(std::vector<Bytes>()) : sent.error();
+    }
+    auto received = swap(all_others(), std::vector<Bytes>(size() - 1));
+    if (received) {
+        received->insert(received->begin(), std::move(message));
+    }
+    return received;
+}
+
+Result<Done> Exchange::check_all(const Error* error) {
+    const auto failed = sum(error != nullptr ? 1 : 0);
+    if (!failed) {
+        return failed.error();
+    }
+    return *failed == 0 ? Result<Done>(Done{}) : Result<Done>(first_error(error));
+}
+
+Error Exchange::first_error(const Error* error) {
+    auto received = swap(all_others(), std::vector<Bytes>(size() - 1, to_bytes(error)));
+    if (!received) {
+        return received.error();
+    }
+    received->insert(received->begin() + rank(), to_bytes(error));
+    for (std::uint32_t process = 0; process < size(); ++process) {
+        const Bytes& bytes = (*received)[process];
+        if (!bytes.empty()) {
+            std::string message(reinterpret_cast<const char*>(bytes.data()) + 1, bytes.size() - 1);
+            if (process != kRoot) {
+                message = "process " + std::to_string(process) + ": " + message;
+            }
+            const auto status = static_cast<Status>(std::to_integer<signed char>(bytes[0]));
+            return Error{status, std::move(message)};
+        }
+    }
+    return Error{Status::internal, "a process failed for no reason"};
+}
+
+} // namespace geodisk

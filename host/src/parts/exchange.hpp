@@ -1,0 +1,51 @@
+// Exchange: how the processes that sample one surface talk to each other.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <geodisk/export.hpp>
+#include <geodisk/status.hpp>
+
+namespace geodisk {
+
+using Bytes = std::vector<std::byte>;
+
+/// Messages among processes, which all make the same calls in the same order. An error ends the
+/// work of all.
+class GEODISK_API Exchange {
+  public:
+    Exchange() = default;
+    Exchange(const Exchange&) = delete;
+    Exchange& operator=(const Exchange&) = delete;
+    virtual ~Exchange();
+
+    virtual std::uint32_t rank() const = 0;
+    virtual std::uint32_t size() const = 0;
+
+    /// Sends a message to each of some processes, not this one, and returns what each of them sent,
+    /// in the same order. Those must name this process too.
+    virtual Result<std::vector<Bytes>> swap(std::span<const std::uint32_t> others,
+                                            std::span<const Bytes> messages) = 0;
+    /// Returns the sum over all processes.
+    virtual Result<std::uint64_t> sum(std::uint64_t value) = 0;
+
+    // All of these take the first process for the root. Its message to itself costs nothing.
+
+    /// Returns this process's own of the messages of the root, one for each process.
+    Result<Bytes> scatter(std::vector<Bytes> messages);
+    /// Returns the messages of all processes at the root, nothing elsewhere.
+    Result<std::vector<Bytes>> gather(Bytes message);
+    /// Ends the work of all if that of one failed: returns its error, which names the process.
+    /// `error` is null where the work went well.
+    Result<Done> check_all(const Error* error);
+    /// Returns the error that check_all() returns, where some process is known to have failed.
+    Error first_error(const Error* error);
+
+  private:
+    std::vector<std::uint32_t> all_others() const;
+};
+
+} // namespace geodisk

@@ -1,0 +1,66 @@
+// Part: what one process knows of a surface that many sample together.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <geodisk/job_frame.hpp>
+#include <geodisk/mesh.hpp>
+#include <geodisk/params.hpp>
+#include <geodisk/radius_field.hpp>
+#include <geodisk/status.hpp>
+
+#include "parts/exchange.hpp"
+
+namespace geodisk {
+
+/// What a face is to a process.
+enum class FaceRole : std::uint8_t {
+    surface, ///< Paths cross it.
+    near,    ///< Its samples, which another process decides, may reject those of own faces.
+    own,     ///< The process decides its candidates.
+};
+
+/// A process that decides faces near those of this one, or the other way round.
+struct Neighbour {
+    std::uint32_t process = 0;
+    /// Own faces, by their numbers in the part, whose samples it must know. Ascending.
+    std::vector<std::uint32_t> faces;
+};
+
+/// Own faces of a process, and the surface around them: faces whose samples matter to them, and
+/// all that paths from those cross within the same distance. So disks are as on the whole. Faces
+/// and vertices are in the order of the whole.
+struct Part {
+    JobFrame frame;   ///< Frame of the whole.
+    double reach = 0; ///< No samples farther away than this conflict.
+    PreparedMesh mesh;
+    std::optional<RadiusField> radii;
+    std::vector<std::uint32_t> faces; ///< Number in the whole of each face.
+    std::vector<FaceRole> roles;
+    std::vector<std::uint32_t> keys; ///< Key of each face.
+    bool has_keys = false;           ///< The caller has given them.
+    std::vector<std::uint8_t> mask;  ///< Empty, or as SampleParams::face_mask.
+    std::vector<Sample> given;
+    std::vector<KeepOut> avoid;
+    std::vector<Neighbour> neighbours;
+    std::uint64_t seed = 0;
+    double pool_ratio = 0; ///< Pool ratio that was asked for.
+
+    /// Returns the parameters of the whole, for the part. They refer to it.
+    SampleParams params() const;
+};
+
+/// Returns the parts of all processes as messages, in their order. `owners` has the process of each
+/// face. Errors: `invalid_argument` for parameters that many processes do not take, and for more
+/// processes than faces; those of frame_of().
+Result<std::vector<Bytes>> divide(const PreparedMesh& mesh, const SampleParams& params,
+                                  std::span<const std::uint32_t> owners, std::uint32_t processes);
+
+/// Reads a part. Errors: those of PreparedMesh::load() and the like.
+Result<std::unique_ptr<Part>> part_of(std::span<const std::byte> bytes);
+
+} // namespace geodisk

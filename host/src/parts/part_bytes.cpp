@@ -1,0 +1,108 @@
+#include "parts/part_bytes.hpp"
+
+#include <array>
+#include <utility>
+
+#include "support/guard.hpp"
+
+namespace geodisk {
+
+SampleParams Part::params() const {
+    SampleParams params;
+    params.min_distance = frame.min_distance;
+    params.seed = seed;
+    params.pool_ratio = pool_ratio;
+    params.radii = radii ? &*radii : nullptr;
+    params.face_keys = keys;
+    params.face_mask = mask;
+    params.given = given;
+    params.avoid = avoid;
+    return params;
+}
+
+Result<Bytes> message_of(const Part& part) {
+    auto mesh = part.mesh.save();
+    if (!mesh) {
+        return mesh.error();
+    }
+    std::vector<std::byte> radii;
+    if (part.radii) {
+        auto saved = part.radii->save();
+        if (!saved) {
+            return saved.error();
+        }
+        radii = std::move(*saved);
+    }
+    MessageWriter message;
+    message.put(to_bytes(part.frame));
+    message.put(part.reach);
+    message.put(part.seed);
+    message.put(part.pool_ratio);
+    message.put(part.has_keys);
+    message.put_all(*mesh);
+    message.put_all(radii);
+    message.put_all(part.faces);
+    message.put_all(part.roles);
+    message.put_all(part.keys);
+    message.put_all(part.mask);
+    message.put_all(part.given);
+    message.put_all(part.avoid);
+    message.put(part.neighbours.size());
+    for (const Neighbour& neighbour : part.neighbours) {
+        message.put(neighbour.process);
+        message.put_all(neighbour.faces);
+    }
+    return message.take();
+}
+
+Result<std::unique_ptr<Part>> part_of(std::span<const std::byte> bytes) {
+    return guarded([&]() -> Result<std::unique_ptr<Part>> {
+        auto part = std::make_unique<Part>();
+        MessageReader message(bytes);
+        std::array<std::byte, kJobFrameBytes> frame{};
+        std::vector<std::byte> mesh, radii;
+        std::size_t neighbours = 0;
+        message.get(frame);
+        message.get(part->reach);
+        message.get(part->seed);
+        message.get(part->pool_ratio);
+        message.get(part->has_keys);
+        message.get_all(mesh);
+        message.get_all(radii);
+        message.get_all(part->faces);
+        message.get_all(part->roles);
+        message.get_all(part->keys);
+        message.get_all(part->mask);
+        message.get_all(part->given);
+        message.get_all(part->avoid);
+        message.get(neighbours);
+        for (std::size_t i = 0; i < neighbours && i < bytes.size(); ++i) {
+            Neighbour& neighbour = part->neighbours.emplace_back();
+            message.get(neighbour.process);
+            message.get_all(neighbour.faces);
+        }
+        if (!message.is_complete()) {
+            return Error{Status::internal, "the part of the surface came incomplete"};
+        }
+        auto of_whole = frame_from_bytes(frame);
+        if (!of_whole) {
+            return of_whole.error();
+        }
+        part->frame = *of_whole;
+        auto loaded = PreparedMesh::load(mesh);
+        if (!loaded) {
+            return loaded.error();
+        }
+        part->mesh = std::move(*loaded);
+        if (!radii.empty()) {
+            auto field = RadiusField::load(radii);
+            if (!field) {
+                return field.error();
+            }
+            part->radii = std::move(*field);
+        }
+        return part;
+    });
+}
+
+} // namespace geodisk

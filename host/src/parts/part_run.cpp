@@ -1,0 +1,172 @@
+#include "parts/part_run.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+#include "engine/domain/listed.hpp"
+#include "parts/halo.hpp"
+
+namespace geodisk {
+namespace {
+
+// Width of the border, in minimum distances: hardly any chain of decisions is longer.
+constexpr double kBorder = 6;
+
+} // namespace
+
+PartRun::PartRun(const Part& part, Runner& runner, ProgressCallback progress)
+    : part_(part), runner_(runner), progress_(std::move(progress)), order_{part.has_keys} {
+    const SampleParams params = part.params();
+    const CandidateDraw draw(part.mesh, params, part.frame);
+    for (std::uint32_t face = 0; face < part.mesh.face_count(); ++face) {
+        if (part.roles[face] == FaceRole::surface) {
+            continue;
+        }
+        const std::size_t first = drawn_.size();
+        for (std::uint32_t stage = 0; stage < draw.stages().pool_stages(); ++stage) {
+            draw.draw(face, stage, drawn_);
+        }
+        own_count_ += part.roles[face] == FaceRole::own ? drawn_.size() - first : 0;
+        for (std::size_t i = first; i < drawn_.size(); ++i) {
+            drawn_[i].point.face = part.faces[face];
+        }
+    }
+    std::ranges::sort(drawn_, order_);
+    std::vector<std::uint8_t> is_near(part.faces.size());
+    for (std::size_t face = 0; face < is_near.size(); ++face) {
+        is_near[face] = part.roles[face] == FaceRole::near ? 1 : 0;
+    }
+    from_near_ = distances_from(part.mesh, is_near, (kBorder + 1) * part.reach);
+}
+
+std::uint32_t PartRun::local(const DrawnCandidate& dart) const {
+    return static_cast<std::uint32_t>(std::ranges::lower_bound(part_.faces, dart.point.face) -
+                                      part_.faces.begin());
+}
+
+bool PartRun::is_own(const DrawnCandidate& dart) const {
+    return part_.roles[local(dart)] == FaceRole::own;
+}
+
+Result<Darts> PartRun::accepted_of(const Darts& candidates) {
+    Darts accepted;
+    if (candidates.empty()) {
+        return accepted;
+    }
+    std::vector<ListedCandidate> list;
+    list.reserve(candidates.size());
+    for (const DrawnCandidate& dart : candidates) {
+        list.push_back({local(dart), dart.point.weight1, dart.point.weight2});
+    }
+    const auto domain = listed_domain(part_.mesh, part_.params(), part_.frame, list);
+    if (!domain) {
+        return domain.error();
+    }
+    const auto set = runner_.sample_and_wait(*domain, progress_);
+    if (!set) {
+        return set.error();
+    }
+    report_.starts += set->report.starts;
+    report_.add(set->report);
+    // Samples come in the order of the list.
+    std::size_t next = 0;
+    for (const Sample& sample : std::span(set->samples).subspan(set->given)) {
+        const auto is_it = [&](const ListedCandidate& point) {
+            return point.face == sample.face &&
+                   static_cast<float>(point.weight1) * 0x1p-24f == sample.weights[1] &&
+                   static_cast<float>(point.weight2) * 0x1p-24f == sample.weights[2];
+        };
+        while (next < list.size() && !is_it(list[next])) {
+            ++next;
+        }
+        if (next == list.size()) {
+            return Error{Status::internal, "a sample is none of the candidates"};
+        }
+        accepted.push_back(candidates[next++]);
+    }
+    return accepted;
+}
+
+Result<Darts> PartRun::decide(const Darts* near) {
+    if (own_count_ == 0) {
+        return Darts();
+    }
+    if (near != nullptr && *near == near_) {
+        return own_;
+    }
+    Result<Darts> all = Darts();
+    if (near == nullptr) {
+        all = accepted_of(drawn_);
+        ++whole_runs_;
+        std::erase_if(drawn_, [&](const DrawnCandidate& dart) { return !is_own(dart); });
+    } else {
+        auto border = decide_border(*near);
+        if (!border) {
+            return border.error();
+        }
+        all = *border ? Result<Darts>(std::move(**border)) : decide_all(*near);
+    }
+    if (!all) {
+        return all;
+    }
+    own_.clear();
+    near_.clear();
+    for (const DrawnCandidate& dart : *all) {
+        (is_own(dart) ? own_ : near_).push_back(dart);
+    }
+    if (near != nullptr) {
+        near_ = *near; // Own samples may reject some.
+    }
+    return own_;
+}
+
+Result<Darts> PartRun::decide_all(const Darts& near) {
+    Darts candidates;
+    candidates.reserve(drawn_.size() + near.size());
+    std::ranges::merge(drawn_, near, std::back_inserter(candidates), order_);
+    ++whole_runs_;
+    return accepted_of(candidates);
+}
+
+Result<std::optional<Darts>> PartRun::decide_border(const Darts& near) {
+    const double width = kBorder * part_.reach;
+    const auto is_within = [&](const DrawnCandidate& dart, double distance) {
+        return nearest_corner(part_.mesh, from_near_, local(dart)) <= distance;
+    };
+    Darts own, kept, candidates;
+    std::ranges::copy_if(drawn_, std::back_inserter(own),
+                         [&](const DrawnCandidate& dart) { return is_within(dart, width); });
+    // Samples beyond the border reject candidates in it, and stay as they are.
+    std::ranges::copy_if(own_, std::back_inserter(kept), [&](const DrawnCandidate& dart) {
+        return !is_within(dart, width) && is_within(dart, width + part_.reach);
+    });
+    Darts fixed;
+    std::ranges::merge(kept, near, std::back_inserter(fixed), order_);
+    std::ranges::merge(own, fixed, std::back_inserter(candidates), order_);
+    auto accepted = accepted_of(candidates);
+    if (!accepted) {
+        return accepted.error();
+    }
+    ++border_runs_;
+    std::erase_if(*accepted, [&](const DrawnCandidate& dart) { return !is_own(dart); });
+    Darts before, changed, beyond;
+    std::ranges::copy_if(own_, std::back_inserter(before), [&](const DrawnCandidate& dart) {
+        return is_within(dart, width + part_.reach);
+    });
+    std::ranges::set_symmetric_difference(before, *accepted, std::back_inserter(changed), order_);
+    const bool is_far = std::ranges::any_of(changed, [&](const DrawnCandidate& dart) {
+        return farthest_corner(part_.mesh, from_near_, local(dart)) > width - part_.reach;
+    });
+    if (is_far) {
+        return std::optional<Darts>();
+    }
+    std::ranges::copy_if(own_, std::back_inserter(beyond), [&](const DrawnCandidate& dart) {
+        return !is_within(dart, width + part_.reach);
+    });
+    Darts all;
+    std::ranges::merge(*accepted, beyond, std::back_inserter(all), order_);
+    return std::optional(std::move(all));
+}
+
+} // namespace geodisk

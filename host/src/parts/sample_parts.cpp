@@ -1,0 +1,163 @@
+#include "parts/sample_parts.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <optional>
+#include <string>
+#include <type_traits>
+#include <utility>
+
+#include "engine/domain/given.hpp"
+#include "parts/agree.hpp"
+#include "parts/part.hpp"
+#include "parts/part_run.hpp"
+#include "parts/peak_memory.hpp"
+#include "support/guard.hpp"
+#include "support/invalid.hpp"
+
+namespace geodisk {
+namespace {
+
+/// What a process tells the first one in the end, before its samples.
+struct Summary {
+    ProcessReport process;
+    RunReport run;
+};
+static_assert(std::is_trivially_copyable_v<Summary>);
+
+template <class T>
+const Error* error_of(const Result<T>& result) {
+    return result ? nullptr : &result.error();
+}
+
+Result<std::vector<Bytes>> parts_of(const WholeSurface& whole, std::uint32_t processes) {
+    return guarded([&]() -> Result<std::vector<Bytes>> {
+        const std::uint32_t faces = whole.mesh.face_count();
+        if (processes > faces) {
+            return invalid("there are " + std::to_string(processes) +
+                           " processes, but the mesh has " + std::to_string(faces) +
+                           " faces; start at most as many processes");
+        }
+        // Before the cut, which relies on them.
+        if (const auto frame = frame_of(whole.mesh, whole.params); !frame) {
+            return frame.error();
+        }
+        const auto owners = whole.cut(whole.mesh, whole.params, processes);
+        return owners ? divide(whole.mesh, whole.params, *owners, processes)
+                      : Result<std::vector<Bytes>>(owners.error());
+    });
+}
+
+Sample sample_at(std::uint32_t face, float weight1, float weight2) {
+    return {face, {1.0f - weight1 - weight2, weight1, weight2}};
+}
+
+/// Puts the samples of all processes together as one run does.
+SampleSet merged(const SampleParams& params, Darts darts, const RunReport& report) {
+    std::ranges::sort(darts, DartOrder{!params.face_keys.empty()});
+    SampleSet set;
+    set.report = report;
+    set.given = params.given.size();
+    for (const Sample& given : params.given) {
+        const auto [weight1, weight2] = rounded_weights(given.weights);
+        set.samples.push_back(sample_at(given.face, weight1, weight2));
+    }
+    for (const DrawnCandidate& dart : darts) {
+        if (params.stop_count != 0 && set.samples.size() >= params.stop_count) {
+            break;
+        }
+        set.samples.push_back(sample_at(dart.point.face,
+                                        static_cast<float>(dart.point.weight1) * 0x1p-24f,
+                                        static_cast<float>(dart.point.weight2) * 0x1p-24f));
+    }
+    return set;
+}
+
+PartsResult put_together(const SampleParams& params, const std::vector<Bytes>& messages) {
+    PartsResult result;
+    Darts darts;
+    RunReport run;
+    std::uint64_t candidates = 0;
+    for (const Bytes& message : messages) {
+        Summary summary;
+        std::memcpy(&summary, message.data(), sizeof summary);
+        const Darts own = darts_of(std::span(message).subspan(sizeof summary));
+        darts.insert(darts.end(), own.begin(), own.end());
+        candidates += summary.process.candidates;
+        if (result.processes.empty()) {
+            run = summary.run;
+        } else {
+            const RunSeconds seconds = run.seconds;
+            run.add(summary.run);
+            run.seconds = seconds;
+            run.starts += summary.run.starts;
+        }
+        result.processes.push_back(summary.process);
+    }
+    run.candidates = static_cast<std::uint32_t>(candidates);
+    result.set = merged(params, std::move(darts), run);
+    return result;
+}
+
+} // namespace
+
+Result<PartsResult> sample_parts(Exchange& exchange, Runner& runner, const WholeSurface* whole,
+                                 const ProgressCallback& progress) {
+    Result<std::vector<Bytes>> parts = std::vector<Bytes>();
+    if (whole != nullptr) {
+        parts = parts_of(*whole, exchange.size());
+    }
+    if (auto well = exchange.check_all(error_of(parts)); !well) {
+        return well.error();
+    }
+    auto message = exchange.scatter(std::move(*parts));
+    if (!message) {
+        return message.error();
+    }
+    const auto part = part_of(*message);
+    Summary summary;
+    summary.process.part_bytes = message->size();
+    *message = {};
+    std::optional<PartRun> run;
+    const auto begun = guarded([&]() -> Result<Done> {
+        if (!part) {
+            return part.error();
+        }
+        run.emplace(**part, runner, progress);
+        return Done{};
+    });
+    if (auto well = exchange.check_all(error_of(begun)); !well) {
+        return well.error();
+    }
+    AgreementReport agreement;
+    const auto own = agree(
+        exchange, **part,
+        [&](const Darts* near) { return guarded([&] { return run->decide(near); }); }, agreement);
+    if (!own) {
+        return own.error();
+    }
+    ProcessReport& report = summary.process;
+    report.own_faces =
+        static_cast<std::uint64_t>(std::ranges::count((*part)->roles, FaceRole::own));
+    report.faces = (*part)->faces.size();
+    report.candidates = run->own_candidates();
+    report.samples = own->size();
+    report.messages = agreement.messages;
+    report.bytes = agreement.bytes;
+    report.rounds = agreement.rounds;
+    report.neighbours = static_cast<std::uint32_t>((*part)->neighbours.size());
+    report.whole_runs = run->whole_runs();
+    report.border_runs = run->border_runs();
+    report.peak_bytes = peak_memory();
+    summary.run = run->report();
+    Bytes told(sizeof summary);
+    std::memcpy(told.data(), &summary, sizeof summary);
+    append(told, *own);
+    const auto all = exchange.gather(std::move(told));
+    if (!all) {
+        return all.error();
+    }
+    return whole != nullptr ? put_together(whole->params, *all) : PartsResult();
+}
+
+} // namespace geodisk

@@ -1,0 +1,43 @@
+// Samples one surface by several processes: the steps that all take, whatever carries messages.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include <geodisk/export.hpp>
+#include <geodisk/mesh.hpp>
+#include <geodisk/params.hpp>
+#include <geodisk/process_report.hpp>
+#include <geodisk/runner.hpp>
+#include <geodisk/status.hpp>
+
+#include "parts/exchange.hpp"
+
+namespace geodisk {
+
+/// Returns the process of each face, each with one at least.
+using Cut = std::function<Result<std::vector<std::uint32_t>>(
+    const PreparedMesh& mesh, const SampleParams& params, std::uint32_t processes)>;
+
+/// A surface to sample, of the first process alone.
+struct WholeSurface {
+    const PreparedMesh& mesh;
+    const SampleParams& params;
+    const Cut& cut;
+};
+
+/// What came of it, at the first process alone.
+struct PartsResult {
+    SampleSet set; ///< As one process gives it. RunReport::seconds are those of the first process.
+    std::vector<ProcessReport> processes;
+};
+
+/// Samples a surface together with the other processes; all call it. `whole` is null on all but the
+/// first one. Errors, the same on all processes: `invalid_argument` for more processes than faces,
+/// and for an exact number of darts, classes and maximal sets; those of frame_of() and
+/// Runner::sample_and_wait(). Throws std::bad_alloc.
+GEODISK_API Result<PartsResult> sample_parts(Exchange& exchange, Runner& runner,
+                                             const WholeSurface* whole,
+                                             const ProgressCallback& progress = {});
+
+} // namespace geodisk

@@ -1,0 +1,176 @@
+// One surface sampled in parts that tell each other of their samples: the set of one run, for any
+// number of parts.
+#include <doctest/doctest.h>
+
+#include <memory>
+#include <numeric>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "device_run.hpp"
+#include "parts/cut.hpp"
+#include "parts/sample_parts.hpp"
+#include "sets.hpp"
+#include "support/meshes.hpp"
+#include "support/radius_fields.hpp"
+#include "threads_exchange.hpp"
+
+namespace geodisk::test {
+namespace {
+
+Result<std::vector<std::uint32_t>> grown(const PreparedMesh& mesh, const SampleParams& params,
+                                         std::uint32_t processes) {
+    return grown_parts(mesh, work_of_faces(mesh, params), processes);
+}
+
+/// Every face is another part's than the one before.
+Result<std::vector<std::uint32_t>> scattered(const PreparedMesh& mesh, const SampleParams&,
+                                             std::uint32_t processes) {
+    std::vector<std::uint32_t> parts(mesh.face_count());
+    for (std::uint32_t face = 0; face < mesh.face_count(); ++face) {
+        parts[face] = face % processes;
+    }
+    return parts;
+}
+
+Result<PartsResult> in_parts(const PreparedMesh& mesh, const SampleParams& params,
+                             std::uint32_t count, const Cut& cut = grown) {
+    static const auto sampler =
+        std::make_shared<const Sampler>(expect(Sampler::create(shared_context().device())));
+    const WholeSurface whole{mesh, params, cut};
+    std::vector<std::optional<Result<PartsResult>>> results(count);
+    run_threads(count, [&](Exchange& exchange) {
+        auto runner = Runner::create(sampler, shared_context().queue());
+        if (runner) {
+            const std::uint32_t rank = exchange.rank();
+            results[rank].emplace(sample_parts(exchange, *runner, rank == 0 ? &whole : nullptr));
+        }
+    });
+    for (const auto& result : results) {
+        REQUIRE(result);
+        REQUIRE(result->operator bool() == results[0]->operator bool());
+        if (!*result) {
+            CHECK(result->error().message == results[0]->error().message);
+        }
+    }
+    return std::move(*results[0]);
+}
+
+void check_parts(const PreparedMesh& mesh, const SampleParams& params,
+                 std::initializer_list<std::uint32_t> counts, const Cut& cut = grown) {
+    const SampleSet whole = sample(mesh, params);
+    for (const std::uint32_t count : counts) {
+        CAPTURE(count);
+        const PartsResult result = expect(in_parts(mesh, params, count, cut));
+        CHECK(points_of(result.set) == points_of(whole));
+        CHECK(result.set.given == whole.given);
+        CHECK(result.set.report.guard == whole.report.guard);
+        std::uint64_t faces = 0;
+        for (const ProcessReport& process : result.processes) {
+            CHECK(process.own_faces > 0);
+            faces += process.own_faces;
+        }
+        CHECK(faces == mesh.face_count());
+        if (params.stop_count == 0) {
+            CHECK(result.set.report.candidates == whole.report.candidates);
+        }
+    }
+}
+
+std::string refusal(const PreparedMesh& mesh, const SampleParams& params, std::uint32_t count) {
+    const auto result = in_parts(mesh, params, count);
+    REQUIRE_FALSE(result);
+    CHECK(result.error().status == Status::invalid_argument);
+    return result.error().message;
+}
+
+} // namespace
+
+TEST_SUITE("parts") {
+    TEST_CASE("any number of parts gives the set of one run") {
+        const PreparedMesh knot = prepared(builtin("torus-knot", 8));
+        check_parts(knot, params_for(knot, 2000), {1, 2, 3, 4, 7});
+        check_parts(knot, params_for(knot, 60, 2), {2, 7});
+        check_parts(knot, params_for(knot, 300, 3), {5}, scattered);
+    }
+
+    TEST_CASE("disks larger than a part, and than the surface") {
+        const PreparedMesh ball = prepared(builtin("icosphere", 2));
+        check_parts(ball, params_for(ball, 12), {7});
+        check_parts(ball, params_for(ball, 0.01), {3});
+    }
+
+    TEST_CASE("radii that vary") {
+        const TestMesh shape = builtin("torus-knot", 8);
+        const PreparedMesh knot = prepared(shape);
+        const RadiusField waves = radius_field(knot, wavy_factors(shape, 0.3));
+        check_parts(knot, params_for(knot, 600, 1, &waves), {3});
+        const RadiusField density = density_field(knot, rough_density(shape));
+        check_parts(knot, params_for(knot, 600, 1, &density), {4});
+    }
+
+    TEST_CASE("borders, edges of many faces, and separate parts") {
+        const PreparedMesh strip = prepared(builtin("moebius", 24));
+        check_parts(strip, params_for(strip, 500), {4});
+        const PreparedMesh cells = prepared(tetrahedra(2, 0.1));
+        check_parts(cells, params_for(cells, 700), {3});
+        TestMesh shape = builtin("icosphere", 2);
+        const std::uint32_t vertices = shape.vertex_count();
+        const std::vector<std::uint32_t> triangles = shape.triangles;
+        for (const double x : std::vector<double>(shape.positions)) {
+            shape.positions.push_back(x + 5);
+        }
+        for (const std::uint32_t vertex : triangles) {
+            shape.triangles.push_back(vertices + vertex);
+        }
+        const PreparedMesh two = prepared(shape);
+        check_parts(two, params_for(two, 400), {3});
+    }
+
+    TEST_CASE("masks, keys, given samples, points to avoid, and a count to stop at") {
+        const TestMesh shape = builtin("torus-knot", 8);
+        const PreparedMesh knot = prepared(shape);
+        const std::vector<std::uint8_t> mask = mask_above(shape, 2);
+        SampleParams params = params_for(knot, 500);
+        params.face_mask = mask;
+        check_parts(knot, params, {4});
+
+        params = params_for(knot, 500);
+        std::vector<std::uint32_t> keys(knot.face_count());
+        std::iota(keys.rbegin(), keys.rend(), 7u);
+        params.face_keys = keys;
+        check_parts(knot, params, {3});
+
+        const std::vector<Sample> given = sample(knot, params_for(knot, 40, 5)).samples;
+        const KeepOut avoided[] = {{given[3], params.min_distance * 3},
+                                   {given[9], params.min_distance / 2}};
+        params = params_for(knot, 500);
+        params.given = given;
+        params.avoid = avoided;
+        check_parts(knot, params, {4});
+
+        params.stop_count = 150;
+        check_parts(knot, params, {3});
+    }
+
+    TEST_CASE("what parts cannot do is refused by all") {
+        const PreparedMesh cube = prepared(builtin("cube", 1));
+        SampleParams params = params_for(cube, 100);
+        CHECK(refusal(cube, params, 13) ==
+              "there are 13 processes, but the mesh has 12 faces; start at most as many processes");
+        check_parts(cube, params, {12});
+        params.maximal = true;
+        CHECK(refusal(cube, params, 2) == "many processes take no maximal set; sample with one");
+        params = params_for(cube, 100);
+        params.throws = 100;
+        CHECK(refusal(cube, params, 2) ==
+              "many processes take no exact number of darts; sample with one");
+        params = params_for(cube, 100);
+        params.min_distance = -1;
+        CHECK(refusal(cube, params, 2).starts_with("the minimum distance must be"));
+    }
+}
+
+} // namespace geodisk::test
