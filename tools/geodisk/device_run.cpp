@@ -180,8 +180,10 @@ double RunDevice::compile(const Domain& domain, ProgressLine& progress) {
 
 SampleSet RunDevice::sample(const Task& task, double min_distance, ProgressLine& progress) {
     log_.tell_task(min_distance, task.expected);
-    auto result =
-        opened_->runner.sample_and_wait(task.domain, show_progress(progress, log_, task.expected));
+    const ProgressCallback shown = show_progress(progress, log_, task.expected);
+    auto result = sampler_ != nullptr && task.surface
+                      ? sampler_->sample(opened_->runner, *task.surface, shown)
+                      : opened_->runner.sample_and_wait(task.domain, shown);
     progress.clear();
     check_interrupted();
     if (!result) {
@@ -267,6 +269,9 @@ DeviceResult RunDevice::run(const TaskAt& task_at, double min_distance, const Wa
         for (std::size_t& end : done.ends) {
             end = std::min(end, kept);
         }
+    }
+    if (sampler_ != nullptr) {
+        done.processes = sampler_->processes();
     }
     done.run = best.report;
     done.run.seconds = seconds;

@@ -11,6 +11,7 @@
 
 #include <geodisk/context.hpp>
 #include <geodisk/domain.hpp>
+#include <geodisk/process_report.hpp>
 #include <geodisk/runner.hpp>
 
 #include "geodisk/options/method_options.hpp"
@@ -32,6 +33,8 @@ struct DeviceRun {
     std::vector<std::size_t> ends; ///< Number of samples after each task.
     /// 0 where that was done before; those of the stages after are in `run`.
     double open_seconds = 0, compile_seconds = 0;
+    /// Shares of processes, where several sampled one surface.
+    std::vector<ProcessReport> processes;
 };
 
 struct DeviceResult {
@@ -39,14 +42,32 @@ struct DeviceResult {
     DeviceRun done;
 };
 
+/// A surface by geodesic distance, and its parameters, which must outlive the task.
+struct SurfaceTask {
+    const PreparedMesh* mesh;
+    SampleParams params;
+};
+
 /// What there is to sample at a distance, and about how many samples that gives.
 struct Task {
     Domain domain;
     double expected;
+    std::optional<SurfaceTask> surface{}; ///< What the domain is of, where it is just a surface.
     /// Makes the task that goes on from all samples so far, where one set takes several tasks.
     std::function<Task(const std::vector<Sample>& before)> next{};
 };
 using TaskAt = std::function<Task(double min_distance)>;
+
+/// Samples a surface together with other processes.
+class SurfaceSampler {
+  public:
+    virtual ~SurfaceSampler() = default;
+    /// Gives the set that the runner alone gives.
+    virtual Result<SampleSet> sample(Runner& runner, const SurfaceTask& surface,
+                                     const ProgressCallback& progress) = 0;
+    /// Returns the shares of all processes in the last set.
+    virtual const std::vector<ProcessReport>& processes() const = 0;
+};
 
 /// How far a run is that should give about `expected` samples, up to 1.
 double part_done(const Progress& state, double expected);
@@ -81,6 +102,9 @@ class RunDevice {
     /// The device can draw as well, where `graphics` is set. Nothing is opened yet.
     RunDevice(DeviceOptions device, const RunnerOptions& runner, bool graphics = false,
               std::shared_ptr<SharedDevice> shared = std::make_shared<SharedDevice>());
+
+    /// From now on, samples surfaces by this, which must outlive it; null for its runner alone.
+    void sample_by(SurfaceSampler* sampler) { sampler_ = sampler; }
 
     /// Opens the device and checks that it computes as it must, where that is not done or the
     /// device was lost since, also by a run beside. Throws UserError.
@@ -125,6 +149,7 @@ class RunDevice {
     DeviceLog log_;
     std::shared_ptr<SharedDevice> shared_;
     std::optional<Opened> opened_;
+    SurfaceSampler* sampler_ = nullptr;
     double open_seconds_ = 0, compile_seconds_ = 0; ///< That no run has told of yet.
 };
 

@@ -64,6 +64,15 @@ std::vector<SampleRow> to_rows(const MeshInput& mesh, double min_distance,
     return rows;
 }
 
+Task task_of(const SampleJob& job, const MeshInput& mesh, const SampleParams& params,
+             double expected) {
+    Task task{domain_of(job, mesh, params), expected};
+    if (job.is_geodesic()) {
+        task.surface = SurfaceTask{&mesh.prepared, params};
+    }
+    return task;
+}
+
 /// Adds what is to be told of the samples that were given, the first of `result`.
 void note_given(const SampleJob& job, const MeshInput& mesh, SampleResult& result,
                 ProgressLine& progress) {
@@ -107,7 +116,7 @@ Task level_task(const SampleJob& job, const MeshInput& mesh, const SampleParams&
                 const Levels& levels, std::uint32_t level, const std::vector<Sample>& before) {
     const SampleParams params = take(params_of_level(last, levels, level, before));
     const double area = effective_area(mesh.prepared, params);
-    Task task{domain_of(job, mesh, params), expected_count(area, params.min_distance)};
+    Task task = task_of(job, mesh, params, expected_count(area, params.min_distance));
     if (level + 1 < levels.count) {
         task.next = [&job, &mesh, last, levels, level](const std::vector<Sample>& samples) {
             return level_task(job, mesh, last, levels, level + 1, samples);
@@ -194,7 +203,7 @@ SampleResult sample_mesh(const SampleJob& job, const MeshInput& mesh, RunDevice&
             return level_task(job, mesh, params, levels_of(job.method, mesh, params), 0, {});
         }
         const double room = expected_count(effective_area(mesh.prepared, params), min_distance);
-        return Task{domain_of(job, mesh, params), job.method.expected(room)};
+        return task_of(job, mesh, params, job.method.expected(room));
     };
     auto [set, done] = device.run(task_at, params.min_distance, job.wanted_count, progress);
     features.add_seconds(done);

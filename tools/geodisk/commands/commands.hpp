@@ -10,6 +10,7 @@ namespace geodisk::tools {
 
 class AtomicFile;
 class Command;
+class SurfaceSampler;
 
 struct OutputOptions;
 struct RenderOptions;
@@ -33,8 +34,9 @@ struct UnnamedOutputs {
     bool may_lack_picture = false; ///< Leaves the picture out if the device cannot draw.
 };
 
-/// What `sample` does.
-void sample_to_files(const SampleOptions& options, const UnnamedOutputs& unnamed = {});
+/// What `sample` does, by `sampler` if it is not null.
+void sample_to_files(const SampleOptions& options, const UnnamedOutputs& unnamed = {},
+                     SurfaceSampler* sampler = nullptr);
 
 /// Samples a mesh and draws the samples, into files of the current folder named by the mesh.
 void add_quick_command(Command app);

@@ -60,7 +60,8 @@ RunDevice open_device_for(SampleJob& job, bool may_lack_picture, ProgressLine& p
 
 } // namespace
 
-void sample_to_files(const SampleOptions& options, const UnnamedOutputs& unnamed) {
+void sample_to_files(const SampleOptions& options, const UnnamedOutputs& unnamed,
+                     SurfaceSampler* sampler) {
     check_output_or_dry_run(options.out);
     SampleJob job = parse_job(options);
     const NamedFile picture{"the picture", job.picture};
@@ -77,6 +78,7 @@ void sample_to_files(const SampleOptions& options, const UnnamedOutputs& unnamed
         check_visible(job.mesh.mesh, mesh);
     }
     RunDevice device = open_device_for(job, unnamed.may_lack_picture, progress);
+    device.sample_by(sampler);
     if (job.out.is_dry_run) {
         const DryRun dry = try_sampling(job, mesh, device, progress);
         publish(job.out, dry_sample_json(job, mesh, dry), dry_sample_text(job, mesh, dry));

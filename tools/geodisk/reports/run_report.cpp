@@ -7,6 +7,25 @@
 namespace geodisk::tools {
 namespace {
 
+Json processes_json(const std::vector<ProcessReport>& processes) {
+    Json all = Json::array();
+    for (const ProcessReport& process : processes) {
+        all.push_back({{"own_faces", process.own_faces},
+                       {"faces", process.faces},
+                       {"candidates", process.candidates},
+                       {"samples", process.samples},
+                       {"part_bytes", process.part_bytes},
+                       {"neighbours", process.neighbours},
+                       {"rounds", process.rounds},
+                       {"messages", process.messages},
+                       {"bytes", process.bytes},
+                       {"whole_runs", process.whole_runs},
+                       {"border_runs", process.border_runs},
+                       {"peak_bytes", process.peak_bytes}});
+    }
+    return all;
+}
+
 /// What ended the run.
 const char* stopped_by(const Drawn& drawn) {
     const bool has_all = drawn.samples == drawn.method.stop_count || drawn.done.cut > 0;
@@ -93,11 +112,15 @@ Json run_json(const DeviceRun& done, const SecondsByStage& seconds) {
     for (const auto& [stage, value] : seconds) {
         stages[stage] = value;
     }
-    return {{"guard", done.run.guard},
-            {"device_bytes", done.run.device_bytes},
-            {"seconds", stages},
-            {"tuning", tuning_json(done.tuning)},
-            {"device", device_json(done.device)}};
+    Json json{{"guard", done.run.guard},
+              {"device_bytes", done.run.device_bytes},
+              {"seconds", stages},
+              {"tuning", tuning_json(done.tuning)},
+              {"device", device_json(done.device)}};
+    if (!done.processes.empty()) {
+        json["processes"] = processes_json(done.processes);
+    }
+    return json;
 }
 
 std::string run_text(const DeviceRun& done, const SecondsByStage& seconds,

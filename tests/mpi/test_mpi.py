@@ -1,0 +1,138 @@
+"""geodisk_mpi under mpirun: the files of `geodisk sample`, and what ends a run."""
+
+import json
+import os
+import signal
+import subprocess
+import time
+
+import pytest
+
+PROGRAM = os.environ["GEODISK_MPI_COMMAND"]
+ENVIRONMENT = {
+    **os.environ,
+    "LP_NUM_THREADS": "1",
+    "OMPI_ALLOW_RUN_AS_ROOT": "1",
+    "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
+    "OMPI_MCA_rmaps_base_oversubscribe": "1",
+}
+MESH = "builtin:torus-knot"
+
+
+def launch(processes, *arguments, **more):
+    command = [os.environ["GEODISK_MPIEXEC"], "-q", "-n", str(processes), PROGRAM, *arguments]
+    return subprocess.Popen(command, env=ENVIRONMENT, text=True, stdout=subprocess.PIPE,
+                            stderr=subprocess.PIPE, **more)
+
+
+def run(processes, *arguments, **more):
+    process = launch(processes, *arguments, **more)
+    output, errors = process.communicate(timeout=120)
+    return process.returncode, output, errors
+
+
+def alone(*arguments):
+    subprocess.run([os.environ["GEODISK_COMMAND"], "sample", *arguments, "--quiet"], check=True,
+                   env=ENVIRONMENT)
+
+
+def check_same(tmp_path, arguments, counts, name="samples.ply"):
+    expected = tmp_path / f"alone-{name}"
+    alone(*arguments, "-o", str(expected))
+    for count in counts:
+        found = tmp_path / f"{count}-{name}"
+        code, _, errors = run(count, "sample", *arguments, "-o", str(found), "--quiet")
+        assert (code, errors) == (0, "")
+        assert found.read_bytes() == expected.read_bytes(), count
+
+
+def test_same_file_for_any_number_of_processes(tmp_path):
+    check_same(tmp_path, [MESH, "--min-distance", "1.5%", "--seed", "3"], [1, 2, 3, 4, 7])
+
+
+def test_same_file_with_radii_and_constraints(tmp_path):
+    existing = tmp_path / "existing.csv"
+    alone(MESH, "--count", "50", "--seed", "9", "-o", str(existing))
+    check_same(tmp_path, [MESH, "--radius-factor", "curvature", "--count", "300"], [3], "radii.csv")
+    check_same(tmp_path, [MESH, "--min-distance", "3%", "--existing", str(existing), "--avoid",
+                          f"{existing}:4%"], [3], "given.csv")
+    check_same(tmp_path, ["builtin:cube", "--min-distance", "10%", "--features", "30"], [2],
+               "features.csv")
+    check_same(tmp_path, [MESH, "--count", "150", "--order", "progressive", "--exact"], [2],
+               "levels.csv")
+
+
+def test_report_tells_of_processes(tmp_path):
+    report = tmp_path / "report.json"
+    code, _, errors = run(3, "sample", MESH, "--count", "300", "-o", str(tmp_path / "s.ply"),
+                          "--json", str(report), "--quiet")
+    assert (code, errors) == (0, "")
+    told = json.loads(report.read_text())
+    processes = told["processes"]
+    assert len(processes) == 3
+    assert sum(p["samples"] for p in processes) == told["samples"]
+    assert sum(p["candidates"] for p in processes) == told["candidates"]
+    assert sum(p["own_faces"] for p in processes) == told["mesh"]["triangles"]
+    assert len({p["rounds"] for p in processes}) == 1
+    assert all(p["messages"] == p["rounds"] * p["neighbours"] for p in processes)
+
+
+@pytest.mark.parametrize("arguments, message", [
+    (["--count", "10", "--classes", "2"], "--classes is not for many processes"),
+    (["--count", "10", "--maximal"], "--maximal is not for many processes"),
+    (["--count", "10", "--method", "darts"], "--method darts is not for many processes"),
+    (["--count", "10", "--metric", "euclidean"], "--metric euclidean is not for many processes"),
+    (["--count", "0"], "--count"),
+    ([], "give one of --min-distance"),
+])
+def test_bad_options_are_told_once(tmp_path, arguments, message):
+    out = tmp_path / "s.ply"
+    code, _, errors = run(2, "sample", "builtin:cube", "-o", str(out), *arguments)
+    assert code == 2
+    assert errors.startswith("geodisk_mpi: ") and message in errors
+    assert errors.count("\n") == 1 and not out.exists()
+
+
+def test_more_processes_than_faces(tmp_path):
+    mesh = tmp_path / "one.obj"
+    mesh.write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 3\nf 2 4 3\n")
+    out = tmp_path / "s.ply"
+    code, _, errors = run(3, "sample", str(mesh), "--min-distance", "0.2", "-o", str(out))
+    assert code == 2 and errors.count("\n") == 1 and not out.exists()
+    assert "there are 3 processes, but the mesh has 2 faces" in errors
+    code, _, errors = run(3, "sample", str(tmp_path / "none.obj"), "--count", "5", "-o", str(out))
+    assert code == 3 and errors.count("\n") == 1 and "none.obj" in errors
+
+
+def test_processes_started_differently(tmp_path):
+    out = str(tmp_path / "s.ply")
+    first = ["-n", "1", PROGRAM, "sample", "builtin:cube", "--count", "10", "-o", out]
+    other = ["-n", "1", PROGRAM, "sample", "builtin:cube", "--count", "20", "-o", out]
+    done = subprocess.run([os.environ["GEODISK_MPIEXEC"], "-q", *first, ":", *other],
+                          env=ENVIRONMENT, text=True, capture_output=True, timeout=60)
+    assert done.returncode == 2 and not os.path.exists(out)
+    assert done.stderr.startswith("geodisk_mpi: process 1 was started with other arguments")
+    assert done.stderr.count("\n") == 1
+
+
+def children_of(process):
+    """The processes of geodisk_mpi that mpirun started."""
+    listed = subprocess.run(["ps", "--no-headers", "-o", "pid", "--ppid", str(process.pid)],
+                            text=True, capture_output=True).stdout.split()
+    return [int(pid) for pid in listed]
+
+
+def test_killed_process_ends_all(tmp_path):
+    out = tmp_path / "s.ply"
+    process = launch(3, "sample", MESH, "--count", "100000", "-o", str(out), "--quiet")
+    deadline = time.monotonic() + 30
+    while len(children_of(process)) < 3:
+        assert time.monotonic() < deadline
+        time.sleep(0.05)
+    time.sleep(2)
+    pids = children_of(process)
+    os.kill(pids[-1], signal.SIGKILL)
+    process.communicate(timeout=30)
+    assert process.returncode != 0
+    assert not out.exists() and not list(tmp_path.iterdir())
+    assert not children_of(process)
