@@ -14,11 +14,13 @@ namespace geodisk::tools {
 /// "<f8" and "(2, 3)".
 std::string array_header(const std::string& type, const std::string& shape);
 
-/// Adds an array of one dimension; `type` is that of its values.
+/// Adds an array; `type` is that of its values. It has one dimension, or rows of `columns` values.
 template <class Value>
 void add_array(ZipWriter& zip, const std::string& name, const std::string& type,
-               std::span<const Value> values) {
-    std::string bytes = array_header(type, '(' + std::to_string(values.size()) + ",)");
+               std::span<const Value> values, std::size_t columns = 1) {
+    const std::string rows = std::to_string(values.size() / columns);
+    std::string bytes = array_header(
+        type, '(' + rows + (columns == 1 ? ",)" : ", " + std::to_string(columns) + ')'));
     const std::size_t first = bytes.size();
     bytes.resize(first + values.size_bytes());
     for_rows(values.size(), [&](std::size_t i) {

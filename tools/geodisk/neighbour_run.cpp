@@ -4,36 +4,13 @@
 #include <numeric>
 #include <utility>
 
-#include "geodisk/outputs/outputs.hpp"
+#include "geodisk/search_progress.hpp"
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
 #include "program/interrupt.hpp"
 #include "program/stopwatch.hpp"
-#include "program/time_estimate.hpp"
 
 namespace geodisk::tools {
-namespace {
-
-// Less of a search says little of how long the rest takes.
-constexpr double kEarly = 0.02;
-
-/// Says once if the search takes long, and stops it on a signal.
-ProgressCallback show_progress(ProgressLine& progress) {
-    return [&progress, watch = Stopwatch(),
-            time = TimeEstimate(kEarly)](const Progress& state) mutable {
-        const double part = static_cast<double>(state.decided) / state.candidates;
-        time.note(watch.seconds(), part);
-        if (const auto seconds = time.long_run()) {
-            progress.clear();
-            print_warning("searching takes about " + seconds_text(*seconds) + " on this device");
-        }
-        progress.update(part, grouped(state.accepted) + " pairs" + time.left_text());
-        return !is_interrupted();
-    };
-}
-
-} // namespace
-
 NumberedPoints vertices_of(const MeshInput& mesh, const std::vector<VertexRange>& wanted) {
     VertexPoints all = take(vertex_points(mesh.prepared, mesh.file.joined));
     if (wanted.empty()) {
@@ -73,7 +50,8 @@ NeighbourResult search_neighbours(const NeighbourJob& job, const MeshInput& mesh
     query.joined = mesh.file.joined;
     query.nearest = job.nearest;
     query.most_pairs = job.most_pairs == 0 ? query.most_pairs : job.most_pairs;
-    auto found = find_neighbours(device.runner(), mesh.prepared, query, show_progress(progress));
+    auto found =
+        find_neighbours(device.runner(), mesh.prepared, query, search_progress(progress, "pairs"));
     progress.clear();
     check_interrupted();
     if (!found) {

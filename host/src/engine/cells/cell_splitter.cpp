@@ -143,7 +143,7 @@ std::uint32_t CellSplitter::nearest_at(const FacePlace& place,
     std::uint32_t nearest = ~0u;
     for (const std::uint32_t light : lights) {
         const auto [distance, outside] = lit_.sight(light, target);
-        if (outside == 0 && distance <= least + tolerance_) {
+        if (outside == 0 && distance <= least + tie_) {
             nearest = std::min(nearest, near_.sample_of(light));
         }
     }

@@ -46,10 +46,10 @@ struct FoundCells {
 
 class CellSplitter {
   public:
-    /// Distances may be off by a quarter of `tolerance`.
-    CellSplitter(const LitFaces& lit, const GridPoints& grid, double tolerance, bool has_dual)
-        : lit_(lit), grid_(grid), tolerance_(tolerance), has_dual_(has_dual), near_(lit, tolerance),
-          flat_(lit, tolerance) {}
+    CellSplitter(const LitFaces& lit, const GridPoints& grid, const Closeness& closeness,
+                 bool has_dual)
+        : lit_(lit), grid_(grid), tie_(closeness.tie), has_dual_(has_dual), near_(lit, closeness),
+          flat_(lit, closeness) {}
 
     /// Finds the cells in a face with area.
     void split(std::uint32_t face, FoundCells& found);
@@ -77,7 +77,7 @@ class CellSplitter {
 
     const LitFaces& lit_;
     const GridPoints& grid_;
-    double tolerance_;
+    double tie_;
     bool has_dual_;
     NearLights near_;
     FlatPieces flat_;

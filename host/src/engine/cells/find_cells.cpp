@@ -70,7 +70,7 @@ class CellSearch {
 };
 
 void CellSearch::split(std::uint32_t part, FoundCells& found) const {
-    CellSplitter splitter(lit_.faces(), grid_, lit_.tolerance(), params_.has_dual);
+    CellSplitter splitter(lit_.faces(), grid_, lit_.closeness(), params_.has_dual);
     const std::uint32_t first = part * kFacesPerPart;
     const std::uint32_t end = std::min(first + kFacesPerPart, mesh_.face_count());
     for (std::uint32_t face = first; face < end; ++face) {
@@ -100,10 +100,9 @@ void CellSearch::add(const FoundCells& found) {
 }
 
 bool CellSearch::report(double part) const {
-    const auto all = static_cast<double>(cells_.areas.size());
-    return !progress_ || progress_({static_cast<std::uint32_t>((1 + part) * all),
-                                    static_cast<std::uint32_t>(2 * all), 0, lit_.report().disks,
-                                    lit_.report().windows});
+    const auto all = static_cast<std::uint32_t>(cells_.areas.size());
+    return !progress_ || progress_({all + static_cast<std::uint32_t>(part * all), 2 * all, all,
+                                    lit_.report().disks, lit_.report().windows});
 }
 
 Result<SurfaceCells> CellSearch::go() {
@@ -127,7 +126,7 @@ Result<SurfaceCells> CellSearch::go() {
     }
     cells_.unreached *= square;
     cells_.area_error = *std::ranges::max_element(doubts_) * square;
-    cells_.distance_error = lit_.tolerance() / 4 * frame_.unit;
+    cells_.distance_error = lit_.closeness().error * frame_.unit;
     if (params_.has_dual) {
         cells_.triangles = dual_triangles(std::move(meetings_), std::move(ends_), knots_);
         cells_.edges = dual_edges(std::move(pairs_), cells_.triangles);

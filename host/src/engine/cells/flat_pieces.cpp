@@ -53,9 +53,9 @@ void FlatPieces::gather(const GapCell& cell, const LitFaces::Target& target,
         // A path through the next part of an edge, or past a vertex, goes on as the one beside it.
         const auto same = std::ranges::find_if(pieces_, [&](const Piece& other) {
             return other.sample == piece.sample &&
-                   std::abs(other.distances[0] - piece.distances[0]) <= tolerance_ / 4 &&
-                   std::abs(other.distances[1] - piece.distances[1]) <= tolerance_ / 4 &&
-                   std::abs(other.distances[2] - piece.distances[2]) <= tolerance_ / 4;
+                   std::abs(other.distances[0] - piece.distances[0]) <= tie_ / 4 &&
+                   std::abs(other.distances[1] - piece.distances[1]) <= tie_ / 4 &&
+                   std::abs(other.distances[2] - piece.distances[2]) <= tie_ / 4;
         });
         if (same == pieces_.end()) {
             pieces_.push_back(piece);
@@ -68,13 +68,13 @@ void FlatPieces::gather(const GapCell& cell, const LitFaces::Target& target,
 
 /// Drops functions that another one is below, all over the cell. Returns false if one that is left
 /// does not hold all over it.
-bool FlatPieces::drop_beaten() {
-    const auto is_beaten = [this](const Piece& piece) {
+bool FlatPieces::drop_beaten(double margin) {
+    const auto is_beaten = [&](const Piece& piece) {
         return std::ranges::any_of(pieces_, [&](const Piece& other) {
-            const double margin = piece.bend + other.bend + wide_band_;
-            return other.lit == kAllLit && piece.values[0] > other.values[0] + margin &&
-                   piece.values[1] > other.values[1] + margin &&
-                   piece.values[2] > other.values[2] + margin;
+            const double beyond = piece.bend + other.bend + margin;
+            return other.lit == kAllLit && piece.values[0] > other.values[0] + beyond &&
+                   piece.values[1] > other.values[1] + beyond &&
+                   piece.values[2] > other.values[2] + beyond;
         });
     };
     samples_.clear();
@@ -100,15 +100,15 @@ bool FlatPieces::find(const GapCell& cell, const LitFaces::Target& target,
         return false;
     }
     gather(cell, target, lights);
-    const double scale = 2 * (view.distance + target.reach + 3 * tolerance_ - nearest_source_);
-    wide_band_ = 3 * scale * tolerance_;
-    if (!drop_beaten()) {
+    const double rounding = 2 * error_, ties = 3 * tie_;
+    const double scale = 2 * (view.distance + target.reach + rounding + ties - nearest_source_);
+    if (!drop_beaten(scale * std::max(rounding, ties))) {
         return false;
     }
     const double least = view.distance - target.reach - nearest_source_;
     is_exact_ = band_ == 0 || band_ <= kExact * view.distance * 4 * least;
-    wide_band_ += band_;
-    band_ += scale * tolerance_ / 2; // Two distances, each off by a quarter.
+    wide_band_ = band_ + scale * ties;
+    band_ += scale * rounding;
     return true;
 }
 
@@ -121,7 +121,7 @@ std::array<std::uint32_t, 3> FlatPieces::nearest() const {
         }
         found[k] = ~0u;
         for (const Piece& piece : pieces_) {
-            if (piece.lit == kAllLit && piece.distances[k] <= least + tolerance_) {
+            if (piece.lit == kAllLit && piece.distances[k] <= least + tie_) {
                 found[k] = std::min(found[k], piece.sample);
             }
         }

@@ -17,8 +17,8 @@ namespace geodisk {
 /// the place: linear where that source is the sample's, and as large where d is.
 class FlatPieces {
   public:
-    /// Lengths are in units of the frame. Distances may be off by a quarter of `tolerance`.
-    FlatPieces(const LitFaces& lit, double tolerance) : lit_(lit), tolerance_(tolerance) {}
+    FlatPieces(const LitFaces& lit, const Closeness& closeness)
+        : lit_(lit), error_(closeness.error), tie_(closeness.tie) {}
 
     /// Finds the distances of all lights that NearLights::look() found for a cell. Returns false
     /// if it is too large, or partly lit.
@@ -35,7 +35,7 @@ class FlatPieces {
     double wide_band() const { return wide_band_; }
     /// Returns true if distances are so close to linear that areas are exact.
     bool is_exact() const { return is_exact_; }
-    /// Returns the sample of each corner: the first of those that are nearest up to the tolerance.
+    /// Returns the sample of each corner: the first of those that are nearest up to ties.
     std::array<std::uint32_t, 3> nearest() const;
 
   private:
@@ -48,10 +48,10 @@ class FlatPieces {
     };
     void gather(const GapCell& cell, const LitFaces::Target& target,
                 std::span<const std::uint32_t> lights);
-    bool drop_beaten();
+    bool drop_beaten(double margin);
 
     const LitFaces& lit_;
-    double tolerance_;
+    double error_, tie_;
     std::vector<Piece> pieces_;
     std::vector<CornerValues> functions_;
     std::vector<std::uint32_t> samples_;

@@ -21,6 +21,8 @@ constexpr std::size_t kFewSamples = 64;
 // Disks begin no smaller, in parts of those that cover the surface if samples are even.
 constexpr double kSmallest = 0x1p-10;
 constexpr double kGrowth = 1.5;
+// Far more than the rounding of one path's length, if not than its bound for the longest chains.
+constexpr double kTie = 0x1p-19;
 // Maximum of records read at once and of disks of a job, and room for more than expected.
 constexpr double kMostRecords = 0x1p21;
 constexpr double kMostDisks = 0x1p20;
@@ -45,17 +47,17 @@ double LitCells::smallest_radius() const {
     return *std::ranges::min_element(radii_);
 }
 
-double LitCells::tolerance() const {
+Closeness LitCells::closeness() const {
     // Lengths of larger disks are scaled down to less than 2.
-    return 4 * ErrorModel(frame_).error_of(report_.longest_chain) *
-           std::max(1.0, 2 * largest_radius());
+    const double scale = std::max(1.0, 2 * largest_radius());
+    return {ErrorModel(frame_).error_of(report_.longest_chain) * scale, kTie * scale};
 }
 
 bool LitCells::report(const Progress& now) const {
     const auto all = static_cast<std::uint32_t>(samples_.size());
     const auto done = all - static_cast<std::uint32_t>(left_) + now.disks;
-    return !progress_ || progress_({std::min(done, all), 2 * all, 0, report_.disks + now.disks,
-                                    report_.windows + now.windows});
+    return !progress_ || progress_({std::min(done, all), 2 * all, std::min(done, all),
+                                    report_.disks + now.disks, report_.windows + now.windows});
 }
 
 Error LitCells::too_many(double records) const {
@@ -165,7 +167,7 @@ Result<Done> LitCells::light() {
         const double start = impl_.now();
         lit_.sort_from(0);
         std::vector<std::uint8_t> marks =
-            open_cells(mesh_, lit_, radii_, tolerance(), impl_.options.threads);
+            open_cells(mesh_, lit_, radii_, closeness(), impl_.options.threads);
         samples.clear();
         for (std::uint32_t i = 0; i < marks.size(); ++i) {
             marks[i] = marks[i] != 0 && radii_[i] < bound ? 1 : 0;

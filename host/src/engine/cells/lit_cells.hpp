@@ -8,6 +8,7 @@
 #include <geodisk/cells.hpp>
 #include <geodisk/job_frame.hpp>
 
+#include "engine/cells/near_lights.hpp"
 #include "engine/maximal/lit_faces.hpp"
 #include "engine/run/runner_impl.hpp"
 
@@ -24,8 +25,7 @@ class LitCells {
     Result<Done> light();
 
     const LitFaces& faces() const { return lit_; }
-    /// Returns four times a bound on the error of distances, in units of the frame.
-    double tolerance() const;
+    Closeness closeness() const;
     double largest_radius() const;
     double smallest_radius() const;
     const RunReport& report() const { return report_; }

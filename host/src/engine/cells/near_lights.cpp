@@ -31,7 +31,7 @@ NearLights::View NearLights::look(const LitFaces::Target& target, Range lights) 
             view.distance = distance;
         }
     }
-    const double bound = view.distance + 2 * target.reach + 3 * tolerance_;
+    const double bound = view.distance + 2 * target.reach + more_;
     for (const auto& [light, distance] : seen_) {
         if (distance <= bound) {
             stack_.push_back(light);

@@ -1,6 +1,7 @@
 // NearLights: which samples may be the nearest ones somewhere in a part of a face.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -9,6 +10,12 @@
 #include "engine/maximal/lit_faces.hpp"
 
 namespace geodisk {
+
+/// How well distances are known, in units of the frame.
+struct Closeness {
+    double error; ///< Distances are at most so far from exact ones.
+    double tie;   ///< Distances that differ by less count as equal.
+};
 
 /// Keeps lights on a stack: those of a part of a face above those of the larger part it is in.
 /// Lengths are in units of the frame.
@@ -26,8 +33,8 @@ class NearLights {
         double distance;       ///< Of that sample.
     };
 
-    /// Distances may be off by a quarter of `tolerance`.
-    NearLights(const LitFaces& lit, double tolerance) : lit_(lit), tolerance_(tolerance) {}
+    NearLights(const LitFaces& lit, const Closeness& closeness)
+        : lit_(lit), more_(std::max(2 * closeness.error, 3 * closeness.tie)) {}
 
     /// Begins again, with all lights of a face.
     Range begin(std::uint32_t face);
@@ -49,7 +56,7 @@ class NearLights {
         double distance;
     };
     const LitFaces& lit_;
-    double tolerance_;
+    double more_; ///< One that is farther by no more may be nearest as well.
     std::vector<std::uint32_t> stack_;
     std::vector<Seen> seen_;
 };

@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <limits>
 
-#include "engine/cells/near_lights.hpp"
 #include "mesh/face_area.hpp"
 #include "support/blocks.hpp"
 
@@ -19,9 +18,9 @@ constexpr double kInside = 1 - 0x1p-12;
 
 class RimSearch {
   public:
-    RimSearch(const LitFaces& lit, std::span<const double> radii, double tolerance,
+    RimSearch(const LitFaces& lit, std::span<const double> radii, const Closeness& closeness,
               std::vector<std::uint32_t>& found)
-        : lit_(lit), radii_(radii), near_(lit, tolerance), found_(found) {}
+        : lit_(lit), radii_(radii), near_(lit, closeness), found_(found) {}
 
     void search(std::uint32_t face) { search({face, 0, 0, 0, false}, near_.begin(face)); }
 
@@ -63,12 +62,12 @@ void RimSearch::search(const GapCell& cell, NearLights::Range lights) {
 } // namespace
 
 std::vector<std::uint8_t> open_cells(const PreparedMesh& mesh, const LitFaces& lit,
-                                     std::span<const double> radii, double tolerance,
+                                     std::span<const double> radii, const Closeness& closeness,
                                      const ThreadOptions& threads) {
     const std::size_t parts = (mesh.face_count() + kFacesPerPart - 1) / kFacesPerPart;
     std::vector<std::vector<std::uint32_t>> found(parts);
     for_parts(threads, parts, [&](std::size_t part) {
-        RimSearch search(lit, radii, tolerance, found[part]);
+        RimSearch search(lit, radii, closeness, found[part]);
         const std::size_t first = part * kFacesPerPart;
         const std::size_t end = std::min<std::size_t>(first + kFacesPerPart, mesh.face_count());
         for (std::size_t face = first; face < end; ++face) {

@@ -7,6 +7,7 @@
 
 #include <geodisk/threads.hpp>
 
+#include "engine/cells/near_lights.hpp"
 #include "engine/maximal/lit_faces.hpp"
 
 namespace geodisk {
@@ -16,9 +17,9 @@ namespace geodisk {
 /// from the sample to each of its points. Once that holds for all, the nearest sample of each point
 /// is among those that light it.
 ///
-/// Radii of disks and the tolerance of distances are in units of the frame.
+/// Radii of disks are in units of the frame.
 std::vector<std::uint8_t> open_cells(const PreparedMesh& mesh, const LitFaces& lit,
-                                     std::span<const double> radii, double tolerance,
+                                     std::span<const double> radii, const Closeness& closeness,
                                      const ThreadOptions& threads);
 
 } // namespace geodisk

@@ -1,0 +1,156 @@
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <geodisk/version.hpp>
+
+#include "geodisk/cell_run.hpp"
+#include "geodisk/checks/run_warnings.hpp"
+#include "geodisk/checks/sample_input.hpp"
+#include "geodisk/commands/commands.hpp"
+#include "geodisk/commands/help_text.hpp"
+#include "geodisk/inputs/mesh_input.hpp"
+#include "geodisk/opened_device.hpp"
+#include "geodisk/options/mesh_options.hpp"
+#include "geodisk/options/run_options.hpp"
+#include "geodisk/options/tolerance_option.hpp"
+#include "geodisk/outputs/outputs.hpp"
+#include "geodisk/reports/cell_report.hpp"
+#include "program/command.hpp"
+#include "program/exact_text.hpp"
+#include "program/failure.hpp"
+
+namespace geodisk::tools {
+namespace {
+
+constexpr const char* kExamples[] = {
+    "geodisk cells bunny.ply points.ply -o areas.csv",
+    "geodisk cells bunny.ply points.ply -o areas.ply --dual remeshed.obj",
+};
+
+struct CellOptions {
+    MeshOptions mesh;
+    OutputOptions out;
+    RunOptions run;
+    std::string samples, dual, tolerance;
+};
+
+void check_files(const CellOptions& options) {
+    std::vector<NamedFile> read{{"the samples read", options.samples}};
+    options.mesh.add_files(read, "the mesh");
+    std::vector<NamedFile> further;
+    if (!options.dual.empty()) {
+        dual_format(options.dual);
+        further.push_back({"the dual graph", options.dual});
+    }
+    check_outputs(options.out, "the samples", read, nullptr, further);
+    if (!options.dual.empty()) {
+        check_writable(options.dual);
+    }
+    const std::vector<std::string> columns{"area"};
+    check_columns(options.out.target(), columns);
+}
+
+void check_dual_dimension(const CellOptions& options, std::uint32_t dimension) {
+    if (!options.dual.empty() && dimension != 3 && dual_format(options.dual) == DualFormat::obj) {
+        fail_usage("--dual: .obj has vertices of three coordinates, but the mesh has " +
+                   std::to_string(dimension) + "; write .npz");
+    }
+}
+
+/// What the file said of its samples, and what their areas are.
+SampleHeader header_with_areas(const CellOptions& options, const SampleHeader& source,
+                               const SurfaceCells& cells) {
+    SampleHeader header = source;
+    if (header.find("version") == nullptr) {
+        header.entries.insert(
+            header.entries.begin(),
+            {{"version", "geodisk " GEODISK_VERSION_STRING}, {"mesh", options.mesh.mesh}});
+    }
+    std::erase_if(header.entries, [](const auto& entry) {
+        return entry.first == "area_error" || entry.first == "area_unreached";
+    });
+    header.entries.emplace_back("area_error", exact_text(cells.area_error));
+    if (cells.unreached > 0) {
+        header.entries.emplace_back("area_unreached", exact_text(cells.unreached));
+    }
+    return header;
+}
+
+void run_cells_command(const CellOptions& options) {
+    RunnerOptions runner;
+    runner.device_bytes = options.run.device_bytes();
+    runner.stall_seconds = options.run.stall_seconds();
+    check_tolerance(options.tolerance);
+    check_files(options);
+
+    ProgressLine progress(options.out.quiet);
+    const MeshInput mesh = load_mesh(options.mesh, progress);
+    check_dimension(options.out.target(), mesh.dimension());
+    check_dual_dimension(options, mesh.dimension());
+    std::vector<MeshWarning> warnings;
+    const HeaderEntries additions = options.mesh.additions();
+    SampleFile file = read_samples_silently_on(options.samples, options.mesh.mesh, mesh, &additions,
+                                               options.tolerance, warnings, progress);
+    if (file.rows.empty()) {
+        fail_input(options.samples, "has no samples");
+    }
+    for (SampleRow& row : file.rows) {
+        mesh.place(row);
+    }
+    print_warnings(warnings);
+    warnings.insert(warnings.begin(), mesh.warnings.begin(), mesh.warnings.end());
+    RunDevice device(options.run.device, runner);
+    const CellResult result = run_cells(file.rows, !options.dual.empty(), mesh, device,
+                                        runner.device_bytes != 0, progress);
+    check_validation(device.context());
+    print_precision_note(options.out, file.rows, mesh.dimension());
+    const SampleHeader header = header_with_areas(options, file.header, result.cells);
+    const std::vector<SampleField> fields{area_field(result.cells)};
+    std::vector<FurtherFile> further;
+    if (!options.dual.empty()) {
+        further.push_back({{"the dual graph", options.dual}, [&](AtomicFile& dual) {
+                               write_dual(dual, dual_format(options.dual), dual_mesh(result, mesh));
+                           }});
+    }
+    const CellReport report{options.mesh, mesh, warnings, result, options.out.output, options.dual};
+    write_outputs(
+        options.out, "the samples", progress, report,
+        [&](AtomicFile& samples) {
+            write_samples(samples, options.out.target(), header, file.rows, mesh.dimension(),
+                          {file.extra, fields});
+        },
+        further);
+}
+
+} // namespace
+
+void add_cells_command(Command app) {
+    const Command command =
+        app.add_command("cells", "Find the area that is nearer to each sample than to all others,\n"
+                                 "along the surface, and the mesh of samples whose cells meet");
+    const auto options = std::make_shared<CellOptions>();
+    add_mesh_argument(command, options->mesh, "Mesh that the samples lie on");
+    command
+        .add_option("SAMPLES", options->samples, "",
+                    "Samples of MESH, or points of another program, put on the\n"
+                    "nearest face")
+        .required();
+    add_output_argument(command, options->out,
+                        "File to write: the samples with a column `area`, as *.ply,\n"
+                        "*.csv, *.npz, *.pcd, *.glb, *.gltf or *.usda");
+    command.add_option("--dual", options->dual, "FILE",
+                       "Write the dual graph too: *.obj (samples as vertices, a\n"
+                       "triangle where three cells meet) or *.npz (arrays points,\n"
+                       "edges, triangles)");
+    add_mesh_options(command, options->mesh);
+    add_tolerance_option(command, options->tolerance);
+    add_output_options(command, options->out);
+    add_device_options(command, options->run.device);
+    add_verbose_option(command, options->run.device);
+    add_limit_options(command, options->run);
+    command.has_footer(help_footer(kExamples));
+    command.calls([options] { run_cells_command(*options); });
+}
+
+} // namespace geodisk::tools

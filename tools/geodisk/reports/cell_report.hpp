@@ -1,0 +1,25 @@
+// What `cells` reports: to people and to programs.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "geodisk/cell_run.hpp"
+#include "geodisk/options/mesh_options.hpp"
+
+namespace geodisk::tools {
+
+/// Cells that are found, for write_outputs().
+struct CellReport {
+    const MeshOptions& options;
+    const MeshInput& mesh;
+    const std::vector<MeshWarning>& warnings; ///< Of mesh and samples.
+    const CellResult& result;
+    const std::string& output;
+    const std::string& dual; ///< File of the dual graph, or "".
+
+    std::string json(double write_seconds) const;
+    std::string summary(double write_seconds) const;
+};
+
+} // namespace geodisk::tools
