@@ -272,10 +272,12 @@ TEST_SUITE("cells") {
 
     TEST_CASE("give a torus where there are enough of them") {
         const PreparedMesh torus = prepared(builtin("torus-knot", 12));
-        const SurfaceCells cells = cells_of(torus, samples_at(random_points(torus, 5, 700)));
+        const std::vector<Sample> samples = samples_at(random_points(torus, 5, 700));
+        const SurfaceCells cells = cells_of(torus, samples);
         CHECK(cells.dual.mesh_euler == 0);
         CHECK(cells.dual.euler == 0);
         CHECK(cells.dual.manifold == cells.dual.triangles);
+        CHECK(cells_of(torus, samples).areas == cells.areas); // Whatever the order of records.
     }
 
     TEST_CASE("of few samples, of equal ones and of parts without any") {

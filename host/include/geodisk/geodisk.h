@@ -643,6 +643,53 @@ GEODISK_C_API geodisk_status geodisk_neighbours_describe(const geodisk_neighbour
 
 GEODISK_C_API void geodisk_neighbours_release(geodisk_neighbours *neighbours);
 
+/* ---- Cells -------------------------------------------------------------------------------------- */
+
+/* Which cells to find. */
+typedef struct geodisk_cell_params {
+    size_t struct_size;
+    const geodisk_surface_point *samples; /* At least one. */
+    size_t sample_count;
+    int32_t areas_only;    /* Not 0: find no edges and triangles. */
+    uint64_t most_records; /* Most records of paths, 36 bytes each; 0 for 2^27. */
+} geodisk_cell_params;
+
+/* The geodesic Voronoi cells of samples: what is nearer to each one than to all others. */
+typedef struct geodisk_cells geodisk_cells;
+
+/* Finds the cells of all samples and waits for the result. It is the same on every device.
+ * `progress` may be NULL, and counts samples twice as candidates: their disks, then their cells;
+ * `user` is passed to it. */
+GEODISK_C_API geodisk_status geodisk_find_cells(geodisk_sampler *sampler, const geodisk_mesh *mesh,
+                                                const geodisk_cell_params *params,
+                                                geodisk_progress_fn progress, void *user,
+                                                geodisk_cells **cells, geodisk_error *error);
+
+/* The arrays of cells, which live as long as these. */
+typedef struct geodisk_cell_arrays {
+    size_t struct_size;
+    size_t sample_count;
+    size_t edge_count;
+    size_t triangle_count;
+    const double *areas;       /* Of the cell of each sample; the sum is that of the mesh without
+                                * `unreached`. */
+    const uint32_t *edges;     /* Pairs of samples whose cells touch: the lower one first. */
+    const uint32_t *triangles; /* Three samples for each place where their cells meet. */
+    double area_error;         /* No area is off by more. */
+    double distance_error;     /* Distances are at most so far from exact ones, in mesh units. */
+    double unreached;          /* Area of the parts of the mesh without a sample. */
+    uint64_t manifold_triangles; /* Triangles whose edges have one or two triangles, and whose
+                                  * corners have one fan of them. */
+    int64_t euler;             /* Vertices - edges + triangles. */
+    int64_t mesh_euler;        /* The same of the mesh. */
+} geodisk_cell_arrays;
+
+GEODISK_C_API geodisk_status geodisk_cells_describe(const geodisk_cells *cells,
+                                                    geodisk_cell_arrays *arrays,
+                                                    geodisk_error *error);
+
+GEODISK_C_API void geodisk_cells_release(geodisk_cells *cells);
+
 /* ---- Recording --------------------------------------------------------------------------------- */
 
 /* A run in the caller's command buffers and memory, on a borrowed device. It allocates no device

@@ -1,6 +1,8 @@
 // Meshes and radii of the C API.
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -27,6 +29,12 @@ struct Mesh {
 
 inline Sample sample_of(const geodisk_surface_point& point) {
     return {point.face, {point.weights[0], point.weights[1], point.weights[2]}};
+}
+
+inline std::vector<Sample> samples_of(const geodisk_surface_point* points, std::size_t count) {
+    std::vector<Sample> samples(count);
+    std::transform(points, points + count, samples.begin(), sample_of);
+    return samples;
 }
 
 struct Radii {

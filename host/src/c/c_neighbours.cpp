@@ -25,12 +25,6 @@ struct Sources {
     std::vector<std::uint32_t> vertices;
 };
 
-std::vector<Sample> samples_of(const geodisk_surface_point* points, std::size_t count) {
-    std::vector<Sample> samples(count);
-    std::transform(points, points + count, samples.begin(), sample_of);
-    return samples;
-}
-
 std::span<const std::uint32_t> joined_of(const Mesh& mesh, const geodisk_neighbour_params& params) {
     return params.joined == nullptr ? std::span<const std::uint32_t>(mesh.joined)
                                     : std::span(params.joined, mesh.prepared.vertex_count());

@@ -8,6 +8,7 @@ Distances are exact geodesic ones, computed on a Vulkan device, a GPU's or the C
 True
 """
 
+from ._cells import Cells, cells
 from ._devices import Device, devices
 from ._errors import (
     Cancelled,
@@ -36,6 +37,7 @@ from ._verification import Verification, verify
 __version__ = version()
 __all__ = [
     "Cancelled",
+    "Cells",
     "Device",
     "DeviceLost",
     "Error",
@@ -52,6 +54,7 @@ __all__ = [
     "Sample",
     "Samples",
     "Verification",
+    "cells",
     "devices",
     "neighbours",
     "read",

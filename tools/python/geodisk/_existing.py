@@ -18,6 +18,9 @@ ExistingLike = Union[Samples, Tuple[ArrayLike, ArrayLike]]
 #: Points, as of ExistingLike, and their radius or radii.
 AvoidLike = Tuple[ExistingLike, ArrayLike]
 
+# Of other arguments than those of sample().
+_COMMANDS = {"sources": "neighbours", "among": "neighbours --among", "samples": "cells"}
+
 #: geodisk_surface_point.
 POINT = np.dtype([("face", np.uint32), ("weights", np.float32, 3)])
 
@@ -44,13 +47,16 @@ def avoided_of(
     return points, np.ascontiguousarray(np.broadcast_to(radii, points.shape))
 
 
-def points_of(surface: Surface, given: ExistingLike, name: str) -> NDArray[Any]:
+def points_of(
+    surface: Surface, given: ExistingLike, name: str, is_needed: bool = False
+) -> NDArray[Any]:
     """Returns points as the library takes them."""
     if isinstance(given, Samples):
         if given.face_index is None or given.barycentric is None:
+            command = f"sample --{name}" if name in ("existing", "avoid") else _COMMANDS[name]
             raise e.invalid(
                 f"{name}: these samples have no face_index and barycentric; the program puts "
-                f"points without them on a mesh (geodisk sample --{name})"
+                f"points without them on a mesh (geodisk {command})"
             )
         faces, weights = given.face_index, given.barycentric
         _check_places(surface, given, faces, weights, name)
@@ -69,7 +75,8 @@ def points_of(surface: Surface, given: ExistingLike, name: str) -> NDArray[Any]:
     points = np.empty(len(faces), POINT)
     points["face"], points["weights"] = faces, weights
     if len(points) == 0:
-        raise e.invalid(f"{name} has no samples; leave it out")
+        message = "there is no sample" if is_needed else f"{name} has no samples; leave it out"
+        raise e.invalid(message)
     return points
 
 

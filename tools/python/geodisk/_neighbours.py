@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import ctypes
 from ctypes import byref
 from dataclasses import dataclass
 from typing import Any, Iterator, Union
@@ -14,13 +13,13 @@ from . import _errors as e
 from . import _library as c
 from . import _structs as s
 from ._arrays import indices, real
-from ._background import interruptible
-from ._devices import DeviceLike, forget, name_of, sampler_on
+from ._devices import DeviceLike, name_of
 from ._existing import ExistingLike, points_of
 from ._mesh import Mesh, mesh_of
 from ._protocols import Faces, MeshLike
-from ._running import Bar, ProgressCallback
+from ._running import ProgressCallback
 from ._samples import Samples
+from ._searching import search
 from ._source import view_of
 from ._values import integer
 
@@ -157,7 +156,10 @@ def neighbours(
         params.points, params.point_count = address(points), len(points)
     if mesh._surface.joined is not None:
         params.joined = address(np.ascontiguousarray(mesh._surface.joined, np.uint32))
-    return _arrays_of(_found(mesh, params, name_of(device), progress))
+    found = search(
+        "neighbours", "geodisk_find_neighbours", mesh, params, name_of(device), progress
+    )
+    return _arrays_of(found)
 
 
 def _set_sources(
@@ -196,50 +198,6 @@ def _set_within(
     if distances.shape != (count,):
         raise e.invalid(f"within has the shape {distances.shape}, but there are {count} sources")
     params.radii = address(np.ascontiguousarray(distances))
-
-
-def _found(
-    mesh: Mesh, params: s.NeighbourParams, device: str, progress: bool | ProgressCallback
-) -> c.Handle:
-    bar = Bar() if progress is True else None
-    report = bar if bar is not None else (progress if callable(progress) else None)
-    failure: list[BaseException] = []
-
-    def search(stop: ctypes.c_int32) -> c.Handle:
-        def hear(_: Any, told: Any) -> int:
-            if report is None or stop.value:
-                return int(stop.value)
-            try:
-                state = told.contents
-                answer = report(state.decided / max(1, state.candidates), state.accepted)
-            except BaseException as raised:
-                failure.append(raised)
-                return 1
-            return int(isinstance(answer, (bool, np.bool_)) and not answer)
-
-        with sampler_on(device) as sampler:
-            return c.Handle(
-                "neighbours",
-                "geodisk_find_neighbours",
-                sampler,
-                mesh._handle.value,
-                byref(params),
-                s.PROGRESS_FN(hear),
-                None,
-            )
-
-    try:
-        return interruptible(search)
-    except e.Cancelled:
-        if failure:
-            raise failure[0] from None
-        raise e.Cancelled("the progress callback returned False", "cancelled") from None
-    except e.DeviceLost:
-        forget(device)
-        raise
-    finally:
-        if bar is not None:
-            bar.close()
 
 
 def _arrays_of(handle: c.Handle) -> Neighbours:

@@ -11,6 +11,7 @@ from ctypes import (
     c_double,
     c_float,
     c_int32,
+    c_int64,
     c_size_t,
     c_uint8,
     c_uint32,
@@ -222,6 +223,34 @@ class NeighbourArrays(_Sized):
         ("indices", POINTER(c_uint32)),
         ("distances", POINTER(c_float)),
         ("error", c_double),
+    ]
+
+
+class CellParams(_Sized):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("samples", c_void_p),
+        ("sample_count", c_size_t),
+        ("areas_only", c_int32),
+        ("most_records", c_uint64),
+    ]
+
+
+class CellArrays(_Sized):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("sample_count", c_size_t),
+        ("edge_count", c_size_t),
+        ("triangle_count", c_size_t),
+        ("areas", POINTER(c_double)),
+        ("edges", POINTER(c_uint32)),
+        ("triangles", POINTER(c_uint32)),
+        ("area_error", c_double),
+        ("distance_error", c_double),
+        ("unreached", c_double),
+        ("manifold_triangles", c_uint64),
+        ("euler", c_int64),
+        ("mesh_euler", c_int64),
     ]
 
 

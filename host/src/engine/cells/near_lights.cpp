@@ -2,12 +2,18 @@
 
 #include <algorithm>
 #include <limits>
+#include <tuple>
 
 namespace geodisk {
 
 NearLights::Range NearLights::begin(std::uint32_t face) {
     const auto lights = lit_.lights_of(face);
     stack_.assign(lights.begin(), lights.end());
+    // Devices record them in any order.
+    std::ranges::sort(stack_, {}, [this](std::uint32_t light) {
+        const gpu::LitRec& r = lit_.record(light);
+        return std::tuple(r.sample_index, r.place, r.sigma, r.x, r.y, r.low, r.high);
+    });
     return {0, stack_.size()};
 }
 

@@ -1,0 +1,98 @@
+#include <span>
+#include <utility>
+#include <vector>
+
+#include <geodisk/cells.hpp>
+
+#include "c/c_call.hpp"
+#include "c/c_mesh.hpp"
+#include "c/c_sampler.hpp"
+
+/// Immutable.
+struct geodisk_cells {
+    geodisk::SurfaceCells found;
+};
+
+namespace geodisk::c {
+namespace {
+
+Result<geodisk_cells*> found(SamplerState& state, const Mesh& mesh,
+                             const geodisk_cell_params& params, const ProgressCallback& progress) {
+    if (params.samples == nullptr && params.sample_count != 0) {
+        return wrong("params->samples is NULL");
+    }
+    const std::vector<Sample> samples = samples_of(params.samples, params.sample_count);
+    CellParams cells;
+    cells.has_dual = params.areas_only == 0;
+    cells.most_records = params.most_records == 0 ? cells.most_records : params.most_records;
+    auto result = find_cells(state.runner, mesh.prepared, samples, cells, progress);
+    if (!result) {
+        return result.error();
+    }
+    if (const auto checked = state.device->check_validation(); !checked) {
+        return checked.error();
+    }
+    return new geodisk_cells{std::move(*result)};
+}
+
+} // namespace
+} // namespace geodisk::c
+
+using namespace geodisk;
+using namespace geodisk::c;
+
+extern "C" {
+
+geodisk_status geodisk_find_cells(geodisk_sampler* sampler, const geodisk_mesh* mesh,
+                                  const geodisk_cell_params* params, geodisk_progress_fn progress,
+                                  void* user, geodisk_cells** cells, geodisk_error* error) {
+    return with_sampler(sampler, error, [&](SamplerState& state) -> Result<Done> {
+        if (mesh == nullptr || cells == nullptr) {
+            return wrong("mesh or cells is NULL");
+        }
+        const auto wanted = taken(params, "params");
+        if (!wanted) {
+            return wanted.error();
+        }
+        if (state.running) {
+            return run_in_progress();
+        }
+        state.is_cancelled = false;
+        const auto made = found(state, *mesh->shared, *wanted, state.callback(progress, user));
+        if (!made) {
+            return made.error();
+        }
+        *cells = *made;
+        return Done{};
+    });
+}
+
+geodisk_status geodisk_cells_describe(const geodisk_cells* cells, geodisk_cell_arrays* arrays,
+                                      geodisk_error* error) {
+    return answer(error, [&]() -> Result<Done> {
+        if (cells == nullptr) {
+            return wrong("cells is NULL");
+        }
+        const SurfaceCells& found = cells->found;
+        geodisk_cell_arrays value{};
+        value.sample_count = found.areas.size();
+        value.edge_count = found.edges.size();
+        value.triangle_count = found.triangles.size();
+        value.areas = found.areas.data();
+        value.edges = found.edges.empty() ? nullptr : found.edges.front().data();
+        value.triangles = found.triangles.empty() ? nullptr : found.triangles.front().data();
+        value.area_error = found.area_error;
+        value.distance_error = found.distance_error;
+        value.unreached = found.unreached;
+        value.manifold_triangles = found.dual.manifold;
+        value.euler = found.dual.euler;
+        value.mesh_euler = found.dual.mesh_euler;
+        return give(arrays, "arrays", value);
+    });
+}
+
+void geodisk_cells_release(geodisk_cells* cells) {
+    delete cells;
+}
+
+} // extern "C"
