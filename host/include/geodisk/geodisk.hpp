@@ -21,5 +21,6 @@
 #include <geodisk/sample.hpp>
 #include <geodisk/sampler.hpp>
 #include <geodisk/status.hpp>
+#include <geodisk/update.hpp>
 #include <geodisk/version.hpp>
 #include <geodisk/weld.hpp>

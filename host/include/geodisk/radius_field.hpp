@@ -99,6 +99,10 @@ class RadiusField {
     GEODISK_API Result<std::vector<float>> reach_bounds(const PreparedMesh& mesh,
                                                         double min_distance) const noexcept;
 
+    /// Returns the density at which radii are largest, of a field from a density. An edit that
+    /// changes it changes all radii. 0 for factors.
+    double least_density() const noexcept { return least_density_; }
+
   private:
     std::vector<float> factors_;
     std::vector<float> spreads_;
@@ -106,6 +110,7 @@ class RadiusField {
     std::vector<float> densities_;
     float largest_density_ = 0;
     double effective_area_ = 0;
+    double least_density_ = 0;
 };
 
 } // namespace geodisk

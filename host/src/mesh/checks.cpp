@@ -185,6 +185,25 @@ Result<Done> check_mesh(const MeshView& mesh) {
     return check_elements(mesh);
 }
 
+Result<Done> check_faces(const MeshView& mesh, std::span<const std::uint32_t> faces) {
+    if (auto shape = check_shape(mesh); !shape) {
+        return shape;
+    }
+    const std::uint64_t vertices = mesh.vertex_count();
+    for (const std::uint32_t face : faces) {
+        for (std::size_t i = std::size_t{3} * face; i < std::size_t{3} * face + 3; ++i) {
+            const std::uint32_t v = mesh.triangles[i];
+            if (v >= vertices) {
+                return index_rejected(i, v, vertices);
+            }
+            if (auto checked = check_vertex(mesh, v); !checked) {
+                return checked;
+            }
+        }
+    }
+    return Done{};
+}
+
 Result<Done> check_mesh(const LengthMeshView& mesh) {
     if (mesh.triangles.size() % 3 != 0 || mesh.lengths.size() != mesh.triangles.size()) {
         return invalid("triangles must hold whole faces and lengths three per face");

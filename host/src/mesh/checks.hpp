@@ -13,6 +13,9 @@ inline constexpr std::uint32_t kMostDimensions = 8;
 /// Checks sizes, the indices of all faces, and the coordinates of all vertices they use.
 Result<Done> check_mesh(const MeshView& mesh);
 
+/// Checks sizes, and the indices and coordinates of these faces alone.
+Result<Done> check_faces(const MeshView& mesh, std::span<const std::uint32_t> faces);
+
 /// Checks sizes, indices, lengths, and the triangle inequality.
 Result<Done> check_mesh(const LengthMeshView& mesh);
 

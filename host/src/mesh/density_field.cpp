@@ -54,8 +54,9 @@ Result<Done> check_density(const PreparedMesh& mesh, std::span<const double> den
     return Done{};
 }
 
-/// Returns the densities in units of the smallest packing; zero at unused vertices.
-std::vector<float> scaled_density(const PreparedMesh& mesh, std::span<const double> density) {
+/// Returns the densities in units of the smallest packing; zero at unused vertices. Sets that unit.
+std::vector<float> scaled_density(const PreparedMesh& mesh, std::span<const double> density,
+                                  double& least_density) {
     double most = 0;
     for (std::size_t v = 0; v < density.size(); ++v) {
         most = is_used(mesh, v) ? std::max(most, density[v]) : most;
@@ -67,6 +68,7 @@ std::vector<float> scaled_density(const PreparedMesh& mesh, std::span<const doub
         }
     }
     const double unit = std::max(least, 1 / kMostPacking);
+    least_density = most * unit;
     std::vector<float> scaled(density.size(), 0.0f);
     for (std::size_t v = 0; v < density.size(); ++v) {
         const double value = is_used(mesh, v) ? density[v] / most / unit : 0;
@@ -137,9 +139,9 @@ Result<RadiusField> RadiusField::from_density(const PreparedMesh& mesh,
         if (auto checked = check_density(mesh, density); !checked) {
             return checked.error();
         }
-        const std::vector<float> scaled = scaled_density(mesh, density);
-        const std::vector<float> packing = packing_for(mesh, scaled);
         RadiusField field;
+        const std::vector<float> scaled = scaled_density(mesh, density, field.least_density_);
+        const std::vector<float> packing = packing_for(mesh, scaled);
         const std::size_t corners = mesh.half_edges().size();
         field.factors_.reserve(corners);
         field.spreads_.reserve(corners);

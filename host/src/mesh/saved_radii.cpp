@@ -25,8 +25,9 @@ struct Header {
     std::uint32_t has_packing;
     float largest_density;
     double effective_area;
+    double least_density;
 };
-static_assert(sizeof(Header) == 40);
+static_assert(sizeof(Header) == 48);
 
 bool are_within(std::span<const float> values, float least, float most) {
     return std::ranges::all_of(values, [&](float x) { return x >= least && x <= most; });
@@ -42,7 +43,8 @@ Result<std::vector<std::byte>> RadiusField::save() const noexcept {
                       face_count(),
                       packing_.empty() ? 0u : 1u,
                       largest_density_,
-                      effective_area_};
+                      effective_area_,
+                      least_density_};
         std::memcpy(header.magic, kMagic, sizeof kMagic);
         std::vector<std::byte> bytes(sizeof header);
         std::memcpy(bytes.data(), &header, sizeof header);
@@ -74,6 +76,7 @@ Result<RadiusField> RadiusField::load(std::span<const std::byte> bytes) noexcept
         RadiusField field;
         field.largest_density_ = header.largest_density;
         field.effective_area_ = header.effective_area;
+        field.least_density_ = header.least_density;
         const auto take = [&](std::vector<float>& values, std::uint64_t count) {
             values.resize(count);
             if (count > 0) {
@@ -90,7 +93,8 @@ Result<RadiusField> RadiusField::load(std::span<const std::byte> bytes) noexcept
         if (!are_within(field.factors_, least, 1) || !are_within(field.spreads_, 0, most) ||
             !are_within(field.packing_, 0, most) || !are_within(field.densities_, 0, most) ||
             !(field.largest_density_ >= 0 && field.largest_density_ <= most) ||
-            !(field.effective_area_ >= 0 && std::isfinite(field.effective_area_))) {
+            !(field.effective_area_ >= 0 && std::isfinite(field.effective_area_)) ||
+            !(field.least_density_ >= 0)) {
             return invalid("the saved radii are damaged");
         }
         return field;

@@ -54,8 +54,7 @@ Result<Done> check_values(const JobFrame& frame) {
     return Done{};
 }
 
-Result<Done> check_frame(const JobFrame& frame, const PreparedMesh& mesh,
-                         const SampleParams& params) {
+Result<Done> check_job(const JobFrame& frame, const SampleParams& params) {
     if (auto checked = check_values(frame); !checked) {
         return checked.error();
     }
@@ -69,6 +68,14 @@ Result<Done> check_frame(const JobFrame& frame, const PreparedMesh& mesh,
     if (frame.pool_ratio != pool_ratio_of(params.pool_ratio, frame.samples)) {
         return unlike("its pool ratio is not that of these parameters, " +
                       exact_text(params.pool_ratio));
+    }
+    return Done{};
+}
+
+Result<Done> check_frame(const JobFrame& frame, const PreparedMesh& mesh,
+                         const SampleParams& params) {
+    if (auto checked = check_job(frame, params); !checked) {
+        return checked;
     }
     const MeshStatistics& statistics = mesh.statistics();
     if (statistics.longest_edge / frame.unit > frame.longest_edge) {

@@ -1,0 +1,80 @@
+// Updater: samples of a surface that follow its edits.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+
+#include <geodisk/export.hpp>
+#include <geodisk/job_frame.hpp>
+#include <geodisk/mesh_view.hpp>
+#include <geodisk/params.hpp>
+#include <geodisk/runner.hpp>
+#include <geodisk/sample.hpp>
+#include <geodisk/status.hpp>
+#include <geodisk/threads.hpp>
+
+namespace geodisk {
+
+/// How an update went.
+struct UpdateReport {
+    std::uint32_t rounds = 0;   ///< Times a region was decided. Each one is wider than the last.
+    std::uint32_t faces = 0;    ///< Faces of the last region.
+    std::uint32_t uploaded = 0; ///< Faces of the part that was on the device for it.
+    std::uint32_t removed = 0;  ///< Samples that are no longer there.
+    std::uint32_t added = 0;    ///< Samples that are new.
+    RunReport run;              ///< Work on the device, in all rounds.
+};
+
+/// The samples of a pool on a surface, kept up to date while the surface is edited. An update
+/// decides only what the edit can reach, and takes time in proportion to the edit.
+///
+/// The samples are always those of a whole run in the same frame: Domain::surface(mesh, params,
+/// frame()). See host/docs/update.md. Not thread-safe.
+class GEODISK_API Updater {
+  public:
+    /// Makes the updater of a surface and its samples, as Runner returned them: the given ones of
+    /// `params` first. Copies what it needs. Takes time linear in the mesh. `frame` is frame_of()
+    /// the surface that the job began with; all later surfaces are sampled in it.
+    ///
+    /// Errors: `invalid_argument` for parameters that cannot be updated: darts, a stop count,
+    /// classes, points to avoid or a maximal set; for a frame of another job; for a minimum
+    /// distance that exceeds the surface; for a sample that is not given and no candidate of this
+    /// mesh, seed, distance and pool ratio, with its index in Error::element; `mesh_rejected` as
+    /// PreparedMesh::prepare().
+    static Result<Updater> create(const MeshView& mesh, const SampleParams& params,
+                                  const JobFrame& frame, std::span<const Sample> samples,
+                                  const ThreadOptions& threads = {}) noexcept;
+    Updater(Updater&&) noexcept;
+    Updater& operator=(Updater&&) noexcept;
+    ~Updater();
+
+    /// Brings the samples up to date with an edited surface. `changed` lists the faces of which
+    /// anything differs: the position of a corner, its vertices, radii, key or mask. All other
+    /// faces must be as before; they are not looked at. Faces keep their numbers: to remove one,
+    /// let it name a vertex twice. New ones have the numbers after the last, and count as changed.
+    /// Given samples are compared with those before.
+    ///
+    /// Errors: `invalid_argument` for another seed, distance or pool ratio, parameters that cannot
+    /// be updated, fewer faces than before, a changed face that does not exist, and for a surface
+    /// that the frame does not fit, as Domain::surface() with a frame; `mesh_rejected` as
+    /// PreparedMesh::prepare(); those of Runner::sample_and_wait(). The samples then stay as they
+    /// were, and the next update includes this edit.
+    Result<UpdateReport> update(Runner& runner, const MeshView& mesh, const SampleParams& params,
+                                std::span<const std::uint32_t> changed) noexcept;
+
+    /// Returns the samples in dart order, the given ones first.
+    std::span<const Sample> samples() const noexcept;
+    /// Returns the number of given samples.
+    std::size_t given() const noexcept;
+    /// Returns the frame, with the longest edge rounded up as far as this changes no decision.
+    const JobFrame& frame() const noexcept;
+
+    struct Impl; ///< Internal.
+
+  private:
+    explicit Updater(std::unique_ptr<Impl> impl) noexcept;
+    std::unique_ptr<Impl> impl_;
+};
+
+} // namespace geodisk

@@ -1,0 +1,52 @@
+// FaceReach: the faces within a distance of others.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <geodisk/mesh_view.hpp>
+
+#include "engine/update/face_set.hpp"
+#include "engine/update/live_mesh.hpp"
+#include "mesh/checks.hpp"
+
+namespace geodisk {
+
+/// Finds a superset of the faces that a geodesic path of some length may meet. A path of this
+/// length stays as near in space. So faces are followed from vertex to vertex as long as their
+/// bounding boxes are near enough.
+class FaceReach {
+  public:
+    /// Both must outlive it.
+    FaceReach(const LiveMesh& faces, const MeshView& mesh) : faces_(faces), mesh_(mesh) {}
+
+    /// Inserts in `reached` the sources, and all faces that a path from one of them meets within
+    /// `width`.
+    void reach(std::span<const std::uint32_t> sources, double width, FaceSet& reached);
+
+    /// Returns true if all faces that a path from `source` meets within `width` are in `all`.
+    bool stays_in(std::uint32_t source, double width, const FaceSet& all);
+
+  private:
+    struct Box {
+        std::array<double, kMostDimensions> low, high;
+        void add(const Box& other, std::uint32_t dimension);
+    };
+    Box box_of(std::uint32_t face) const;
+    bool are_near(const Box& a, const Box& b, double width) const;
+    /// Returns the cell of space that a face's box starts in, of this width.
+    std::uint64_t cell_of(const Box& box, double width) const;
+    /// Visits the faces within `width` of some, until `visit` returns false.
+    template <class Visit>
+    bool flood(std::span<const std::uint32_t> from, const Box& box, double width,
+               const Visit& visit);
+
+    const LiveMesh& faces_;
+    const MeshView& mesh_;
+    FaceSet seen_, sources_;
+    std::vector<std::uint32_t> stack_;
+};
+
+} // namespace geodisk

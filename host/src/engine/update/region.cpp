@@ -1,0 +1,196 @@
+#include "engine/update/region.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+#include "engine/domain/check_frame.hpp"
+#include "engine/domain/listed.hpp"
+
+namespace geodisk {
+namespace {
+
+// Candidates conflict up to the distance and its largest guard, see host/docs/precision.md.
+constexpr double kReach = 1.05;
+// Width of the first region around the edit, and by how much it grows where changes leave it, in
+// reaches. By measurement: changes seldom go farther.
+constexpr double kFirstWidth = 3;
+constexpr double kFurtherWidth = 2;
+// A disk of a sample near the region is whole within this, and where radii vary also the bounds of
+// disks (RadiusField::reach_bounds).
+constexpr double kDisksWidth = 2;
+constexpr double kBoundsWidth = 2.5;
+
+} // namespace
+
+Region::Region(Runner& runner, const EditedSurface& surface)
+    : runner_(runner), surface_(surface), reach_(kReach * surface.params.min_distance),
+      faces_(surface.faces, surface.mesh) {
+    for (const Sample& sample : surface.params.given) {
+        given_[sample.face].push_back(sample);
+    }
+}
+
+Result<MeshPart> Region::prepare_part() {
+    const std::uint32_t count = surface_.faces.face_count();
+    const bool vary = surface_.params.radii != nullptr;
+    ring_.clear(count);
+    all_.clear(count);
+    faces_.reach(region_.members(), reach_, ring_);
+    faces_.reach(region_.members(), (vary ? kBoundsWidth : kDisksWidth) * reach_, all_);
+    std::vector<std::uint32_t> members = all_.members();
+    std::ranges::sort(members);
+    auto part =
+        MeshPart::prepare(surface_.mesh, surface_.params, std::move(members), surface_.threads);
+    if (!part) {
+        return part.error();
+    }
+    if (auto checked = check_frame(surface_.frame, part->mesh(), part->params()); !checked) {
+        return checked.error();
+    }
+    return part;
+}
+
+std::vector<Region::Entry> Region::list(const MeshPart& part) const {
+    const CandidateDraw draw(part.mesh(), part.params(), surface_.frame);
+    std::vector<Entry> entries;
+    Darts drawn;
+    for (std::uint32_t f = 0; f < part.faces().size(); ++f) {
+        const std::uint32_t face = part.faces()[f];
+        const bool is_inside = region_.has(face);
+        drawn.clear();
+        if (is_inside) {
+            for (std::uint32_t stage = 0; stage < draw.stages().pool_stages(); ++stage) {
+                draw.draw(f, stage, drawn);
+            }
+        } else if (ring_.has(face)) {
+            const auto samples = surface_.darts.on_face(face);
+            drawn.assign(samples.begin(), samples.end());
+        }
+        for (DrawnCandidate& dart : drawn) {
+            dart.point.face = f;
+            entries.push_back({dart, is_inside});
+        }
+    }
+    // The part has its faces in the order of the whole.
+    std::ranges::sort(
+        entries, [has_keys = !surface_.params.face_keys.empty()](const Entry& a, const Entry& b) {
+            return is_before(a.dart, b.dart, has_keys);
+        });
+    return entries;
+}
+
+Result<std::vector<bool>> Region::accept(const MeshPart& part, const std::vector<Entry>& entries,
+                                         UpdateReport& report) {
+    std::vector<bool> accepted(entries.size(), false);
+    if (std::ranges::none_of(entries, &Entry::is_inside)) {
+        accepted.assign(entries.size(), true);
+        return accepted;
+    }
+    std::vector<ListedCandidate> points;
+    for (const Entry& entry : entries) {
+        points.push_back(entry.dart.point);
+    }
+    std::vector<Sample> given;
+    for (std::uint32_t f = 0; f < part.faces().size(); ++f) {
+        if (const auto own = given_.find(part.faces()[f]); own != given_.end()) {
+            for (Sample sample : own->second) {
+                sample.face = f;
+                given.push_back(sample);
+            }
+        }
+    }
+    // All points are listed, whatever the keys and the mask.
+    SampleParams params = part.params();
+    params.face_keys = {};
+    params.face_mask = {};
+    params.given = given;
+    const auto domain = listed_domain(part.mesh(), params, surface_.frame, points);
+    if (!domain) {
+        return domain.error();
+    }
+    const auto set = runner_.sample_and_wait(*domain);
+    if (!set) {
+        return set.error();
+    }
+    report.run.add(set->report);
+    report.run.guard = std::max(report.run.guard, set->report.guard);
+    // Samples come in the order of the list.
+    std::size_t at = 0;
+    for (std::size_t i = set->given; i < set->samples.size(); ++i, ++at) {
+        const Sample& sample = set->samples[i];
+        const auto is_it = [&](const ListedCandidate& point) {
+            const Sample other = to_sample(point);
+            return point.face == sample.face && other.weights[1] == sample.weights[1] &&
+                   other.weights[2] == sample.weights[2];
+        };
+        const auto found =
+            std::find_if(points.begin() + static_cast<std::ptrdiff_t>(at), points.end(), is_it);
+        if (found == points.end()) {
+            return Error{Status::internal, "a sample of a region is none of its candidates"};
+        }
+        at = static_cast<std::size_t>(found - points.begin());
+        accepted[at] = true;
+    }
+    return accepted;
+}
+
+Changes Region::compare(const MeshPart& part, const std::vector<Entry>& entries,
+                        const std::vector<bool>& accepted) {
+    const bool has_keys = !surface_.params.face_keys.empty();
+    const auto before = [has_keys](const DrawnCandidate& a, const DrawnCandidate& b) {
+        return is_before(a, b, has_keys);
+    };
+    Darts old, now;
+    for (const std::uint32_t face : region_.members()) {
+        const auto samples = surface_.darts.on_face(face);
+        old.insert(old.end(), samples.begin(), samples.end());
+    }
+    std::ranges::sort(old, before);
+    goes_on_.clear();
+    for (std::size_t i = 0; i < entries.size(); ++i) {
+        DrawnCandidate dart = entries[i].dart;
+        dart.point.face = part.faces()[dart.point.face];
+        if (entries[i].is_inside && accepted[i]) {
+            now.push_back(dart);
+        } else if (!entries[i].is_inside && !accepted[i]) {
+            goes_on_.push_back(dart.point.face);
+        }
+    }
+    Changes changes;
+    std::ranges::set_difference(old, now, std::back_inserter(changes.removed), before);
+    std::ranges::set_difference(now, old, std::back_inserter(changes.added), before);
+    // A new sample rejects samples outside, which shows above. What one that is gone rejected may
+    // be accepted now.
+    for (const DrawnCandidate& dart : changes.removed) {
+        if (!faces_.stays_in(dart.point.face, reach_, region_)) {
+            goes_on_.push_back(dart.point.face);
+        }
+    }
+    return changes;
+}
+
+Result<Changes> Region::decide(std::span<const std::uint32_t> sources, UpdateReport& report) {
+    region_.clear(surface_.faces.face_count());
+    goes_on_.assign(sources.begin(), sources.end());
+    Changes changes;
+    for (double width = kFirstWidth; !goes_on_.empty(); width = kFurtherWidth) {
+        faces_.reach(goes_on_, width * reach_, region_);
+        const auto part = prepare_part();
+        if (!part) {
+            return part.error();
+        }
+        const std::vector<Entry> entries = list(*part);
+        const auto accepted = accept(*part, entries, report);
+        if (!accepted) {
+            return accepted.error();
+        }
+        changes = compare(*part, entries, *accepted);
+        ++report.rounds;
+        report.faces = static_cast<std::uint32_t>(region_.size());
+        report.uploaded = part->mesh().face_count();
+    }
+    return changes;
+}
+
+} // namespace geodisk
