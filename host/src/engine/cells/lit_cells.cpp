@@ -23,6 +23,9 @@ constexpr double kSmallest = 0x1p-10;
 constexpr double kGrowth = 1.5;
 // Far more than the rounding of one path's length, if not than its bound for the longest chains.
 constexpr double kTie = 0x1p-19;
+// Part of the faces that a first disk covers, times the samples. It may have more records than
+// twice.
+constexpr double kFacesPerDisk = 2.5;
 // Maximum of records read at once and of disks of a job, and room for more than expected.
 constexpr double kMostRecords = 0x1p21;
 constexpr double kMostDisks = 0x1p20;
@@ -37,7 +40,10 @@ LitCells::LitCells(Runner& runner, const PreparedMesh& mesh, std::span<const Sam
     : runner_(runner), impl_(Runner::Impl::of(runner)), mesh_(mesh), samples_(samples),
       params_(params), frame_(frame), cells_(cells), progress_(progress),
       lit_(mesh, params, frame, double{ErrorModel(frame).tolerances(frame.error_bound).slack}),
-      radii_(samples.size(), 1), left_(samples.size()) {}
+      radii_(samples.size(), 1),
+      records_per_disk_(2.0 * mesh.face_count() *
+                        std::min(1.0, kFacesPerDisk / static_cast<double>(samples.size()))),
+      left_(samples.size()) {}
 
 double LitCells::largest_radius() const {
     return *std::ranges::max_element(radii_);
@@ -67,40 +73,68 @@ Error LitCells::too_many(double records) const {
                                        " that are allowed; take fewer samples or a simpler mesh"};
 }
 
-Result<std::vector<gpu::LitRec>> LitCells::disks_of(std::span<const std::uint32_t> samples) {
+Result<std::size_t> LitCells::some_disks(std::span<const std::uint32_t> samples,
+                                         const TakeLights& take) {
+    const double wanted = kSpareRecords * records_per_disk_;
+    const double most = std::min(kMostRecords, impl_.record_bytes() / sizeof(gpu::LitRec));
+    const double count = std::floor(
+        std::clamp(std::min(most / wanted, kMostDisks), 1.0, static_cast<double>(samples.size())));
+    const double largest =
+        static_cast<double>(impl_.engine().report.limits.max_storage_buffer_range) /
+            sizeof(gpu::LitRec) -
+        1;
+    // A single disk takes all there is where need be.
+    const double room = std::min(wanted * count + kLeastRecords, std::floor(largest));
+    if (room < records_per_disk_ * count) {
+        return Error{Status::job_too_large, "the disk of a sample has about " +
+                                                number_text(records_per_disk_) +
+                                                " records of paths, more than this device binds; "
+                                                "take more samples or a simpler mesh"};
+    }
     std::vector<KeepOut> disks;
-    disks.reserve(samples.size());
-    for (const std::uint32_t sample : samples) {
+    for (const std::uint32_t sample : samples.first(static_cast<std::size_t>(count))) {
         disks.push_back({samples_[sample], radii_[sample] * frame_.unit});
     }
     SampleParams params = params_;
     params.avoid = disks;
-    const auto heard = [this](const Progress& now) { return this->report(now); };
-    const auto count = static_cast<double>(samples.size());
-    for (double room = kSpareRecords * records_per_disk_ * count + kLeastRecords;;) {
-        if (room > 0x1p31) {
-            return too_many(room);
-        }
-        const auto domain = SurfaceDomain::recording(mesh_, params, frame_, Ending::light, {},
-                                                     static_cast<std::uint32_t>(room));
-        if (!domain) {
-            return domain.error();
-        }
-        DiskRecords records;
-        const auto recorded = record_disks(runner_, *domain, records, heard);
-        if (!recorded) {
-            return recorded.error();
-        }
-        report_.add(*recorded);
-        records_per_disk_ = std::max(records_per_disk_, records.wanted / count);
-        if (records.wanted <= records.lights.size()) {
-            for (gpu::LitRec& record : records.lights) {
-                record.sample_index = samples[record.sample_index];
-            }
-            return std::move(records.lights);
-        }
-        room = records.wanted;
+    const auto domain = SurfaceDomain::recording(mesh_, params, frame_, Ending::light, {},
+                                                 static_cast<std::uint32_t>(room));
+    if (!domain) {
+        return domain.error();
     }
+    DiskRecords records;
+    const auto recorded = record_disks(runner_, *domain, records,
+                                       [this](const Progress& now) { return report(now); });
+    if (!recorded) {
+        return recorded.error();
+    }
+    report_.add(*recorded);
+    records_per_disk_ = std::max(records_per_disk_, records.wanted / count);
+    if (records.wanted > records.lights.size()) {
+        return 0;
+    }
+    for (gpu::LitRec& record : records.lights) {
+        record.sample_index = samples[record.sample_index];
+    }
+    take(records.lights);
+    return disks.size();
+}
+
+Result<Done> LitCells::all_disks(std::span<const std::uint32_t> samples, const TakeLights& take) {
+    left_ = samples.size();
+    while (left_ > 0) {
+        const auto done = some_disks(samples.last(left_), take);
+        if (!done) {
+            return done.error();
+        }
+        left_ -= *done;
+        const double of_all =
+            static_cast<double>(samples.size()) / static_cast<double>(samples.size() - left_);
+        if (lit_.size() > cells_.most_records) {
+            return too_many(static_cast<double>(lit_.size()) * of_all);
+        }
+    }
+    return Done{};
 }
 
 Result<Done> LitCells::choose_radii() {
@@ -111,46 +145,24 @@ Result<Done> LitCells::choose_radii() {
     for (std::size_t i = 0; i < kFewSamples; ++i) {
         few.push_back(static_cast<std::uint32_t>(i * samples_.size() / kFewSamples));
     }
-    for (double radius = 1; radius >= kSmallest; radius /= 2) {
+    const double part = static_cast<double>(kFewSamples) / static_cast<double>(samples_.size());
+    for (double radius = 1;; radius /= 2) {
         std::ranges::fill(radii_, radius);
         records_per_disk_ = 1;
-        const auto lights = disks_of(few);
-        if (!lights) {
-            return lights.error();
+        double all = 0;
+        const auto count = [&](std::span<const gpu::LitRec> lights) {
+            all += static_cast<double>(lights.size()) / part;
+        };
+        if (auto lit = all_disks(few, count); !lit) {
+            return lit;
         }
-        const auto all = static_cast<double>(lights->size()) / kFewSamples *
-                         static_cast<double>(samples_.size());
         if (all <= static_cast<double>(cells_.most_records)) {
             return Done{};
         }
-        if (radius == kSmallest) {
+        if (radius <= kSmallest) {
             return too_many(all);
         }
     }
-    return Done{};
-}
-
-Result<Done> LitCells::light(std::span<const std::uint32_t> samples) {
-    left_ = samples.size();
-    const double most = std::min(kMostRecords, impl_.record_bytes() / sizeof(gpu::LitRec));
-    while (!samples.empty()) {
-        const double at_once =
-            std::clamp(most / (kSpareRecords * records_per_disk_), 1.0, kMostDisks);
-        const auto count =
-            static_cast<std::size_t>(std::min(at_once, static_cast<double>(samples.size())));
-        const auto lights = disks_of(samples.first(count));
-        if (!lights) {
-            return lights.error();
-        }
-        lit_.add(*lights);
-        if (lit_.size() > cells_.most_records) {
-            return too_many(static_cast<double>(lit_.size()) * static_cast<double>(left_) /
-                            static_cast<double>(left_ - samples.size() + count));
-        }
-        samples = samples.subspan(count);
-        left_ -= count;
-    }
-    return Done{};
 }
 
 Result<Done> LitCells::light() {
@@ -161,7 +173,8 @@ Result<Done> LitCells::light() {
     std::iota(samples.begin(), samples.end(), 0u);
     const double bound = 1.01 * distance_bound(mesh_) / frame_.unit;
     for (;;) {
-        if (auto lit = light(samples); !lit) {
+        const auto add = [this](std::span<const gpu::LitRec> lights) { lit_.add(lights); };
+        if (auto lit = all_disks(samples, add); !lit) {
             return lit;
         }
         const double start = impl_.now();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -33,9 +34,12 @@ class LitCells {
   private:
     /// Makes disks smaller until so many as there are may be expected to have few enough records.
     Result<Done> choose_radii();
-    /// Computes the disks of these samples.
-    Result<Done> light(std::span<const std::uint32_t> samples);
-    Result<std::vector<gpu::LitRec>> disks_of(std::span<const std::uint32_t> samples);
+    using TakeLights = std::function<void(std::span<const gpu::LitRec>)>;
+    /// Computes the disks of the first samples, as many as have room at once. Returns their number,
+    /// or 0 if they had more records than expected.
+    Result<std::size_t> some_disks(std::span<const std::uint32_t> samples, const TakeLights& take);
+    /// Computes the disks of all.
+    Result<Done> all_disks(std::span<const std::uint32_t> samples, const TakeLights& take);
     Error too_many(double records) const;
     bool report(const Progress& now) const;
 
@@ -49,7 +53,7 @@ class LitCells {
     const ProgressCallback& progress_;
     LitFaces lit_;
     std::vector<double> radii_; ///< In units of the frame.
-    double records_per_disk_ = 64;
+    double records_per_disk_;
     std::size_t left_; ///< Samples whose disks are still to be computed, or larger ones.
     RunReport report_;
 };
