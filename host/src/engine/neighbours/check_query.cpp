@@ -9,7 +9,6 @@
 #include "support/number_text.hpp"
 
 namespace geodisk {
-namespace {
 
 Result<Done> check_points(const PreparedMesh& mesh, const char* name,
                           std::span<const Sample> points) {
@@ -20,8 +19,6 @@ Result<Done> check_points(const PreparedMesh& mesh, const char* name,
     }
     return Done{};
 }
-
-} // namespace
 
 Result<Done> check_joined(const PreparedMesh& mesh, std::span<const std::uint32_t> joined) {
     if (!joined.empty() && joined.size() != mesh.vertex_count()) {

@@ -8,9 +8,8 @@
 #include <string>
 #include <vector>
 
-#include <geodisk/vertex_sets.hpp>
-
 #include "engine/neighbours/search_within.hpp"
+#include "mesh/components.hpp"
 #include "mesh/extent.hpp"
 
 namespace geodisk {
@@ -19,26 +18,6 @@ namespace {
 // The first disks are so much larger than those that hold as many targets as wanted on average.
 constexpr double kFirst = 1.3;
 constexpr double kFactor = 2;
-
-/// Which parts of a mesh no path joins.
-class Components {
-  public:
-    explicit Components(const PreparedMesh& mesh) : mesh_(mesh), sets_(mesh.vertex_count()) {
-        const auto edges = mesh.half_edges();
-        for (std::size_t h = 0; h < edges.size(); h += 3) {
-            sets_.join(edges[h].origin, edges[h + 1].origin);
-            sets_.join(edges[h].origin, edges[h + 2].origin);
-        }
-    }
-    std::uint32_t of_vertex(std::uint32_t vertex) { return sets_.lowest(vertex); }
-    std::uint32_t of(const Sample& point) {
-        return of_vertex(mesh_.half_edges()[std::size_t{3} * point.face].origin);
-    }
-
-  private:
-    const PreparedMesh& mesh_;
-    VertexSets sets_;
-};
 
 class NearestSearch {
   public:
@@ -104,8 +83,7 @@ double NearestSearch::first_distance() const {
     const double each = mesh_.statistics().area / static_cast<double>(targets_);
     const double wanted = std::min<double>(query_.nearest, static_cast<double>(targets_));
     const double needed = std::sqrt(each * wanted / std::numbers::pi);
-    // No edge may be too long for it.
-    return kFirst * std::max(needed, mesh_.statistics().longest_edge / 1000);
+    return std::max(kFirst * needed, shortest_distance(mesh_));
 }
 
 bool NearestSearch::report(const Progress& now) {

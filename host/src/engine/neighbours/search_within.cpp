@@ -190,6 +190,10 @@ Result<Neighbours> Search::go() {
 
 } // namespace
 
+double shortest_distance(const PreparedMesh& mesh) {
+    return 2 * mesh.statistics().longest_edge / kLongestEdge;
+}
+
 Result<Neighbours> search_within(Runner& runner, const PreparedMesh& mesh,
                                  const NeighbourQuery& query, const ProgressCallback& progress) {
     SampleParams params;

@@ -1,0 +1,224 @@
+#include <geodisk/farthest.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <queue>
+#include <set>
+#include <string>
+#include <utility>
+
+#include "engine/neighbours/check_query.hpp"
+#include "engine/neighbours/search_within.hpp"
+#include "mesh/components.hpp"
+#include "mesh/extent.hpp"
+#include "support/guard.hpp"
+#include "support/invalid.hpp"
+
+namespace geodisk {
+namespace {
+
+// Each search computes disks of so many more samples, as a part of those chosen. More at once would
+// be larger than they need be, since the distance falls.
+constexpr double kPartAhead = 0.5;
+// Disks are larger by this, since rounding may leave out what is close to their rim.
+constexpr double kMargin = 1.001;
+
+constexpr float kInfinite = std::numeric_limits<float>::infinity();
+
+/// Chooses samples one after the other. A disk about each one chosen lowers the distances of the
+/// others. It only needs to reach as far as the largest of these, so disks of samples that are far
+/// now will do when their turn comes, and are computed many at a time.
+class FarthestSearch {
+  public:
+    FarthestSearch(Runner& runner, const PreparedMesh& mesh, std::span<const Sample> samples,
+                   std::uint32_t count, const ProgressCallback& progress)
+        : runner_(runner), mesh_(mesh), samples_(samples), count_(count), progress_(progress),
+          distances_(samples.size(), kInfinite), states_(samples.size(), State::open),
+          disks_(samples.size()) {}
+
+    Result<FarthestOrder> go();
+
+  private:
+    enum class State : std::uint8_t { open, has_disk, chosen };
+    struct Near {
+        std::uint32_t sample;
+        float distance;
+    };
+    /// A sample at the distance that it had when this was noted.
+    struct Candidate {
+        float distance;
+        std::uint32_t sample;
+        /// Orders candidates by how soon they are chosen, the last one first.
+        friend bool operator<(const Candidate& a, const Candidate& b) {
+            return std::pair(a.distance, b.sample) < std::pair(b.distance, a.sample);
+        }
+    };
+
+    /// Returns the sample to choose next, which stays in the queue.
+    std::uint32_t farthest();
+    /// Computes the disk of this sample, the farthest one, and those of others far away.
+    Result<Done> search(std::uint32_t first);
+    std::vector<std::uint32_t> first_of_parts() const;
+    std::vector<std::uint32_t> farthest_open() const;
+    void keep(const std::vector<std::uint32_t>& sources, const Neighbours& found);
+    void choose(std::uint32_t sample);
+    bool report(const Progress& now) const;
+
+    Runner& runner_;
+    const PreparedMesh& mesh_;
+    std::span<const Sample> samples_;
+    std::uint32_t count_;
+    const ProgressCallback& progress_;
+    std::vector<float> distances_; ///< Of each sample to those chosen.
+    std::vector<State> states_;
+    std::vector<std::vector<Near>> disks_; ///< Samples that come nearer when this one is chosen.
+    std::priority_queue<Candidate> queue_; ///< With those of all distances before.
+    FarthestOrder order_;
+    std::uint32_t searched_ = 0; ///< Disks.
+};
+
+std::uint32_t FarthestSearch::farthest() {
+    for (;;) {
+        const auto [distance, sample] = queue_.top();
+        if (states_[sample] != State::chosen && distance == distances_[sample]) {
+            return sample;
+        }
+        queue_.pop();
+    }
+}
+
+std::vector<std::uint32_t> FarthestSearch::first_of_parts() const {
+    Components components(mesh_);
+    std::set<std::uint32_t> parts;
+    std::vector<std::uint32_t> first;
+    for (std::uint32_t i = 0; i < samples_.size(); ++i) {
+        const bool is_far = states_[i] == State::open && distances_[i] == kInfinite;
+        if (is_far && parts.insert(components.of(samples_[i])).second) {
+            first.push_back(i);
+        }
+    }
+    return first;
+}
+
+std::vector<std::uint32_t> FarthestSearch::farthest_open() const {
+    std::vector<std::uint32_t> open;
+    for (std::uint32_t i = 0; i < samples_.size(); ++i) {
+        if (states_[i] == State::open && distances_[i] > 0) {
+            open.push_back(i);
+        }
+    }
+    const auto ahead = static_cast<std::size_t>(
+        std::ceil(kPartAhead * static_cast<double>(order_.indices.size())));
+    const std::size_t left = count_ - order_.indices.size();
+    const std::size_t most = std::min({ahead, left, open.size()});
+    const auto end = open.begin() + static_cast<std::ptrdiff_t>(most);
+    std::ranges::nth_element(open, end, [this](std::uint32_t a, std::uint32_t b) {
+        return Candidate{distances_[b], b} < Candidate{distances_[a], a};
+    });
+    open.erase(end, open.end());
+    return open;
+}
+
+Result<Done> FarthestSearch::search(std::uint32_t first) {
+    const float distance = distances_[first];
+    const bool is_infinite = distance == kInfinite;
+    const std::vector<std::uint32_t> sources = is_infinite ? first_of_parts() : farthest_open();
+    std::vector<Sample> points;
+    for (const std::uint32_t source : sources) {
+        points.push_back(samples_[source]);
+    }
+    NeighbourQuery query;
+    query.sources = points;
+    query.kind = NeighbourKind::points;
+    query.points = samples_;
+    query.within = is_infinite ? distance_bound(mesh_)
+                               : std::max(kMargin * double{distance}, shortest_distance(mesh_));
+    const ProgressCallback heard = [this](const Progress& now) { return report(now); };
+    const auto found = search_within(runner_, mesh_, query, progress_ ? heard : nullptr);
+    if (!found) {
+        return found.error();
+    }
+    order_.error = std::max(order_.error, found->error);
+    order_.report.add(found->report);
+    ++order_.searches;
+    searched_ += static_cast<std::uint32_t>(sources.size());
+    keep(sources, *found);
+    return Done{};
+}
+
+void FarthestSearch::keep(const std::vector<std::uint32_t>& sources, const Neighbours& found) {
+    for (std::size_t row = 0; row < sources.size(); ++row) {
+        states_[sources[row]] = State::has_disk;
+        std::vector<Near>& disk = disks_[sources[row]];
+        for (std::size_t at = found.offsets[row]; at < found.offsets[row + 1]; ++at) {
+            const Near near{found.indices[at], found.distances[at]};
+            if (near.distance < distances_[near.sample]) {
+                disk.push_back(near);
+            }
+        }
+    }
+}
+
+void FarthestSearch::choose(std::uint32_t sample) {
+    order_.indices.push_back(sample);
+    order_.distances.push_back(distances_[sample]);
+    states_[sample] = State::chosen;
+    for (const Near& near : std::exchange(disks_[sample], {})) {
+        if (states_[near.sample] != State::chosen && near.distance < distances_[near.sample]) {
+            distances_[near.sample] = near.distance;
+            queue_.push({near.distance, near.sample});
+        }
+    }
+}
+
+bool FarthestSearch::report(const Progress& now) const {
+    const std::uint32_t disks = std::min(searched_ + now.decided, count_);
+    const auto chosen = static_cast<std::uint32_t>(order_.indices.size());
+    return progress_({std::max(disks, chosen), count_, chosen, order_.report.disks + now.disks,
+                      order_.report.windows + now.windows});
+}
+
+Result<FarthestOrder> FarthestSearch::go() {
+    for (std::uint32_t i = 0; i < samples_.size(); ++i) {
+        queue_.push({kInfinite, i});
+    }
+    while (order_.indices.size() < count_) {
+        const std::uint32_t next = farthest();
+        // At the place of one chosen, it brings no other nearer.
+        if (states_[next] == State::open && distances_[next] > 0) {
+            if (auto searched = search(next); !searched) {
+                return searched.error();
+            }
+        }
+        choose(next);
+    }
+    if (count_ < samples_.size()) {
+        order_.cover = distances_[farthest()];
+    }
+    return std::move(order_);
+}
+
+} // namespace
+
+Result<FarthestOrder> farthest_order(Runner& runner, const PreparedMesh& mesh,
+                                     std::span<const Sample> samples, std::uint32_t count,
+                                     const ProgressCallback& progress) noexcept {
+    return guarded([&]() -> Result<FarthestOrder> {
+        if (samples.empty()) {
+            return invalid("there is no sample to put in order");
+        }
+        if (count > samples.size()) {
+            return invalid("there are " + std::to_string(samples.size()) + " samples, fewer than " +
+                           std::to_string(count) + " to choose");
+        }
+        if (auto checked = check_points(mesh, "sample", samples); !checked) {
+            return checked.error();
+        }
+        const auto all = static_cast<std::uint32_t>(samples.size());
+        FarthestSearch search(runner, mesh, samples, count == 0 ? all : count, progress);
+        return search.go();
+    });
+}
+
+} // namespace geodisk
