@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <ostream>
 #include <streambuf>
 #include <vector>
@@ -173,6 +174,12 @@ class FileBuffer : public std::streambuf {
     AtomicFile& file_;
 };
 
+/// Returns a number as float, with the largest one in place of infinity, which glTF has not.
+float finite_float(double value) {
+    constexpr double kMost = std::numeric_limits<float>::max();
+    return static_cast<float>(std::clamp(value, -kMost, kMost));
+}
+
 void add_surface(Points& points, std::span<const SampleRow> rows, const SampleLayout& layout) {
     points.add("NORMAL", 3, [&](std::size_t i, std::size_t k) { return rows[i].normal[k]; });
     points.add_indices("_FACE_INDEX", [&](std::size_t i) { return rows[i].face; });
@@ -197,7 +204,7 @@ void add_surface(Points& points, std::span<const SampleRow> rows, const SampleLa
         check_integers(field);
         const std::size_t size = field.components.size();
         points.add(attribute_name(field.name), size, [&](std::size_t i, std::size_t k) {
-            return static_cast<float>(field.values[i * size + k]);
+            return finite_float(field.values[i * size + k]);
         });
     }
 }

@@ -63,7 +63,8 @@ std::set<std::string> names_taken() {
     names.insert(kSampleColumnNames.begin(), kSampleColumnNames.end());
     names.insert(kNumberedColumnNames.begin(), kNumberedColumnNames.end());
     names.insert(kFrameColumnNames.begin(), kFrameColumnNames.end());
-    for (const std::string_view name : {kGivenColumn, kClassColumn, kLevelColumn, kFeatureColumn}) {
+    for (const std::string_view name :
+         {kGivenColumn, kClassColumn, kLevelColumn, kFeatureColumn, kCoverColumn}) {
         names.emplace(name);
     }
     for (const std::string& name : part_column_names()) {

@@ -41,6 +41,9 @@ inline constexpr std::string_view kClassColumn = "class";
 inline constexpr std::string_view kLevelColumn = "level", kLevelDistances = "level_distances",
                                   kLevelSamples = "level_samples";
 
+/// The column of --order farthest: distance of each sample to the nearest before it.
+inline constexpr std::string_view kCoverColumn = "cover";
+
 /// The column that tells samples on corners (2) and curves (1) from those on faces (0).
 inline constexpr std::string_view kFeatureColumn = "feature";
 

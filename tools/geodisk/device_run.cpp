@@ -187,11 +187,7 @@ SampleSet RunDevice::sample(const Task& task, double min_distance, ProgressLine&
     progress.clear();
     check_interrupted();
     if (!result) {
-        const Error& error = result.error();
-        if (error.status == Status::device_lost) {
-            close();
-        }
-        check_run(error, options_.device_bytes != 0);
+        check(result.error());
     }
     SampleSet set = take(std::move(result)); // Throws for an error; only a set has a report.
     log_.tell_run(set.report);
@@ -277,6 +273,13 @@ DeviceResult RunDevice::run(const TaskAt& task_at, double min_distance, const Wa
     done.run.seconds = seconds;
     done.run.starts = starts;
     return {std::move(best), std::move(done)};
+}
+
+void RunDevice::check(const Error& error) {
+    if (error.status == Status::device_lost) {
+        close();
+    }
+    check_run(error, options_.device_bytes != 0);
 }
 
 void RunDevice::release_memory() {

@@ -117,6 +117,10 @@ class RunDevice {
     DeviceResult run(const TaskAt& task_at, double min_distance, const WantedCount& wanted,
                      ProgressLine& progress);
 
+    /// Throws UserError for an error of a run on this device, DeviceLost among them; after that,
+    /// the device has to be opened again.
+    void check(const Error& error);
+
     /// Frees what runs keep for those to come, so that something else has room.
     void release_memory();
 

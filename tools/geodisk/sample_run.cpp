@@ -158,6 +158,16 @@ std::vector<ExtraColumn> extra_columns(const SampleJob& job, const MeshInput& me
     return columns;
 }
 
+/// Puts the samples in farthest-point order, and leaves out those that are not to be kept.
+void put_farthest_first(const SampleJob& job, const MeshInput& mesh, RunDevice& device,
+                        ProgressLine& progress, SampleResult& result) {
+    const FarthestRun& run = result.farthest.emplace(
+        order_farthest(mesh, result.rows, job.method.keep, device, progress));
+    run.apply(result.rows);
+    run.apply(result.classes);
+    run.apply(result.features);
+}
+
 } // namespace
 
 std::vector<NamedFile> files_read(const SampleJob& job) {
@@ -249,14 +259,20 @@ SampleResult sample_mesh(const SampleJob& job, const MeshInput& mesh, RunDevice&
     if (result.given > 0) {
         note_given(job, mesh, result, progress);
     }
+    if (job.method.is_farthest) {
+        put_farthest_first(job, mesh, device, progress, result);
+    }
     return result;
 }
 
 void write_sample_file(AtomicFile& file, const SampleJob& job, const MeshInput& mesh,
                        const SampleResult& result, const SampleReport& report) {
     const std::vector<ExtraColumn> numbers = extra_columns(job, mesh, result);
-    const std::vector<SampleField> fields =
+    std::vector<SampleField> fields =
         record_fields(job.out.record, mesh, result.rows, job.params.seed);
+    if (result.farthest && has_columns(job.out.target())) {
+        fields.push_back(result.farthest->cover());
+    }
     write_samples(file, job.out.target(), report.header(), result.rows, mesh.dimension(),
                   {numbers, fields});
 }

@@ -690,6 +690,30 @@ GEODISK_C_API geodisk_status geodisk_cells_describe(const geodisk_cells *cells,
 
 GEODISK_C_API void geodisk_cells_release(geodisk_cells *cells);
 
+/* How samples came to be in farthest-point order. */
+typedef struct geodisk_farthest_info {
+    size_t struct_size;
+    double cover;       /* Largest distance of a sample left out to the nearest one chosen; 0 if none
+                         * is left out. */
+    double error;       /* Distances are at most so far from exact ones, in mesh units. */
+    uint32_t searches;  /* Searches on the device, each of many disks. */
+} geodisk_farthest_info;
+
+/* Puts samples of a mesh in farthest-point order and waits for the result: the first one, then always
+ * the one whose geodesic distance to all before it is largest; of equally far ones, the lower index.
+ * Stops after `count` samples, 0 for all. Writes the index of each one to `order`, and its distance
+ * to the nearest one before to `distances`: infinite for the first one on each part of the mesh. Both
+ * have room for as many; `distances` and `info` may be NULL. The result is the same on every device.
+ * `progress` may be NULL, and counts samples as candidates; `user` is passed to it. */
+GEODISK_C_API geodisk_status geodisk_farthest_order(geodisk_sampler *sampler,
+                                                    const geodisk_mesh *mesh,
+                                                    const geodisk_surface_point *samples,
+                                                    size_t sample_count, uint32_t count,
+                                                    geodisk_progress_fn progress, void *user,
+                                                    uint32_t *order, float *distances,
+                                                    geodisk_farthest_info *info,
+                                                    geodisk_error *error);
+
 /* ---- Recording --------------------------------------------------------------------------------- */
 
 /* A run in the caller's command buffers and memory, on a borrowed device. It allocates no device

@@ -15,12 +15,16 @@
 #include "geodisk/checks/spacing.hpp"
 #include "geodisk/commands/commands.hpp"
 #include "geodisk/commands/help_text.hpp"
+#include "geodisk/farthest_run.hpp"
 #include "geodisk/inputs/mesh_input.hpp"
 #include "geodisk/options/mesh_options.hpp"
+#include "geodisk/options/method_options.hpp"
+#include "geodisk/options/run_options.hpp"
 #include "geodisk/options/tolerance_option.hpp"
 #include "geodisk/outputs/outputs.hpp"
 #include "geodisk/outputs/progress.hpp"
 #include "geodisk/records.hpp"
+#include "geodisk/reports/farthest_report.hpp"
 #include "geodisk/reports/json.hpp"
 #include "geodisk/reports/mesh_report.hpp"
 #include "geometry/mesh.hpp"
@@ -28,19 +32,32 @@
 #include "program/exact_text.hpp"
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
+#include "program/suggestion.hpp"
 
 namespace geodisk::tools {
 namespace {
 
 constexpr const char* kExamples[] = {
     "geodisk transfer points.csv standing.obj sitting.obj -o sitting.csv",
+    "geodisk transfer points.csv mesh.obj mesh.obj --order farthest --keep 100 -o first.csv",
 };
 
 struct TransferOptions {
     std::string samples;
     MeshOptions from, to;
     OutputOptions out;
-    std::string tolerance;
+    RunOptions run;
+    std::string tolerance, order = "file", keep;
+
+    bool is_farthest() const { return order == "farthest"; }
+};
+
+/// What the command makes.
+struct Transfer {
+    MeshInput from, to;
+    SampleFile samples{};
+    std::optional<ClosePair> closest{};
+    std::optional<FarthestRun> farthest{}; ///< If the samples are in its order.
 };
 
 /// The mesh to move samples to, with what they get of it.
@@ -90,22 +107,23 @@ void check_connectivity(const TransferOptions& options, const MeshFile& from, co
 }
 
 /// What holds of the new samples, then what the header of the old ones said, as "source_KEY".
-SampleHeader transferred_header(const TransferOptions& options, const SampleHeader& source,
-                                const std::optional<ClosePair>& closest) {
+SampleHeader transferred_header(const TransferOptions& options, const Transfer& done) {
     SampleHeader header{
         {{"version", "geodisk " GEODISK_VERSION_STRING}, {"mesh", options.to.mesh}}};
-    for (const auto& entry : options.to.additions()) {
-        header.entries.push_back(entry);
+    const auto add = [&](const HeaderEntries& more) {
+        header.entries.insert(header.entries.end(), more.begin(), more.end());
+    };
+    add(options.to.additions());
+    if (done.closest) {
+        add({{"min_distance", exact_text(done.closest->distance)}});
     }
-    if (closest) {
-        header.entries.emplace_back("min_distance", exact_text(closest->distance));
+    add({{"transferred_from", options.samples}});
+    add(options.out.record.entries());
+    if (done.farthest) {
+        add(farthest_entries(*done.farthest));
     }
-    header.entries.emplace_back("transferred_from", options.samples);
-    for (const auto& entry : options.out.record.entries()) {
-        header.entries.push_back(entry);
-    }
-    for (const auto& [key, value] : source.entries) {
-        header.entries.emplace_back("source_" + key, value);
+    for (const auto& [key, value] : done.samples.header.entries) {
+        add({{"source_" + key, value}});
     }
     return header;
 }
@@ -120,57 +138,85 @@ std::uint64_t seed_of(const SampleHeader& header) {
     return 0;
 }
 
-std::string report_text(const TransferOptions& options, const MeshInput& from, const MeshInput& to,
-                        const SampleFile& samples, const std::optional<ClosePair>& closest) {
-    return text_of(Json{{"version", GEODISK_VERSION_STRING},
-                        {"transferred_from", options.samples},
-                        {"mesh_a", mesh_json(options.from.mesh, options.from.additions(), from)},
-                        {"mesh_b", mesh_json(options.to.mesh, options.to.additions(), to)},
-                        {"warnings_a", warnings_json(from.warnings)},
-                        {"warnings_b", warnings_json(to.warnings)},
-                        {"output", options.out.output},
-                        {"samples", samples.rows.size()},
-                        {"smallest", pair_json(closest)}});
+std::string report_text(const TransferOptions& options, const Transfer& done) {
+    return text_of(
+        Json{{"version", GEODISK_VERSION_STRING},
+             {"transferred_from", options.samples},
+             {"mesh_a", mesh_json(options.from.mesh, options.from.additions(), done.from)},
+             {"mesh_b", mesh_json(options.to.mesh, options.to.additions(), done.to)},
+             {"warnings_a", warnings_json(done.from.warnings)},
+             {"warnings_b", warnings_json(done.to.warnings)},
+             {"output", options.out.output},
+             {"samples", done.samples.rows.size()},
+             {"farthest", done.farthest ? farthest_json(*done.farthest) : Json(nullptr)},
+             {"smallest", pair_json(done.closest)}});
 }
 
-std::string summary_text(const TransferOptions& options, const MeshInput& from, const MeshInput& to,
-                         const SampleFile& samples, const std::optional<ClosePair>& closest) {
+std::string summary_text(const TransferOptions& options, const Transfer& done) {
     std::ostringstream out;
-    out << mesh_lines("from", options.from.mesh, options.from.additions(), from)
-        << mesh_lines("to", options.to.mesh, options.to.additions(), to) << "samples       "
-        << grouped(samples.rows.size()) << " of " << one_line(options.samples) << '\n'
-        << "smallest      " << closest_text(closest) << '\n'
+    out << mesh_lines("from", options.from.mesh, options.from.additions(), done.from)
+        << mesh_lines("to", options.to.mesh, options.to.additions(), done.to) << "samples       "
+        << grouped(done.samples.rows.size()) << " of " << one_line(options.samples) << '\n';
+    if (done.farthest) {
+        out << farthest_line(*done.farthest);
+    }
+    out << "smallest      " << closest_text(done.closest) << '\n'
         << "file          " << one_line(options.out.output) << '\n';
     return out.str();
 }
 
+/// Puts the samples in farthest-point order on the mesh that they are moved to.
+FarthestRun put_farthest_first(const TransferOptions& options, const RunnerOptions& runner,
+                               std::uint32_t keep, const MeshInput& mesh, SampleFile& samples,
+                               ProgressLine& progress) {
+    RunDevice device(options.run.device, runner);
+    FarthestRun run = order_farthest(mesh, samples.rows, keep, device, progress);
+    run.apply(samples.rows);
+    for (ExtraColumn& column : samples.extra) {
+        run.apply(column.values);
+    }
+    return run;
+}
+
 void run_transfer(const TransferOptions& options) {
+    if (options.order != "file" && !options.is_farthest()) {
+        fail_choice("--order", options.order, std::vector<std::string>{"file", "farthest"});
+    }
+    const std::uint32_t keep = parse_keep(options.keep, options.is_farthest());
+    RunnerOptions runner;
+    runner.device_bytes = options.run.device_bytes();
+    runner.stall_seconds = options.run.stall_seconds();
     check_files(options);
     check_tolerance(options.tolerance);
     ProgressLine progress(options.out.quiet);
-    MeshInput from = load_mesh(options.from, progress);
-    const MeshOptions to_options = target_mesh(options);
-    const MeshInput to = load_mesh(to_options, progress);
-    check_connectivity(options, from.file, to.file);
+    Transfer done{load_mesh(options.from, progress), load_mesh(target_mesh(options), progress)};
+    const MeshInput& to = done.to;
+    check_connectivity(options, done.from.file, to.file);
     check_dimension(options.out.target(), to.dimension());
     check_record(options.out.record, to);
-    SampleFile samples = read_samples_exactly_on(options.samples, options.from.mesh, from, nullptr,
-                                                 options.tolerance, from.warnings, progress);
+    SampleFile& samples = done.samples;
+    samples = read_samples_exactly_on(options.samples, options.from.mesh, done.from, nullptr,
+                                      options.tolerance, done.from.warnings, progress);
+    if (options.is_farthest()) {
+        done.farthest = put_farthest_first(options, runner, keep, to, samples, progress);
+    }
     for (SampleRow& row : samples.rows) {
         to.place(row);
         row.radius = 0; // That was one on the other mesh.
     }
     set_normals(options.out.record, to, samples.rows);
-    const std::optional<ClosePair> closest = find_closest(to, samples.rows, progress);
+    done.closest = find_closest(to, samples.rows, progress);
     print_precision_note(options.out, samples.rows, to.dimension());
-    const std::vector<SampleField> fields =
+    std::vector<SampleField> fields =
         record_fields(options.out.record, to, samples.rows, seed_of(samples.header));
+    if (done.farthest && has_columns(options.out.target())) {
+        fields.push_back(done.farthest->cover());
+    }
     AtomicFile file(options.out.output);
-    write_samples(file, options.out.target(), transferred_header(options, samples.header, closest),
-                  samples.rows, to.dimension(), {samples.extra, fields});
+    write_samples(file, options.out.target(), transferred_header(options, done), samples.rows,
+                  to.dimension(), {samples.extra, fields});
     file.sync();
-    publish(options.out, {&file}, report_text(options, from, to, samples, closest),
-            summary_text(options, from, to, samples, closest));
+    publish(options.out, {&file}, report_text(options, done), summary_text(options, done));
 }
 
 } // namespace
@@ -197,6 +243,16 @@ void add_transfer_command(Command app) {
     add_weld_options(command, options->to, "-b");
     add_tolerance_option(command, options->tolerance);
     add_record_options(command, options->out.record, "MESH_B");
+    command
+        .add_option("--order", options->order, "NAME",
+                    "file: as they come; farthest: after the first sample, always\n"
+                    "the one farthest from all before it on MESH_B, along the\n"
+                    "surface. The column cover has that distance")
+        .offers({"file", "farthest"})
+        .shows_default();
+    add_keep_option(command, options->keep);
+    add_device_options(command, options->run.device);
+    add_limit_options(command, options->run);
     add_output_options(command, options->out);
     command.has_footer(help_footer(kExamples));
     command.calls([options] { run_transfer(*options); });

@@ -67,10 +67,13 @@ std::uint32_t parse_candidates(const std::string& option, const std::string& tex
 }
 
 void parse_order(const MethodOptions& options, Method& method) {
-    if (options.order != "dart" && options.order != "progressive") {
-        fail_choice("--order", options.order, std::vector<std::string>{"dart", "progressive"});
+    const std::vector<std::string> names{"dart", "progressive", "farthest"};
+    if (std::ranges::find(names, options.order) == names.end()) {
+        fail_choice("--order", options.order, names);
     }
     method.has_levels = options.order == "progressive";
+    method.is_farthest = options.order == "farthest";
+    method.keep = parse_keep(options.keep, method.is_farthest);
     if (!method.has_levels && !(options.levels.empty() && options.level_factor.empty())) {
         fail_usage(std::string(options.levels.empty() ? "--level-factor" : "--levels") +
                    " is for --order progressive");
@@ -210,15 +213,32 @@ void add_exact_option(Command command, MethodOptions& options, const std::string
                      group);
 }
 
+std::uint32_t parse_keep(const std::string& keep, bool is_farthest) {
+    if (keep.empty()) {
+        return 0;
+    }
+    if (!is_farthest) {
+        fail_usage("--keep is for --order farthest");
+    }
+    return parse_candidates("--keep", keep);
+}
+
+void add_keep_option(Command command, std::string& keep, const std::string& group) {
+    command.add_option("--keep", keep, "K", "Keep only the first K samples of --order farthest",
+                       group);
+}
+
 void add_order_options(Command command, MethodOptions& options) {
     command
         .add_option("--order", options.order, "NAME",
                     "dart: as darts come; progressive: in levels, coarse to fine, each\n"
                     "with half the distance of the one before. The samples up to the\n"
                     "end of a level are spaced by its distance; the column level has\n"
-                    "the level of each",
+                    "the level of each. farthest: after the first sample, always the\n"
+                    "one farthest from all before it along the surface; the column\n"
+                    "cover has that distance",
                     kMethodGroup)
-        .offers({"dart", "progressive"})
+        .offers({"dart", "progressive", "farthest"})
         .shows_default();
     command.add_option("--levels", options.levels, "K",
                        "Number of levels of --order progressive, 1 to 32 (default: the\n"
@@ -228,6 +248,7 @@ void add_order_options(Command command, MethodOptions& options) {
         .add_option("--level-factor", options.level_factor, "S",
                     "Distance of a level, divided by that of the next, 1.1 to 8", kMethodGroup)
         .shows_default(exact_text(kLevelFactor));
+    add_keep_option(command, options.keep, kMethodGroup);
 }
 
 void add_method_options(Command command, MethodOptions& options, const std::string& domain) {

@@ -25,7 +25,7 @@ struct MethodOptions {
     std::string method = "pool", pool_ratio, throws;
     bool exact = false;
     bool is_dense = false, is_maximal = false;
-    std::string order = "dart", levels, level_factor;
+    std::string order = "dart", levels, level_factor, keep;
 
     bool throws_darts() const { return names_darts(method); }
 };
@@ -42,6 +42,8 @@ struct Method {
     std::uint32_t throws = 0;     ///< 0 if not given.
     std::uint32_t stop_count = 0; ///< Of --count, where darts stop at it; else 0.
     bool has_levels = false;      ///< --order progressive.
+    bool is_farthest = false;     ///< --order farthest.
+    std::uint32_t keep = 0;       ///< Of --keep; 0 for all.
     Levels levels{0};             ///< Their factor, and their number if that was given; else 0.
 
     /// Darts to throw where there is room for so many samples: where a count alone is to stop them,
@@ -55,6 +57,13 @@ struct Method {
     /// UserError(usage) if there are fewer samples.
     void check_count(std::uint64_t samples, double min_distance, std::uint64_t darts) const;
 };
+
+/// Returns the samples to keep of a farthest-point order, if there is one; 0 for all. Throws
+/// UserError(usage).
+std::uint32_t parse_keep(const std::string& keep, bool is_farthest);
+
+/// Adds --keep to what has --order farthest.
+void add_keep_option(Command command, std::string& keep, const std::string& group = "Options");
 
 /// Adds --order and those that go with it.
 void add_order_options(Command command, MethodOptions& options);

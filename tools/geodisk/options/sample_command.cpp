@@ -85,6 +85,7 @@ std::string sample_command(const SampleOptions& options) {
     list.add("--order", options.method.order, usual.method.order);
     list.add("--levels", options.method.levels);
     list.add("--level-factor", options.method.level_factor);
+    list.add("--keep", options.method.keep);
     list.add("--darts", options.method.throws);
     list.add_flag("--dense", options.method.is_dense);
     list.add_flag("--maximal", options.method.is_maximal);

@@ -43,6 +43,11 @@ void check_metric(const SampleOptions& options, const SampleJob& job) {
                    "--metric " +
                    options.metric);
     }
+    if (job.method.is_farthest) {
+        fail_usage("--order farthest goes by distances along the surface, so it takes no "
+                   "--metric " +
+                   options.metric);
+    }
     if (options.density.is_given()) {
         fail_usage("--metric " + options.metric +
                    " takes no radii that vary, so neither --density nor --radius-factor");
@@ -171,6 +176,13 @@ SampleJob parse_job(const SampleOptions& options) {
     if (job.method.has_levels && (job.classes.is_given() || job.features)) {
         fail_usage(std::string("--order progressive takes no ") +
                    (job.features ? "--features" : "--classes"));
+    }
+    if (job.method.is_farthest && job.out.is_dry_run) {
+        fail_usage("--dry-run estimates the sampling alone, so it takes no --order farthest");
+    }
+    if (job.method.is_farthest && !job.constraints.existing.empty()) {
+        fail_usage("--order farthest puts all samples in order, but --existing keeps its own as "
+                   "the first ones; give just one of them");
     }
     check_metric(options, job);
     job.constraints.check(options.metric);

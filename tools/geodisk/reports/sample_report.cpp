@@ -8,6 +8,7 @@
 
 #include "files/part_columns.hpp"
 #include "files/sample_columns.hpp"
+#include "geodisk/reports/farthest_report.hpp"
 #include "geodisk/reports/json.hpp"
 #include "geodisk/reports/mesh_report.hpp"
 #include "program/exact_text.hpp"
@@ -203,7 +204,8 @@ std::string dry_sample_text(const SampleJob& job, const MeshInput& mesh, const D
 }
 
 SampleReport::SampleReport(const SampleJob& job, const MeshInput& mesh, const SampleResult& result)
-    : job_(job), mesh_(mesh), result_(result), samples_(result.rows.size()),
+    : job_(job), mesh_(mesh), result_(result),
+      samples_(result.farthest ? result.farthest->samples : result.rows.size()),
       rho_(packing_density(effective_area(mesh.prepared, result.params), result.params.min_distance,
                            static_cast<double>(samples_))) {
     if (has_radii(result.rows)) {
@@ -245,6 +247,10 @@ SampleHeader SampleReport::header() const {
                                       part_name_entries(mesh_.file, job_.columns)}) {
         header.entries.insert(header.entries.end(), more.begin(), more.end());
     }
+    if (result_.farthest) {
+        const HeaderEntries more = farthest_entries(*result_.farthest);
+        header.entries.insert(header.entries.end(), more.begin(), more.end());
+    }
     return header;
 }
 
@@ -275,6 +281,7 @@ Json SampleReport::document(const SecondsByStage& after) const {
                   {"classes", nullptr},
                   {"features", nullptr},
                   {"levels", levels_json(told_levels(result_, distance))},
+                  {"farthest", nullptr},
                   {"seed", params.seed}};
     document["mesh"]["components_without_samples"] = result_.bare.count;
     if (result_.picture) {
@@ -300,6 +307,10 @@ Json SampleReport::document(const SecondsByStage& after) const {
                                {"samples", class_counts(job_, result_)}};
     }
     document.update(drawn_json(drawn()));
+    if (result_.farthest) {
+        document["farthest"] = farthest_json(*result_.farthest);
+        document["samples"] = result_.rows.size();
+    }
     document["maximal"] = maximal_json(job_, mesh_, run);
     document.update({{"rho", rho_},
                      {"iterations", run.iterations},
@@ -328,6 +339,9 @@ std::string SampleReport::summary(const SecondsByStage& after) const {
                told_levels(result_, told_distance(job_, mesh_, result_.params.min_distance)))
         << maximal_line(job_, mesh_, result_) << constraint_lines(job_, result_)
         << candidates_text(drawn(), result_.params.seed);
+    if (result_.farthest) {
+        out << farthest_line(*result_.farthest);
+    }
     out << run_text(result_.done, seconds(after), job_.out.output);
     if (result_.picture) {
         out << "picture       " << one_line(job_.picture) << '\n';
@@ -340,6 +354,9 @@ SecondsByStage SampleReport::seconds(const SecondsByStage& after) const {
     if (const auto& picture = result_.picture) {
         stages.insert(stages.begin(),
                       {{"windows", picture->window_seconds}, {"draw", picture->draw_seconds}});
+    }
+    if (result_.farthest) {
+        stages.insert(stages.begin(), {"order", result_.farthest->seconds});
     }
     return stage_seconds({{"load", mesh_.load_seconds}, {"prepare", mesh_.prepare_seconds}},
                          result_.done, stages);

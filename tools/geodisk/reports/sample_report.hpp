@@ -11,6 +11,7 @@
 #include "geodisk/checks/spacing.hpp"
 #include "geodisk/device_run.hpp"
 #include "geodisk/dry_run.hpp"
+#include "geodisk/farthest_run.hpp"
 #include "geodisk/inputs/mesh_input.hpp"
 #include "geodisk/options/sample_options.hpp"
 #include "geodisk/picture_run.hpp"
@@ -32,6 +33,7 @@ struct SampleResult {
     std::vector<std::uint32_t> features; ///< FeatureKind of the rows.
     std::size_t feature_corners = 0;     ///< Corners that may have samples.
     double feature_length = 0;           ///< Of the curves.
+    std::optional<FarthestRun> farthest; ///< Of --order farthest; `rows` are in its order.
     std::optional<Levels> levels;        ///< Of --order progressive; they end at `done.ends`.
     BareParts bare;
     std::vector<MeshWarning> warnings;
@@ -67,8 +69,8 @@ class SampleReport {
     const SampleJob& job_;
     const MeshInput& mesh_;
     const SampleResult& result_;
-    std::size_t samples_;
-    double rho_; ///< Where radii vary, of the samples on a surface of the effective area.
+    std::size_t samples_; ///< Of the run, before --keep.
+    double rho_;          ///< Where radii vary, of the samples on a surface of the effective area.
     double least_radius_ = 0, most_radius_ = 0; ///< Of the samples, where radii vary; else 0.
 };
 

@@ -22,6 +22,7 @@ from ._errors import (
     NoProgram,
     OutOfMemory,
 )
+from ._farthest import FarthestOrder, farthest_order
 from ._library import version
 from ._many import sample_many
 from ._mesh import Mesh
@@ -41,6 +42,7 @@ __all__ = [
     "Device",
     "DeviceLost",
     "Error",
+    "FarthestOrder",
     "GeodiskWarning",
     "InvalidArgument",
     "Mesh",
@@ -56,6 +58,7 @@ __all__ = [
     "Verification",
     "cells",
     "devices",
+    "farthest_order",
     "neighbours",
     "read",
     "render",

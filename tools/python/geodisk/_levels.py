@@ -43,10 +43,12 @@ class Levels:
 def levels_of(
     order: str, levels: int | None, factor: float | None, metric: str, throws: int
 ) -> Levels | None:
-    """Returns the levels of a progressive order, None for dart order."""
-    if order not in ("dart", "progressive"):
-        raise e.invalid(f"order is {order!r}, none of dart, progressive")
-    if order == "dart":
+    """Returns the levels of a progressive order, None for other orders."""
+    if order not in ("dart", "progressive", "farthest"):
+        raise e.invalid(f"order is {order!r}, none of dart, progressive, farthest")
+    if order == "farthest" and metric != "geodesic":
+        raise e.invalid(f"order='farthest' goes by distances along the surface, not {metric}")
+    if order != "progressive":
         if levels is not None or factor is not None:
             name = "levels" if levels is not None else "level_factor"
             raise e.invalid(f"{name} is for order='progressive'")

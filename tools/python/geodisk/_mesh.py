@@ -20,6 +20,7 @@ from ._polygons import Polygons
 from ._protocols import Faces, MeshLike
 from ._source import Source, read_file, split
 from ._surface import Surface
+from ._values import flag
 
 
 class Mesh:
@@ -113,6 +114,7 @@ class Mesh:
         mesh_format: str | None = None,
     ) -> None:
         source: Source | None = None
+        flag(keep_seams, "keep_seams")
         if faces is None and isinstance(vertices, (str, os.PathLike)):
             if edge_lengths is not None:
                 raise TypeError("edge_lengths need faces given as arrays, not a file")
@@ -149,7 +151,7 @@ class Mesh:
 
     def _prepare(self, surface: Surface, joined_edges: int = 0) -> None:
         self._surface = surface
-        self._handle = interruptible(lambda stop: _created(surface))
+        self._handle = interruptible(lambda stop: created(surface))
         self._info = s.MeshInfo()
         c.call("geodisk_mesh_describe", self._handle.value, ctypes.byref(self._info))
         self._info.joined_edges += joined_edges
@@ -238,7 +240,7 @@ def _names(given: str | Sequence[str]) -> tuple[str, ...]:
     return (given,) if isinstance(given, str) else tuple(given)
 
 
-def _created(surface: Surface) -> c.Handle:
+def created(surface: Surface) -> c.Handle:
     """Returns the library's mesh."""
     corners = surface.indices()
     params = s.MeshParams(

@@ -14,6 +14,7 @@ from ._inputs import surface_of, write_subject
 from ._program import folder, run
 from ._protocols import Faces, MeshLike
 from ._samples import Samples
+from ._values import flag
 
 
 class Picture:
@@ -122,9 +123,9 @@ def render(
         options.append(f"--view={name}")
     if up is not None:
         options += ["--up", up]
-    if cut:
+    if flag(cut, "cut"):
         options.append("--cut")
-    if legend:
+    if flag(legend, "legend"):
         options.append("--legend")
     if min_distance is not None:
         options += ["--min-distance", repr(float(min_distance))]

@@ -13,6 +13,7 @@ from . import _errors as e
 from . import _library as c
 from . import _structs as s
 from ._devices import DeviceLike, forget, name_of, sampler_on
+from ._values import flag
 
 _PATIENCE = 100  # Milliseconds, after which Python looks for signals.
 
@@ -53,22 +54,35 @@ class Bar:
         self._bar.close()
 
 
+def listener_of(progress: bool | ProgressCallback) -> ProgressCallback | None:
+    """Returns what to call with progress, if anything; a Bar for True."""
+    if callable(progress):
+        return progress
+    return Bar() if flag(progress, "progress") else None
+
+
+def stops(answer: object) -> bool:
+    """Returns whether the answer of a progress callback stops the run."""
+    return isinstance(answer, (bool, np.bool_)) and not answer
+
+
+#: What a run raises that a callback stopped.
+STOPPED = "the progress callback returned False"
+
+
 class Runs:
     """Runs one domain after another on a device, and reports progress. A context manager."""
 
     def __init__(self, device: DeviceLike | None, progress: bool | ProgressCallback) -> None:
         self._device = name_of(device)
-        self._bar = Bar() if progress is True else None
-        self._report: ProgressCallback | None = self._bar
-        if callable(progress):
-            self._report = progress
+        self._report = listener_of(progress)
 
     def __enter__(self) -> Runs:
         return self
 
     def __exit__(self, *_: Any) -> None:
-        if self._bar is not None:
-            self._bar.close()
+        if isinstance(self._report, Bar):
+            self._report.close()
 
     def run(self, domain: c.Handle) -> c.Handle:
         """Returns the samples of a domain."""
@@ -92,9 +106,8 @@ class Runs:
             if self._report and not samples.value:
                 c.call("geodisk_sampler_progress", sampler, byref(progress))
                 part = progress.decided / max(1, progress.candidates)
-                answer = self._report(part, progress.accepted)
-                if isinstance(answer, (bool, np.bool_)) and not answer:
-                    raise e.Cancelled("the progress callback returned False", "cancelled")
+                if stops(self._report(part, progress.accepted)):
+                    raise e.Cancelled(STOPPED, "cancelled")
         return samples
 
 

@@ -18,6 +18,7 @@ from ._attributes import check_finite, interpolated, values_of
 from ._files import complete
 from ._sample import Sample
 from ._surface import Surface
+from ._values import flag
 from ._writing import WHOLE_COLUMNS, columns_of, header_of, write_csv, write_npz, write_ply
 
 if TYPE_CHECKING:
@@ -347,7 +348,7 @@ class Samples:
         else:
             raise e.invalid(f"of is {of!r}, not 'vertices', 'corners' or 'faces'")
         check_finite(found, faces)
-        is_nearest = found.dtype.kind != "f" if nearest is None else nearest
+        is_nearest = found.dtype.kind != "f" if nearest is None else flag(nearest, "nearest")
         if not is_nearest and found.dtype.kind in "SU":
             raise TypeError("text cannot be interpolated; give nearest=True")
         return interpolated(found, weights, is_nearest)

@@ -15,6 +15,7 @@ from . import _structs as s
 from ._classes import Classes, ClassesLike
 from ._devices import DeviceLike
 from ._existing import AvoidLike, ExistingLike, avoided_of, existing_of
+from ._farthest import put_farthest_first
 from ._features import Features
 from ._levels import levels_of, run_levels
 from ._mesh import keys_of, mask_of, mesh_of
@@ -24,7 +25,7 @@ from ._radii import radii_of
 from ._results import first_of, samples_of
 from ._running import Made, ProgressCallback, Runs, sampled
 from ._samples import Samples
-from ._values import check_exact, check_pool, distance_of, integer
+from ._values import check_exact, check_pool, distance_of, flag, integer
 
 
 def sample(
@@ -95,11 +96,13 @@ def sample(
         True to go on after the pool until no further sample fits anywhere. The report then has
         ``is_certified`` 1 if every point is nearer to a sample than ``largest_gap``. Not with
         `throws`, `stop_count`, `density` and other metrics.
-    order : {"dart", "progressive"}
+    order : {"dart", "progressive", "farthest"}
         "progressive" returns samples in levels, coarse to fine: each level has half the distance of
         the one before, and the last one the given distance. The samples up to the end of a level
         are spaced by its distance. ``samples.level`` has the level of each, and
         ``samples.level_distances`` their distances.
+        "farthest" puts samples in farthest-point order, see :func:`farthest_order`;
+        ``samples.attributes["cover"]`` has the distance of each to the nearest before it.
     levels : int, optional
         Number of levels, 1 to 32. By default the first one has 16 samples or somewhat more.
     level_factor : float, optional
@@ -190,6 +193,9 @@ def sample(
     mesh = mesh_of(
         vertices, faces, edge_lengths, weld, keep_seams, columns, mesh_format, attributes
     )
+    if order == "farthest" and existing is not None:
+        raise e.invalid("order='farthest' takes no existing samples, which come first")
+    maximal = flag(maximal, "maximal")
     in_levels = levels_of(order, levels, level_factor, metric, throws)
     if in_levels is not None and (classes is not None or features is not None or maximal):
         raise e.invalid("order='progressive' takes no classes, features and maximal")
@@ -218,7 +224,7 @@ def sample(
         avoid=points.ctypes.data,
         avoid_radii=point_radii.ctypes.data,
         avoid_count=len(points),
-        is_maximal=int(bool(maximal)),
+        is_maximal=int(maximal),
     )
     if kinds is not None and kinds.count > 1:
         own_classes = kinds.given(existing, len(kept))
@@ -265,6 +271,8 @@ def sample(
             samples, mesh._handle, count, stop_count, throws, mask, len(kept), len(points) > 0
         )
     )
+    if order == "farthest":
+        samples = put_farthest_first(mesh._handle, mesh._surface, samples, device, progress)
     return samples
 
 
@@ -304,6 +312,7 @@ def sample_box(
     """
     throws = integer(throws, "throws", 2**32 - 1)
     distance = distance_of(min_distance, radius, count, throws)
+    periodic = flag(periodic, "periodic")
     sides = np.ascontiguousarray(extents, dtype=np.float64)
     if sides.ndim != 1:
         raise e.invalid("extents must be one number per dimension")
@@ -314,7 +323,7 @@ def sample_box(
     params = s.BoxParams(
         extents=sides.ctypes.data_as(ctypes.POINTER(c_double)),
         dimension=len(sides),
-        is_periodic=int(bool(periodic)),
+        is_periodic=int(periodic),
         seed=seed,
         pool_ratio=float(pool_ratio),
         throws=throws,
@@ -330,7 +339,7 @@ def sample_box(
         c.call("geodisk_box_distance_for_count", byref(params), float(count or 0), byref(found))
         distance = found.value
     made = sampled(run_at, distance, count, exact, device, progress)
-    samples = samples_of(made, seed, extents=tuple(sides.tolist()), periodic=bool(periodic))
+    samples = samples_of(made, seed, extents=tuple(sides.tolist()), periodic=periodic)
     samples = first_of(samples, count if exact and count else stop_count)
     warn(oddities_of_set(samples, None, count, stop_count, throws))
     return samples

@@ -1,12 +1,10 @@
-"""Searches on a mesh by the library, which may be stopped."""
+"""Searches on a device, which are one call of the library and may be stopped."""
 
 from __future__ import annotations
 
 import ctypes
 from ctypes import byref
-from typing import Any
-
-import numpy as np
+from typing import Any, Callable, TypeVar
 
 from . import _errors as e
 from . import _library as c
@@ -14,7 +12,46 @@ from . import _structs as s
 from ._background import interruptible
 from ._devices import forget, sampler_on
 from ._mesh import Mesh
-from ._running import Bar, ProgressCallback
+from ._running import STOPPED, Bar, ProgressCallback, listener_of, stops
+
+T = TypeVar("T")
+
+
+def searched(
+    device: str,
+    progress: bool | ProgressCallback,
+    call: Callable[[ctypes.c_void_p, Any], T],
+) -> T:
+    """Returns `call(sampler, callback)`, where the library calls the callback with its progress."""
+    report = listener_of(progress)
+    failure: list[BaseException] = []
+
+    def work(stop: ctypes.c_int32) -> T:
+        def hear(_: Any, told: Any) -> int:
+            if report is None or stop.value:
+                return int(stop.value)
+            try:
+                state = told.contents
+                return int(stops(report(state.decided / max(1, state.candidates), state.accepted)))
+            except BaseException as raised:
+                failure.append(raised)
+                return 1
+
+        with sampler_on(device) as sampler:
+            return call(sampler, s.PROGRESS_FN(hear))
+
+    try:
+        return interruptible(work)
+    except e.Cancelled:
+        if failure:
+            raise failure[0] from None
+        raise e.Cancelled(STOPPED, "cancelled") from None
+    except e.DeviceLost:
+        forget(device)
+        raise
+    finally:
+        if isinstance(report, Bar):
+            report.close()
 
 
 def search(
@@ -26,42 +63,8 @@ def search(
     progress: bool | ProgressCallback,
 ) -> c.Handle:
     """Returns what the function of the library finds on the mesh: an object of this kind."""
-    bar = Bar() if progress is True else None
-    report = bar if bar is not None else (progress if callable(progress) else None)
-    failure: list[BaseException] = []
 
-    def call(stop: ctypes.c_int32) -> c.Handle:
-        def hear(_: Any, told: Any) -> int:
-            if report is None or stop.value:
-                return int(stop.value)
-            try:
-                state = told.contents
-                answer = report(state.decided / max(1, state.candidates), state.accepted)
-            except BaseException as raised:
-                failure.append(raised)
-                return 1
-            return int(isinstance(answer, (bool, np.bool_)) and not answer)
+    def call(sampler: ctypes.c_void_p, hear: Any) -> c.Handle:
+        return c.Handle(kind, function, sampler, mesh._handle.value, byref(params), hear, None)
 
-        with sampler_on(device) as sampler:
-            return c.Handle(
-                kind,
-                function,
-                sampler,
-                mesh._handle.value,
-                byref(params),
-                s.PROGRESS_FN(hear),
-                None,
-            )
-
-    try:
-        return interruptible(call)
-    except e.Cancelled:
-        if failure:
-            raise failure[0] from None
-        raise e.Cancelled("the progress callback returned False", "cancelled") from None
-    except e.DeviceLost:
-        forget(device)
-        raise
-    finally:
-        if bar is not None:
-            bar.close()
+    return searched(device, progress, call)

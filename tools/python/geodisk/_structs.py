@@ -254,6 +254,15 @@ class CellArrays(_Sized):
     ]
 
 
+class FarthestInfo(_Sized):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("cover", c_double),
+        ("error", c_double),
+        ("searches", c_uint32),
+    ]
+
+
 class SurfacePart(_Sized):
     _fields_ = [
         ("struct_size", c_size_t),

@@ -7,7 +7,16 @@ import numbers
 import operator
 from typing import Any
 
+import numpy as np
+
 from . import _errors as e
+
+
+def flag(value: object, name: str) -> bool:
+    """Returns True or False. Raises for anything else, such as "no", which would count as true."""
+    if not isinstance(value, (bool, np.bool_)):
+        raise TypeError(f"{name} is {value!r}, neither True nor False")
+    return bool(value)
 
 
 def integer(value: Any, name: str, most: int) -> int:
@@ -20,7 +29,7 @@ def integer(value: Any, name: str, most: int) -> int:
 
 def check_exact(exact: bool, count: float | None, stop_count: int = 0) -> None:
     """Checks that an exact count is one."""
-    if not exact:
+    if not flag(exact, "exact"):
         return
     if count is None:
         raise e.invalid("exact=True needs a count")

@@ -18,6 +18,7 @@ from ._program import folder, run
 from ._protocols import Faces, MeshLike
 from ._radii import one_of
 from ._samples import Samples
+from ._values import flag
 from ._writing import has_own_radii
 
 
@@ -198,6 +199,7 @@ def verify(
     >>> found.ok, found.violations.shape[1]
     (False, 2)
     """
+    maximal = flag(maximal, "maximal")
     varying = one_of(density, radius_factor)
     surface = surface_of(samples, vertices, faces, edge_lengths, weld, keep_seams)
     if min_distance is not None:

@@ -1,0 +1,66 @@
+#include <algorithm>
+
+#include <geodisk/farthest.hpp>
+
+#include "c/c_call.hpp"
+#include "c/c_mesh.hpp"
+#include "c/c_sampler.hpp"
+
+namespace geodisk::c {
+namespace {
+
+geodisk_farthest_info info_of(const FarthestOrder& found) {
+    geodisk_farthest_info info{};
+    info.cover = double{found.cover};
+    info.error = found.error;
+    info.searches = found.searches;
+    return info;
+}
+
+} // namespace
+} // namespace geodisk::c
+
+using namespace geodisk;
+using namespace geodisk::c;
+
+extern "C" {
+
+geodisk_status geodisk_farthest_order(geodisk_sampler* sampler, const geodisk_mesh* mesh,
+                                      const geodisk_surface_point* samples, size_t sample_count,
+                                      uint32_t count, geodisk_progress_fn progress, void* user,
+                                      uint32_t* order, float* distances,
+                                      geodisk_farthest_info* info, geodisk_error* error) {
+    return with_sampler(sampler, error, [&](SamplerState& state) -> Result<Done> {
+        if (mesh == nullptr || order == nullptr) {
+            return wrong("mesh or order is NULL");
+        }
+        if (samples == nullptr && sample_count != 0) {
+            return wrong("samples is NULL");
+        }
+        if (info != nullptr) { // Before the work.
+            if (auto given = give(info, "info", geodisk_farthest_info{}); !given) {
+                return given.error();
+            }
+        }
+        if (state.running) {
+            return run_in_progress();
+        }
+        state.is_cancelled = false;
+        const auto found =
+            farthest_order(state.runner, mesh->shared->prepared, samples_of(samples, sample_count),
+                           count, state.callback(progress, user));
+        if (!found) {
+            return found.error();
+        }
+        if (const auto checked = state.device->check_validation(); !checked) {
+            return checked.error();
+        }
+        std::ranges::copy(found->indices, order);
+        if (distances != nullptr) {
+            std::ranges::copy(found->distances, distances);
+        }
+        return info == nullptr ? Result<Done>(Done{}) : give(info, "info", info_of(*found));
+    });
+}
+
+} // extern "C"

@@ -1,0 +1,144 @@
+// `--order farthest` of `geodisk sample` and `transfer`.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "cli/command.hpp"
+#include "cli/json_file.hpp"
+#include "files/sample_file.hpp"
+
+namespace geodisk::test {
+namespace {
+
+constexpr const char* kMesh = "builtin:torus-knot:8";
+
+Json sample(const TemporaryFolder& folder, const char* file, const Arguments& options) {
+    Arguments arguments{"sample", kMesh, "-n", "300", "-o", file, "--json", "report.json"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    const Outcome outcome = run(folder, arguments);
+    INFO(outcome.err);
+    REQUIRE(outcome.status == 0);
+    return json_in(folder, "report.json");
+}
+
+using Place = std::pair<std::uint32_t, float>;
+
+std::vector<Place> places_in(const TemporaryFolder& folder, const char* file) {
+    std::vector<Place> places;
+    for (const tools::SampleRow& row : tools::read_samples(folder / file).rows) {
+        places.emplace_back(row.face, row.bary[1]);
+    }
+    return places;
+}
+
+std::vector<double> column_in(const TemporaryFolder& folder, const char* file, const char* name) {
+    return tools::read_samples(folder / file, name).numbers;
+}
+
+} // namespace
+
+TEST_CASE("samples in farthest-point order are those of dart order, with their cover") {
+    const TemporaryFolder folder;
+    sample(folder, "dart.csv", {});
+    const Json report = sample(folder, "far.csv", {"--order", "farthest", "--classes", "2"});
+    sample(folder, "classes.csv", {"--classes", "2"});
+    const std::vector<Place> before = places_in(folder, "classes.csv");
+    const std::vector<Place> after = places_in(folder, "far.csv");
+    CHECK(std::is_permutation(before.begin(), before.end(), after.begin(), after.end()));
+    CHECK(before != after);
+    CHECK(before[0] == after[0]);
+    const std::vector<double> cover = column_in(folder, "far.csv", "cover");
+    REQUIRE(cover.size() == after.size());
+    CHECK(std::isinf(cover[0]));
+    CHECK(std::ranges::is_sorted(cover, std::greater<>()));
+    CHECK(cover.back() > 0);
+    CHECK(report["farthest"]["samples"] == after.size());
+    CHECK(report["farthest"]["kept"] == after.size());
+    CHECK(report["farthest"]["left_out_within"] == 0);
+    CHECK(report["farthest"]["least_cover"].get<double>() == cover.back());
+    CHECK(report["seconds"]["order"].get<double>() > 0);
+    CHECK(run(folder, {"verify", kMesh, "far.csv"}).status == 0); // Also the classes.
+}
+
+TEST_CASE("the first samples of the order are kept, and are as far apart as their cover") {
+    const TemporaryFolder folder;
+    sample(folder, "all.ply", {"--order", "farthest"});
+    const Json report = sample(folder, "few.ply", {"--order", "farthest", "--keep", "40"});
+    const std::vector<Place> all = places_in(folder, "all.ply");
+    const std::vector<Place> few = places_in(folder, "few.ply");
+    CHECK(few == std::vector(all.begin(), all.begin() + 40));
+    CHECK(report["samples"] == 40);
+    CHECK(report["farthest"]["samples"] == all.size());
+    const std::vector<double> cover = column_in(folder, "few.ply", "cover");
+    const auto verify = [&](double distance) {
+        return run(folder, {"verify", kMesh, "few.ply", "-d", std::to_string(distance)}).status;
+    };
+    CHECK(verify(0.9999 * cover.back()) == 0);
+    CHECK(verify(1.0001 * cover.back()) == 1);
+    CHECK(run(folder, {"verify", kMesh, "few.ply"}).status == 0);
+    const Outcome many = run(folder, {"sample", kMesh, "-n", "50", "-o", "b.ply", "--order",
+                                      "farthest", "--keep", "5000"});
+    CHECK(many.status == 2);
+    CHECK(contains(many.err, "--keep: there are only "));
+    CHECK(!std::filesystem::exists(folder / "b.ply"));
+}
+
+TEST_CASE("transfer puts samples of a file in the same order") {
+    const TemporaryFolder folder;
+    sample(folder, "dart.ply", {});
+    sample(folder, "far.ply", {"--order", "farthest"});
+    const Outcome outcome =
+        run(folder, {"transfer", "dart.ply", kMesh, kMesh, "-o", "few.glb", "--order", "farthest",
+                     "--keep", "30", "--json", "report.json"});
+    INFO(outcome.err);
+    REQUIRE(outcome.status == 0);
+    CHECK(contains(outcome.out, "kept          the first 30 of them; the others are within "));
+    CHECK(json_in(folder, "report.json")["farthest"]["kept"] == 30);
+    CHECK(contains(bytes_of(folder / "few.glb"), "_COVER"));
+    REQUIRE(
+        run(folder, {"transfer", "dart.ply", kMesh, kMesh, "-o", "all.csv", "--order", "farthest"})
+            .status == 0);
+    CHECK(places_in(folder, "all.csv") == places_in(folder, "far.ply"));
+    CHECK(column_in(folder, "all.csv", "cover") == column_in(folder, "far.ply", "cover"));
+}
+
+TEST_CASE("what farthest-point order does not go with is refused") {
+    const TemporaryFolder folder;
+    sample(folder, "a.csv", {});
+    struct Case {
+        Arguments options;
+        const char* message;
+    };
+    const Case cases[] = {
+        {{"--keep", "3"}, "--keep is for --order farthest"},
+        {{"--order", "farthest", "--keep", "0"}, "--keep: '0' is not a whole number"},
+        {{"--order", "farthest", "--levels", "3"}, "--levels is for --order progressive"},
+        {{"--order", "farthest", "--metric", "euclidean"}, "it takes no --metric euclidean"},
+        {{"--order", "farthest", "--existing", "a.csv"}, "--existing keeps its own as the first"},
+        {{"--order", "farthest", "--dry-run"}, "it takes no --order farthest"},
+    };
+    for (const Case& wrong : cases) {
+        Arguments arguments{"sample", kMesh, "-d", "0.5"};
+        if (wrong.options.back() != "--dry-run") {
+            arguments.insert(arguments.end(), {"-o", "b.ply"});
+        }
+        arguments.insert(arguments.end(), wrong.options.begin(), wrong.options.end());
+        const Outcome outcome = run(folder, arguments);
+        CAPTURE(outcome.err);
+        CHECK(outcome.status == 2);
+        CHECK(contains(outcome.err, wrong.message));
+    }
+    const Outcome order =
+        run(folder, {"transfer", "a.csv", kMesh, kMesh, "-o", "b.ply", "--order", "dart"});
+    CHECK(order.status == 2);
+    CHECK(contains(order.err, "--order: 'dart' is neither file nor farthest"));
+    CHECK(!std::filesystem::exists(folder / "b.ply"));
+}
+
+} // namespace geodisk::test

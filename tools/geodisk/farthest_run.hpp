@@ -1,0 +1,41 @@
+// Samples in farthest-point order, for the commands that have --order farthest.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <geodisk/farthest.hpp>
+
+#include "files/sample_file.hpp"
+#include "geodisk/device_run.hpp"
+#include "geodisk/inputs/mesh_input.hpp"
+#include "geodisk/outputs/progress.hpp"
+
+namespace geodisk::tools {
+
+struct FarthestRun {
+    FarthestOrder order;
+    std::size_t samples = 0; ///< Those to choose from.
+    double seconds = 0;      ///< All of the search.
+
+    /// Puts what belongs to the samples in their order, and leaves out the others.
+    template <class T>
+    void apply(std::vector<T>& values) const {
+        std::vector<T> chosen;
+        chosen.reserve(order.indices.size());
+        for (const std::uint32_t index : order.indices) {
+            chosen.push_back(values[index]);
+        }
+        values = std::move(chosen);
+    }
+    /// Returns the column cover.
+    SampleField cover() const;
+};
+
+/// Opens the device where need be, and finds the order of samples of a mesh, or of the first `keep`
+/// if that is not 0. Throws UserError, DeviceLost among them.
+FarthestRun order_farthest(const MeshInput& mesh, std::span<const SampleRow> rows,
+                           std::uint32_t keep, RunDevice& device, ProgressLine& progress);
+
+} // namespace geodisk::tools

@@ -1,0 +1,170 @@
+"""Samples in farthest-point order."""
+
+from __future__ import annotations
+
+import ctypes
+import dataclasses
+from ctypes import byref
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _errors as e
+from . import _library as c
+from . import _structs as s
+from ._devices import DeviceLike, name_of
+from ._existing import points_of
+from ._inputs import surface_of
+from ._mesh import Mesh, created
+from ._protocols import Faces, MeshLike
+from ._running import ProgressCallback
+from ._samples import Samples
+from ._searching import searched
+from ._surface import Surface
+from ._values import integer
+
+
+@dataclass(frozen=True)
+class FarthestOrder:
+    """Samples in farthest-point order: ``samples[order.indices]``.
+
+    Attributes
+    ----------
+    indices : ndarray of uint32, shape (k,)
+        Index of each sample, in this order.
+    distances : ndarray of float32, shape (k,)
+        Geodesic distance of each one to the nearest before it, never increasing. Infinite for the
+        first one on each part of the mesh.
+    cover : float
+        Largest distance of a sample left out to the nearest one chosen; 0 if none is left out.
+    error : float
+        Distances are at most so far from exact ones on the mesh.
+    searches : int
+        Number of searches on the device, each of many disks.
+    """
+
+    indices: NDArray[np.uint32]
+    distances: NDArray[np.float32]
+    cover: float
+    error: float
+    searches: int
+
+    def __len__(self) -> int:
+        return len(self.indices)
+
+    def __repr__(self) -> str:
+        return f"<geodisk.FarthestOrder of {len(self)} samples>"
+
+
+def farthest_order(
+    samples: Samples,
+    vertices: ArrayLike | MeshLike | None = None,
+    faces: Faces | None = None,
+    *,
+    count: int | None = None,
+    edge_lengths: ArrayLike | None = None,
+    weld: bool | float = False,
+    keep_seams: bool = False,
+    device: DeviceLike | None = None,
+    progress: bool | ProgressCallback = False,
+) -> FarthestOrder:
+    """Returns samples in farthest-point order, along the surface.
+
+    The first one is the first sample. Each further one has the largest geodesic distance to all
+    before it; of equally far ones it is the one of lower index. So the first ones of this order
+    cover the surface evenly, however many they are.
+
+    Parameters
+    ----------
+    samples : Samples
+        Samples on a mesh.
+    vertices, faces, edge_lengths, weld, keep_seams
+        Mesh of the samples, as for :func:`sample`. Needed for samples that were read from a file.
+    count : int, optional
+        Stop after so many samples.
+    device, progress
+        As for :func:`sample`. A callback is called on another thread.
+
+    Returns
+    -------
+    FarthestOrder
+
+    Raises
+    ------
+    InvalidArgument, TypeError
+        For samples that are not on their mesh, a `count` above their number, and arrays of a wrong
+        type or shape.
+    Others as :func:`sample`.
+
+    Examples
+    --------
+    >>> import geodisk
+    >>> square = geodisk.Mesh([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], [[0, 1, 2, 3]])
+    >>> samples = geodisk.sample(square, min_distance=0.1)
+    >>> order = geodisk.farthest_order(samples, count=4)
+    >>> few = samples[order.indices]
+    >>> len(few), bool(geodisk.verify(few, min_distance=0.7 * float(order.distances[3])))
+    (4, True)
+    """
+    surface = surface_of(samples, vertices, faces, edge_lengths, weld, keep_seams)
+    if surface is None:
+        raise e.invalid("samples in a box lie on no mesh")
+    handle = vertices._handle if isinstance(vertices, Mesh) else created(surface)
+    return order_on(handle, surface, samples, count, device, progress)
+
+
+def order_on(
+    handle: c.Handle,
+    surface: Surface,
+    samples: Samples,
+    count: int | None,
+    device: DeviceLike | None,
+    progress: bool | ProgressCallback,
+) -> FarthestOrder:
+    """Returns the order of samples on the library's mesh."""
+    if samples.face_index is None:
+        raise e.invalid(
+            "these samples have no face_index and barycentric; geodisk transfer puts points on a mesh"
+        )
+    points = points_of(surface, samples, "samples", True)
+    if count is not None and not 1 <= integer(count, "count", 2**32 - 1) <= len(points):
+        raise e.invalid(f"count is {count}, not from 1 to {len(points)}, the number of samples")
+    size = len(points) if count is None else int(count)
+    indices, distances = np.empty(size, np.uint32), np.empty(size, np.float32)
+    info = s.FarthestInfo()
+
+    def find(sampler: ctypes.c_void_p, hear: Any) -> None:
+        c.call(
+            "geodisk_farthest_order",
+            sampler,
+            handle.value,
+            points.ctypes.data,
+            len(points),
+            size,
+            hear,
+            None,
+            indices.ctypes.data,
+            distances.ctypes.data,
+            byref(info),
+        )
+
+    searched(name_of(device), progress, find)
+    return FarthestOrder(indices, distances, info.cover, info.error, info.searches)
+
+
+def put_farthest_first(
+    handle: c.Handle,
+    surface: Surface,
+    samples: Samples,
+    device: DeviceLike | None,
+    progress: bool | ProgressCallback,
+) -> Samples:
+    """Returns samples in farthest-point order, with the attribute cover."""
+    if len(samples) == 0:
+        return samples
+    order = order_on(handle, surface, samples, None, device, progress)
+    chosen = samples[order.indices]
+    cover = order.distances.astype(np.float64)
+    return dataclasses.replace(chosen, attributes={**chosen.attributes, "cover": cover})
