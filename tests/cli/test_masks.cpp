@@ -160,4 +160,16 @@ TEST_CASE("samples lie where a property holds") {
                 {"sample", "m.ply", "-o", "a.ply", "-d", "0.1", "--columns", "group"});
 }
 
+TEST_CASE("a mask goes by any coordinate of R^n") {
+    const TemporaryFolder folder;
+    folder.write("r4.ply", "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x0\n"
+                           "property float x1\nproperty float x2\nproperty float x3\n"
+                           "element face 2\nproperty list uchar int vertex_indices\nend_header\n"
+                           "-1 0 0 1\n1 0 0 1\n1 1 0 1\n1 0 1 2\n3 0 1 2\n3 1 2 3\n");
+    check_faces(folder, "r4.ply", {"--mask", "x0>0"}, {1});
+    check_faces(folder, "r4.ply", {"--mask", "x3<1.5"}, {0});
+    check_fails(folder, 2, "--mask x4: the mesh has 4 coordinates per vertex",
+                {"sample", "r4.ply", "-o", "b.csv", "-d", "0.1", "--mask", "x4>0"});
+}
+
 } // namespace geodisk::test

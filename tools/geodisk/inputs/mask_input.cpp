@@ -183,6 +183,10 @@ void require_at_corners(const MaskRule& rule, const std::vector<std::uint32_t>& 
 
 void require(const MaskRule& rule, const MeshFile& mesh, const MeshProperty* property, Mask& mask) {
     if (const auto axis = rule.axis()) {
+        if (*axis >= mesh.dimension && !mesh.positions.empty()) {
+            fail_usage("--mask " + rule.name + ": the mesh has " + std::to_string(mesh.dimension) +
+                       " coordinates per vertex");
+        }
         std::vector<double> coordinates;
         for (std::size_t i = *axis; i < mesh.positions.size(); i += mesh.dimension) {
             coordinates.push_back(mesh.positions[i]);

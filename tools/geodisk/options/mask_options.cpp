@@ -7,6 +7,7 @@
 #include <string_view>
 #include <utility>
 
+#include "files/sample_columns.hpp"
 #include "program/arguments.hpp"
 #include "program/command.hpp"
 #include "program/exact_text.hpp"
@@ -122,8 +123,16 @@ bool MaskRule::holds(double of) const {
 }
 
 std::optional<std::size_t> MaskRule::axis() const {
-    const std::size_t at = std::string_view("xyz").find(name);
-    return !is_map && name.size() == 1 && at < 3 ? std::optional(at) : std::nullopt;
+    if (is_map) {
+        return std::nullopt;
+    }
+    if (const std::size_t at = std::string_view("xyz").find(name); name.size() == 1 && at < 3) {
+        return at;
+    }
+    const auto found = std::ranges::find(kNumberedColumnNames, name);
+    return found == kNumberedColumnNames.end()
+               ? std::nullopt
+               : std::optional(static_cast<std::size_t>(found - kNumberedColumnNames.begin()));
 }
 
 std::vector<OnlyRule> MaskOptions::only_rules() const {
@@ -193,9 +202,9 @@ void add_mask_options(Command command, MaskOptions& options) {
     command
         .add_option("--mask", options.masks, "RULE",
                     "Sample only faces where PROPERTY<VALUE (or <= > >= = !=) holds:\n"
-                    "x, y, z or a PLY property at all corners, or of the face.\n"
-                    "map:FILE: white in an image at all corners, or compared as a\n"
-                    "property from 0 to 1. All of several must hold",
+                    "x, y, z (x0 to x7 in R^n) or a PLY property at all corners, or\n"
+                    "of the face. map:FILE: white in an image at all corners, or\n"
+                    "compared as a property from 0 to 1. All of several must hold",
                     group)
         .takes_one_value();
 }

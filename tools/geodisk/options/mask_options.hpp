@@ -34,7 +34,7 @@ struct MaskRule {
 
     /// False for a value that is not a number.
     bool holds(double of) const;
-    /// The axis of x, y and z, which every mesh with coordinates has.
+    /// The axis of x, y and z, or of x0 to x7.
     std::optional<std::size_t> axis() const;
 };
 
