@@ -217,7 +217,6 @@ TEST_CASE("the distance comes from the option or the header") {
     tools::SampleFile samples = make_samples(folder);
     samples.header.entries.clear();
     write_back(folder, samples);
-    check_fails(folder, 2, "give --min-distance", {"analyze", kMesh, "b.csv"});
     CHECK(run(folder, {"verify", kMesh, "b.csv", "--min-distance", "0.1%"}).status == 0);
     samples.header.entries = {{"min_distance", "wide"}};
     write_back(folder, samples);
@@ -248,6 +247,31 @@ TEST_CASE("without a distance the closest pair is told, and that none was checke
     CHECK(run(folder, {"verify", "builtin:cube", "far.xyz"}).status == 1);
     folder.write("one.xyz", "-0.5 -0.5 -0.5\n");
     CHECK(contains(run(folder, {"verify", "builtin:cube", "one.xyz"}).out, "smallest      none"));
+}
+
+TEST_CASE("without a distance other commands take that of the closest pair") {
+    const TemporaryFolder folder;
+    folder.write("points.xyz", "-0.5 -0.5 -0.5\n-0.5 -0.5 -0.25\n-0.375 -0.5 -0.5\n0.5 0.5 0.5\n");
+    const auto told = [&](const Arguments& arguments) {
+        const Outcome outcome = run(folder, arguments);
+        INFO(outcome.err);
+        CHECK(outcome.status == 0);
+        return contains(outcome.err, "points.xyz: its header has no minimum distance, so that of "
+                                     "the closest pair is used, 0.125; give --min-distance");
+    };
+    CHECK(told({"analyze", "builtin:cube", "points.xyz", "--json", "a.json"}));
+    CHECK(told({"spectrum", "builtin:cube", "points.xyz", "-o", "a.csv", "--harmonics", "20"}));
+    CHECK(told({"render", "builtin:cube", "points.xyz", "-o", "a.png", "--size", "80x60"}));
+    CHECK_FALSE(told({"analyze", "builtin:cube", "points.xyz", "-d", "0.1"}));
+    const auto report = nlohmann::json::parse(bytes_of(folder / "a.json"));
+    CHECK(contains(report["warnings"].dump(), "closest_distance"));
+    folder.write("one.xyz", "-0.5 -0.5 -0.5\n");
+    check_fails(folder, 2, "no path joins two of its samples; give --min-distance",
+                {"analyze", "builtin:cube", "one.xyz"});
+    folder.write("same.xyz", "-0.5 -0.5 -0.5\n-0.5 -0.5 -0.5\n0.5 0.5 0.5\n");
+    check_fails(folder, 2, "samples 0 and 1 lie at one place; give --min-distance",
+                {"render", "builtin:cube", "same.xyz", "-o", "b.png"});
+    CHECK(!std::filesystem::exists(folder / "b.png"));
 }
 
 TEST_CASE("no samples are no violation") {

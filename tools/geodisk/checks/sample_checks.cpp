@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "files/sample_columns.hpp"
+#include "geodisk/checks/run_warnings.hpp"
 #include "geodisk/checks/spacing.hpp"
 #include "program/exact_text.hpp"
 #include "program/failure.hpp"
@@ -35,6 +36,26 @@ std::string face_fault(const SampleRow& row, const std::string& mesh_path, const
                "face " + std::to_string(*polygon) + " in " + mesh_path;
     }
     return {};
+}
+
+/// Returns the distance of the closest pair, with a warning.
+double closest_distance(const std::string& path, const SampleFile& samples, const MeshInput& mesh,
+                        std::vector<MeshWarning>& warnings, ProgressLine& progress) {
+    const std::optional<ClosePair> closest = find_closest(mesh, samples.rows, progress);
+    if (!closest || !(closest->distance > 0)) {
+        fail_usage(path + ": its header has no minimum distance, and " +
+                   (closest ? "samples " + std::to_string(closest->row_a) + " and " +
+                                  std::to_string(closest->row_b) + " lie at one place"
+                            : "no path joins two of its samples") +
+                   "; give --min-distance");
+    }
+    warnings.push_back(
+        {"closest_distance", 1, "",
+         "its header has no minimum distance, so that of the closest pair is used, " +
+             rounded(closest->distance, 6) + "; give --min-distance for another",
+         path});
+    print_warnings({warnings.back()});
+    return closest->distance;
 }
 
 } // namespace
@@ -169,13 +190,17 @@ void warn_of_other_surface(const std::string& samples_path, const SampleFile& sa
 
 std::vector<SurfaceDisk> sample_disks(const std::string& samples_path, const SampleFile& samples,
                                       const MeshInput& mesh,
-                                      const std::optional<Length>& min_distance) {
+                                      const std::optional<Length>& min_distance,
+                                      std::vector<MeshWarning>& warnings, ProgressLine& progress) {
     const bool has_own = !min_distance && has_radii(samples.rows);
     double radius = 0;
     if (min_distance) {
         radius = distance_on_mesh(*min_distance, mesh.prepared.statistics()) / 2;
     } else if (!has_own && !samples.rows.empty()) {
-        radius = header_distance(samples_path, samples.header) / 2;
+        radius = (samples.header.find("min_distance") != nullptr
+                      ? header_distance(samples_path, samples.header)
+                      : closest_distance(samples_path, samples, mesh, warnings, progress)) /
+                 2;
     }
     return disks_of(samples.rows, has_own ? 0 : radius);
 }

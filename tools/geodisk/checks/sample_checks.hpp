@@ -9,6 +9,7 @@
 
 #include "files/sample_file.hpp"
 #include "geodisk/inputs/mesh_input.hpp"
+#include "geodisk/outputs/progress.hpp"
 #include "geometry/surface_disk.hpp"
 
 namespace geodisk::tools {
@@ -47,10 +48,13 @@ void warn_of_other_surface(const std::string& samples_path, const SampleFile& sa
                            const HeaderEntries& additions, std::vector<MeshWarning>& warnings);
 
 /// The disk of each sample. Its radius is half of `min_distance` if that is given, else its own,
-/// else half of the header's distance. Throws as header_distance() and distance_on_mesh().
+/// else half of the header's distance, else half the distance of the closest pair, which is a
+/// warning. Throws UserError if no distance follows from that either, and as header_distance() and
+/// distance_on_mesh().
 std::vector<SurfaceDisk> sample_disks(const std::string& samples_path, const SampleFile& samples,
                                       const MeshInput& mesh,
-                                      const std::optional<Length>& min_distance);
+                                      const std::optional<Length>& min_distance,
+                                      std::vector<MeshWarning>& warnings, ProgressLine& progress);
 
 /// The disk of each row, of this radius in mesh units, or of the row's own where that is 0.
 std::vector<SurfaceDisk> disks_of(std::span<const SampleRow> rows, double radius);

@@ -110,7 +110,7 @@ SetAnalysis analyze_set(const AnalyzeOptions& options, const std::string& path,
                              std::to_string(masked.front()));
     }
     const std::vector<SurfaceDisk> disks =
-        sample_disks(path, samples, mesh, options.distance.parsed());
+        sample_disks(path, samples, mesh, options.distance.parsed(), warnings, progress);
 
     SetAnalysis set =
         analyze_disks(mesh, disks, options.probes, parse_seed("--seed", options.seed), progress);

@@ -45,7 +45,8 @@ void render_samples(const RenderOptions& options) {
     const SampleFile samples =
         read_samples_exactly_on(options.samples, options.mesh.mesh, mesh, &additions,
                                 options.tolerance, warnings, progress);
-    std::vector<SurfaceDisk> disks = sample_disks(options.samples, samples, mesh, distance);
+    std::vector<SurfaceDisk> disks =
+        sample_disks(options.samples, samples, mesh, distance, warnings, progress);
     const PictureSubject subject{
         options.samples,
         mesh_lines("mesh", options.mesh.mesh, options.mesh.additions(), mesh),

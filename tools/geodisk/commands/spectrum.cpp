@@ -80,7 +80,8 @@ SurfaceSets read_sets(const SpectrumOptions& options, const MeshInput& mesh,
             fail_input(path, "has no samples");
         }
         PlacedSamples& places = result.sets.emplace_back();
-        for (const SurfaceDisk& disk : sample_disks(path, file, mesh, options.distance.parsed())) {
+        for (const SurfaceDisk& disk :
+             sample_disks(path, file, mesh, options.distance.parsed(), warnings, progress)) {
             const double min_distance = 2 * disk.radius;
             if (result.min_distance == 0) {
                 result.min_distance = min_distance;
