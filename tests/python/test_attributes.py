@@ -103,3 +103,26 @@ def test_seams_keep_their_sides(tmp_path):
     side = samples.attributes["side"]
     assert set(side) == {0, 1} and np.array_equal(side, samples.face_index)
     assert np.array_equal(samples.interpolate([0.0, 0, 0, 1, 1, 1]), side)
+
+
+def test_normals_frames_and_textures_of_a_file(obj, tmp_path):
+    samples = geodisk.sample(obj, min_distance=0.1, seed=3)
+    found = geodisk.transfer(samples, obj, frames=True, normals="smooth", attributes=["uv", "color"])
+    assert np.allclose(found.attributes["uv"], 2 * found.points[:, :2], atol=1e-6)
+    assert found.attributes["color"].shape == (len(samples), 3)
+    frames = found.attributes["frames"]
+    assert frames.shape == (len(samples), 4)
+    assert np.allclose(np.linalg.norm(frames, axis=1), 1, atol=1e-6)
+    x, y, z, w = frames.T
+    assert np.allclose(1 - 2 * (x * x + y * y), found.normals[:, 2], atol=1e-5)  # The turned z.
+    assert np.array_equal(found[:5].attributes["frames"], frames[:5])
+    arrays = geodisk.sample(SQUARE, [[0, 1, 2, 3]], min_distance=0.1)
+    assert "frames" in geodisk.transfer(arrays, SQUARE, frames=True).attributes
+    with pytest.raises(TypeError, match="need its path"):
+        geodisk.transfer(arrays, SQUARE, attributes="all")
+    with pytest.raises(geodisk.InvalidArgument, match="none.png"):
+        geodisk.transfer(samples, obj, texture=tmp_path / "none.png")
+    with pytest.raises(geodisk.InvalidArgument, match="normals"):
+        geodisk.transfer(samples, obj, normals="round")
+    with pytest.raises(TypeError, match="frames is 'no'"):
+        geodisk.transfer(samples, obj, frames="no")

@@ -72,9 +72,13 @@ def write_surface(
     name: str = "mesh",
     suffix: str = "",
     mask: NDArray[np.uint8] | None = None,
+    corners: NDArray[Any] | None = None,
 ) -> tuple[str, list[str]]:
-    """Writes it to files; the name of the mesh, and options that end with `suffix`."""
-    faces = surface.indices()
+    """Writes it to files; the name of the mesh, and options that end with `suffix`.
+
+    Its faces have these corners, if given.
+    """
+    faces = surface.indices() if corners is None else corners
     options = []
     if surface.weld is not False:
         value = "" if surface.weld is True else float(surface.weld)

@@ -5,6 +5,8 @@ from __future__ import annotations
 import dataclasses
 import json
 import math
+import os
+from typing import Any, Sequence
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -16,6 +18,7 @@ from ._program import folder, run
 from ._protocols import Faces, MeshLike
 from ._reading import read
 from ._samples import Samples
+from ._values import flag
 
 
 def transfer(
@@ -24,6 +27,10 @@ def transfer(
     vertices: ArrayLike | MeshLike | None = None,
     faces: Faces | None = None,
     *,
+    attributes: str | Sequence[str] = (),
+    texture: str | os.PathLike[str] | None = None,
+    normals: str = "face",
+    frames: bool = False,
     edge_lengths: ArrayLike | None = None,
     weld: bool | float = False,
     keep_seams: bool = False,
@@ -35,7 +42,18 @@ def transfer(
     samples : Samples
         Samples on a mesh, or points of other programs as for :func:`verify`.
     to : array_like of float, shape (v, d), or a mesh
-        Positions of the vertices, or a mesh with identical faces.
+        Positions of the vertices, or a mesh with identical faces: also the mesh itself, for its
+        attributes.
+    attributes : sequence of str, or "all"
+        Names of attributes to add, which the file `to` has.
+    texture : str or path-like, optional
+        PNG or JPEG image whose colours to add, as ``attributes["color"]``, at the texture
+        coordinates that the file `to` has.
+    normals : {"face", "file", "smooth"}
+        Normals of triangles, those of the file `to`, or interpolated means at vertices.
+    frames : bool
+        Add ``attributes["frames"]``, shape (n, 4): quaternions (x, y, z, w) that turn z to the
+        normal, after a random angle about z.
     vertices, faces, edge_lengths, weld, keep_seams
         Mesh of the samples, as for :func:`sample`. Needed for samples that were read from a file.
 
@@ -65,6 +83,17 @@ def transfer(
     source = surface_of(samples, vertices, faces, edge_lengths, weld, keep_seams)
     if source is None:
         raise e.invalid("samples in a box have no mesh")
+    path = _path_of(to)
+    if path is None and (attributes or texture is not None or normals == "file"):
+        raise TypeError("attributes, textures and normals of a file need its path as `to`")
+    record = ["--normals", normals]
+    if attributes:
+        names = [attributes] if isinstance(attributes, str) else attributes
+        record += ["--attributes", ",".join(names)]
+    if texture is not None:
+        record += ["--texture", os.path.abspath(texture)]
+    if flag(frames, "frames"):
+        record.append("--frames")
     if is_mesh(to):
         target = mesh_of(to, None, None, False)._surface
     else:
@@ -72,11 +101,15 @@ def transfer(
             to, source.faces, weld=source.weld, keep_seams=source.keep_seams
         )._surface
     with folder() as place:
-        from_mesh, from_options = write_surface(place, source, "mesh", "-a")
-        to_mesh, to_options = write_surface(place, target, "pose", "-b")
+        # A file has the corners from before vertices were joined.
+        corners = None if path is None else source.own_corners()
+        from_mesh, from_options = write_surface(place, source, "mesh", "-a", corners=corners)
+        to_mesh, to_options = (
+            write_surface(place, target, "pose", "-b") if path is None else (path, [])
+        )
         files = [write_samples(place, samples), from_mesh, to_mesh]
         outputs = ["--output", "there.npz", "--json", "report.json"]
-        run(place, ["transfer", *files, *from_options, *to_options, *outputs])
+        run(place, ["transfer", *files, *from_options, *to_options, *record, *outputs])
         there = read(place / "there.npz")
         closest = json.loads((place / "report.json").read_text("utf-8"))["smallest"]
     dimension = target.dimension()
@@ -94,6 +127,15 @@ def transfer(
         normals=there.normals if dimension == 3 else None,
         radius=np.full(len(samples), distance / 2),
         min_distance=distance,
+        attributes={**samples.attributes, **there.attributes},
         report={},
         _surface=target,
     )
+
+
+def _path_of(mesh: Any) -> str | None:
+    """Returns the path of a mesh file as the program takes it in any folder; None for others."""
+    if not isinstance(mesh, (str, os.PathLike)):
+        return None
+    path = os.fspath(mesh)
+    return path if path.startswith("builtin:") else os.path.abspath(path)
