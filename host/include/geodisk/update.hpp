@@ -21,9 +21,15 @@ struct UpdateReport {
     std::uint32_t rounds = 0;   ///< Times a region was decided. Each one is wider than the last.
     std::uint32_t faces = 0;    ///< Faces of the last region.
     std::uint32_t uploaded = 0; ///< Faces of the part that was on the device for it.
-    std::uint32_t removed = 0;  ///< Samples that are no longer there.
+    std::uint32_t removed = 0;  ///< Samples that are no longer there, given ones aside.
     std::uint32_t added = 0;    ///< Samples that are new.
     RunReport run;              ///< Work on the device, in all rounds.
+};
+
+/// A surface and what is asked of it.
+struct SurfaceJob {
+    MeshView mesh;
+    SampleParams params;
 };
 
 /// The samples of a pool on a surface, kept up to date while the surface is edited. An update
@@ -43,6 +49,15 @@ class GEODISK_API Updater {
     /// mesh, seed, distance and pool ratio, with its index in Error::element; `mesh_rejected` as
     /// PreparedMesh::prepare().
     static Result<Updater> create(const MeshView& mesh, const SampleParams& params,
+                                  const JobFrame& frame, std::span<const Sample> samples,
+                                  const ThreadOptions& threads = {}) noexcept;
+    /// Makes the updater of an edited surface from the samples of the surface before, whose faces
+    /// may have other numbers. Finds out what has changed; call update() with `after` next, and no
+    /// changed faces. Faces correspond by their keys, or by their numbers without. `frame` is that
+    /// of the job on `before`. Takes time linear in both meshes.
+    ///
+    /// Errors: those of create() and update().
+    static Result<Updater> create(const SurfaceJob& before, const SurfaceJob& after,
                                   const JobFrame& frame, std::span<const Sample> samples,
                                   const ThreadOptions& threads = {}) noexcept;
     Updater(Updater&&) noexcept;

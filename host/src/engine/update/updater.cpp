@@ -15,71 +15,15 @@
 #include "engine/update/dart_set.hpp"
 #include "engine/update/face_set.hpp"
 #include "engine/update/live_mesh.hpp"
+#include "engine/update/match.hpp"
 #include "engine/update/region.hpp"
+#include "engine/update/update_checks.hpp"
 #include "mesh/checks.hpp"
 #include "support/guard.hpp"
 #include "support/invalid.hpp"
 
 namespace geodisk {
 namespace {
-
-/// Checks that a job is one whose samples can be updated.
-Result<Done> check_kind(const SampleParams& params) {
-    const auto refuse = [](const std::string& what) {
-        return invalid(what + " cannot be updated; sample the surface again");
-    };
-    if (params.throws != 0) {
-        return refuse("a number of darts");
-    }
-    if (params.stop_count != 0) {
-        return refuse("samples up to a count");
-    }
-    if (!params.class_factors.empty()) {
-        return refuse("samples of classes");
-    }
-    if (!params.avoid.empty()) {
-        return refuse("samples with points to avoid");
-    }
-    if (params.maximal) {
-        return refuse("a maximal set");
-    }
-    return Done{};
-}
-
-/// Checks the sizes of what the parameters say of faces, and the given samples.
-Result<Done> check_sizes(const MeshView& mesh, const SampleParams& params) {
-    const std::size_t faces = mesh.face_count();
-    const auto check = [&](const char* what, std::size_t count) -> Result<Done> {
-        return count == 0 || count == faces
-                   ? Result<Done>(Done{})
-                   : invalid(std::string("there are ") + what + " of " + std::to_string(count) +
-                             " faces for a mesh of " + std::to_string(faces));
-    };
-    if (auto checked = check("keys", params.face_keys.size()); !checked) {
-        return checked;
-    }
-    if (auto checked = check("mask bytes", params.face_mask.size()); !checked) {
-        return checked;
-    }
-    const std::size_t radii = params.radii != nullptr ? params.radii->face_count() : 0;
-    return check("radii", radii);
-}
-
-Result<Done> check_given_faces(const LiveMesh& faces, std::span<const Sample> given) {
-    for (std::size_t i = 0; i < given.size(); ++i) {
-        if (given[i].face >= faces.face_count() || !faces.takes_part(given[i].face)) {
-            return invalid("given sample " + std::to_string(i) + " is in face " +
-                               std::to_string(given[i].face) + ", which there is not",
-                           i);
-        }
-    }
-    return Done{};
-}
-
-auto order_of(const Sample& sample) {
-    const auto [second, third] = rounded_weights(sample.weights);
-    return std::tuple(sample.face, second, third);
-}
 
 /// Returns the faces of given samples that only one of two lists has.
 std::vector<std::uint32_t> faces_of_difference(std::vector<Sample> a, std::vector<Sample> b) {
@@ -107,12 +51,19 @@ struct Updater::Impl {
     std::size_t vertices; ///< Number of vertices.
     LiveMesh faces;
     DartSet darts;
-    std::vector<Sample> given;
+    std::vector<Sample> given{};
     std::vector<Sample> samples{};
     // Edits that are not yet decided.
     std::vector<std::uint32_t> undecided{}; ///< Faces that have changed.
     FaceSet sources{};                      ///< Those, and their neighbours before and after.
 
+    std::size_t dropped = 0; ///< Samples of those faces that are gone already.
+
+    /// Makes the state of a surface whose samples, but for the given ones, are found.
+    static Result<std::unique_ptr<Impl>> make(const SurfaceJob& job, const JobFrame& frame,
+                                              std::span<const Sample> samples,
+                                              std::size_t first_index,
+                                              const ThreadOptions& threads);
     Result<Done> check_same_job(const MeshView& mesh, const SampleParams& params,
                                 std::span<const std::uint32_t> changed) const;
     /// Connects the changed faces, and adds them and their neighbours to `sources`.
@@ -120,32 +71,39 @@ struct Updater::Impl {
     void set_samples();
 };
 
+Result<std::unique_ptr<Updater::Impl>>
+Updater::Impl::make(const SurfaceJob& job, const JobFrame& frame, std::span<const Sample> samples,
+                    std::size_t first_index, const ThreadOptions& threads) {
+    JobFrame own = frame;
+    own.longest_edge = std::ceil(own.longest_edge); // All tolerances go by it.
+    const auto& [mesh, params] = job;
+    auto darts = DartSet::find(mesh, params, own, samples, first_index, threads);
+    if (!darts) {
+        return darts.error();
+    }
+    auto impl = std::make_unique<Impl>(Impl{.frame = own,
+                                            .threads = threads,
+                                            .seed = params.seed,
+                                            .has_keys = !params.face_keys.empty(),
+                                            .least_density = density_of(params),
+                                            .dimension = mesh.dimension,
+                                            .vertices = mesh.vertex_count(),
+                                            .faces = LiveMesh(mesh),
+                                            .darts = std::move(*darts)});
+    impl->sources.grow(impl->faces.face_count());
+    return impl;
+}
+
 Result<Done> Updater::Impl::check_same_job(const MeshView& mesh, const SampleParams& params,
                                            std::span<const std::uint32_t> changed) const {
-    if (auto checked = check_kind(params); !checked) {
+    if (auto checked = check_same(params, frame, seed, has_keys, least_density); !checked) {
         return checked;
-    }
-    if (params.seed != seed) {
-        return invalid("the samples have the seed " + std::to_string(seed) + ", not " +
-                       std::to_string(params.seed));
-    }
-    if (auto checked = check_job(frame, params); !checked) {
-        return checked;
-    }
-    if (params.face_keys.empty() == has_keys) {
-        return invalid(has_keys ? "the faces of the samples have keys, these have none"
-                                : "the faces of the samples have no keys, these have");
-    }
-    if (params.radii != nullptr && params.radii->least_density() != least_density) {
-        return invalid("the edit changes the density at which radii are largest, and so all "
-                       "radii; sample the surface again");
     }
     if (auto checked = check_sizes(mesh, params); !checked) {
         return checked;
     }
     if (mesh.dimension != dimension) {
-        return invalid("the surface had " + std::to_string(dimension) +
-                       " coordinates per vertex, not " + std::to_string(mesh.dimension));
+        return other_dimension(dimension, mesh.dimension);
     }
     if (mesh.vertex_count() < vertices) {
         return invalid("there are " + std::to_string(mesh.vertex_count()) +
@@ -201,55 +159,55 @@ Result<Updater> Updater::create(const MeshView& mesh, const SampleParams& params
                                 const JobFrame& frame, std::span<const Sample> samples,
                                 const ThreadOptions& threads) noexcept {
     return guarded([&]() -> Result<Updater> {
-        if (auto checked = check_threads(threads); !checked) {
+        if (auto checked = check_start({mesh, params}, frame, samples, threads); !checked) {
             return checked.error();
         }
-        if (auto checked = check_mesh(mesh); !checked) {
+        auto impl = Impl::make({mesh, params}, frame, samples.subspan(params.given.size()),
+                               params.given.size(), threads);
+        if (!impl) {
+            return impl.error();
+        }
+        (*impl)->given.assign(params.given.begin(), params.given.end());
+        (*impl)->set_samples();
+        return Updater(std::move(*impl));
+    });
+}
+
+Result<Updater> Updater::create(const SurfaceJob& before, const SurfaceJob& after,
+                                const JobFrame& frame, std::span<const Sample> samples,
+                                const ThreadOptions& threads) noexcept {
+    return guarded([&]() -> Result<Updater> {
+        if (auto checked = check_start(before, frame, samples, threads); !checked) {
             return checked.error();
         }
-        if (auto checked = check_kind(params); !checked) {
+        if (auto checked = check_edit(before, after, frame); !checked) {
             return checked.error();
         }
-        if (auto checked = check_sizes(mesh, params); !checked) {
-            return checked.error();
+        FaceMatch match = match_faces(before, after);
+        std::vector<Sample> given, kept;
+        std::size_t dropped = 0;
+        for (std::size_t i = 0; i < samples.size(); ++i) {
+            Sample sample = samples[i];
+            if (sample.face >= match.kept.size()) {
+                return no_face(i, sample.face, match.kept.size());
+            }
+            const bool is_given = i < before.params.given.size();
+            sample.face = match.kept[sample.face];
+            if (sample.face != kNoFace) {
+                (is_given ? given : kept).push_back(sample);
+            } else if (!is_given) {
+                ++dropped;
+            }
         }
-        if (auto checked = check_job(frame, params); !checked) {
-            return checked.error();
+        auto impl = Impl::make(after, frame, kept, before.params.given.size(), threads);
+        if (!impl) {
+            return impl.error();
         }
-        if (frame.unit < frame.min_distance) {
-            return invalid("the minimum distance exceeds the surface, so an edit may change all "
-                           "samples; sample the surface again");
-        }
-        JobFrame own = frame;
-        own.longest_edge = std::ceil(own.longest_edge); // All tolerances go by it.
-        LiveMesh faces(mesh);
-        if (auto checked = check_given_faces(faces, params.given); !checked) {
-            return checked.error();
-        }
-        const std::size_t given = params.given.size();
-        if (samples.size() < given ||
-            !std::ranges::equal(samples.first(given), params.given, {}, order_of, order_of)) {
-            return invalid("the samples must begin with the " + std::to_string(given) +
-                           " given ones");
-        }
-        auto darts = DartSet::find(mesh, params, own, samples.subspan(given), given, threads);
-        if (!darts) {
-            return darts.error();
-        }
-        auto impl = std::make_unique<Impl>(
-            Impl{.frame = own,
-                 .threads = threads,
-                 .seed = params.seed,
-                 .has_keys = !params.face_keys.empty(),
-                 .least_density = params.radii != nullptr ? params.radii->least_density() : 0,
-                 .dimension = mesh.dimension,
-                 .vertices = mesh.vertex_count(),
-                 .faces = std::move(faces),
-                 .darts = std::move(*darts),
-                 .given = {params.given.begin(), params.given.end()}});
-        impl->sources.grow(impl->faces.face_count());
-        impl->set_samples();
-        return Updater(std::move(impl));
+        (*impl)->given = std::move(given);
+        (*impl)->undecided = std::move(match.changed);
+        (*impl)->dropped = dropped;
+        (*impl)->set_samples();
+        return Updater(std::move(*impl));
     });
 }
 
@@ -281,7 +239,8 @@ Result<UpdateReport> Updater::update(Runner& runner, const MeshView& mesh,
         if (!changes) {
             return changes.error();
         }
-        report.removed = static_cast<std::uint32_t>(changes->removed.size());
+        report.removed = static_cast<std::uint32_t>(changes->removed.size() + own.dropped);
+        own.dropped = 0;
         report.added = static_cast<std::uint32_t>(changes->added.size());
         own.darts.replace(changes->removed, changes->added, own.has_keys);
         own.given = std::move(given);

@@ -1,0 +1,148 @@
+#include "engine/update/update_checks.hpp"
+
+#include <algorithm>
+#include <string>
+
+#include "engine/domain/check_frame.hpp"
+#include "mesh/checks.hpp"
+#include "support/invalid.hpp"
+
+namespace geodisk {
+namespace {
+
+/// Checks that a job is one whose samples can be updated.
+Result<Done> check_kind(const SampleParams& params) {
+    const auto refuse = [](const std::string& what) {
+        return invalid(what + " cannot be updated; sample the surface again");
+    };
+    if (params.throws != 0) {
+        return refuse("a number of darts");
+    }
+    if (params.stop_count != 0) {
+        return refuse("samples up to a count");
+    }
+    if (!params.class_factors.empty()) {
+        return refuse("samples of classes");
+    }
+    if (!params.avoid.empty()) {
+        return refuse("samples with points to avoid");
+    }
+    if (params.maximal) {
+        return refuse("a maximal set");
+    }
+    return Done{};
+}
+
+} // namespace
+Result<Done> check_sizes(const MeshView& mesh, const SampleParams& params) {
+    const std::size_t faces = mesh.face_count();
+    const auto check = [&](const char* what, std::size_t count) -> Result<Done> {
+        return count == 0 || count == faces
+                   ? Result<Done>(Done{})
+                   : invalid(std::string("there are ") + what + " of " + std::to_string(count) +
+                             " faces for a mesh of " + std::to_string(faces));
+    };
+    if (auto checked = check("keys", params.face_keys.size()); !checked) {
+        return checked;
+    }
+    if (auto checked = check("mask bytes", params.face_mask.size()); !checked) {
+        return checked;
+    }
+    const std::size_t radii = params.radii != nullptr ? params.radii->face_count() : 0;
+    return check("radii", radii);
+}
+
+Result<Done> check_given_faces(const LiveMesh& faces, std::span<const Sample> given) {
+    for (std::size_t i = 0; i < given.size(); ++i) {
+        if (given[i].face >= faces.face_count() || !faces.takes_part(given[i].face)) {
+            return invalid("given sample " + std::to_string(i) + " is in face " +
+                               std::to_string(given[i].face) + ", which there is not",
+                           i);
+        }
+    }
+    return Done{};
+}
+
+double density_of(const SampleParams& params) {
+    return params.radii != nullptr ? params.radii->least_density() : 0;
+}
+
+Result<Done> check_same(const SampleParams& params, const JobFrame& frame, std::uint64_t seed,
+                        bool has_keys, double least_density) {
+    if (auto checked = check_kind(params); !checked) {
+        return checked;
+    }
+    if (params.seed != seed) {
+        return invalid("the samples have the seed " + std::to_string(seed) + ", not " +
+                       std::to_string(params.seed));
+    }
+    if (auto checked = check_job(frame, params); !checked) {
+        return checked;
+    }
+    if (params.face_keys.empty() == has_keys) {
+        return invalid(has_keys ? "the faces of the samples have keys, these have none"
+                                : "the faces of the samples have no keys, these have");
+    }
+    if (density_of(params) != least_density) {
+        return invalid("the edit changes the density at which radii are largest, and so all "
+                       "radii; sample the surface again");
+    }
+    return Done{};
+}
+
+Error other_dimension(std::uint32_t before, std::uint32_t now) {
+    return invalid("the surface had " + std::to_string(before) + " coordinates per vertex, not " +
+                   std::to_string(now));
+}
+
+Error no_face(std::size_t sample, std::uint32_t face, std::size_t faces) {
+    return invalid("sample " + std::to_string(sample) + " is in face " + std::to_string(face) +
+                       ", but there are " + std::to_string(faces),
+                   sample);
+}
+
+Result<Done> check_start(const SurfaceJob& job, const JobFrame& frame,
+                         std::span<const Sample> samples, const ThreadOptions& threads) {
+    const auto& [mesh, params] = job;
+    if (auto checked = check_threads(threads); !checked) {
+        return checked;
+    }
+    if (auto checked = check_mesh(mesh); !checked) {
+        return checked;
+    }
+    if (auto checked = check_kind(params); !checked) {
+        return checked;
+    }
+    if (auto checked = check_sizes(mesh, params); !checked) {
+        return checked;
+    }
+    if (auto checked = check_job(frame, params); !checked) {
+        return checked;
+    }
+    if (frame.unit < frame.min_distance) {
+        return invalid("the minimum distance exceeds the surface, so an edit may change all "
+                       "samples; sample the surface again");
+    }
+    const std::size_t given = params.given.size();
+    if (samples.size() < given ||
+        !std::ranges::equal(samples.first(given), params.given, {}, order_of, order_of)) {
+        return invalid("the samples must begin with the " + std::to_string(given) + " given ones");
+    }
+    return Done{};
+}
+
+Result<Done> check_edit(const SurfaceJob& before, const SurfaceJob& after, const JobFrame& frame) {
+    if (auto checked = check_mesh(after.mesh); !checked) {
+        return checked;
+    }
+    if (auto checked = check_sizes(after.mesh, after.params); !checked) {
+        return checked;
+    }
+    if (after.mesh.dimension != before.mesh.dimension) {
+        return other_dimension(before.mesh.dimension, after.mesh.dimension);
+    }
+    return check_same(after.params, frame, before.params.seed, !before.params.face_keys.empty(),
+                      density_of(before.params));
+}
+
+} // namespace geodisk
