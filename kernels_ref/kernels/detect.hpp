@@ -32,7 +32,8 @@ class Detector : public Windows<Real, kMayVary> {
     /// Makes a detector, as Windows says.
     Detector(const Surface<Real>& surface, const Bins<Real>& bins, const Tolerances& tolerances,
              Real limit)
-        : Base(surface, bins, tolerances, limit), vertices_(surface.fans.size()) {}
+        : Base(surface, bins, tolerances, limit), vertices_(surface.fans.size()),
+          kept_(Base::trim_scale()) {}
 
     /// Takes vertex events oldest first, as the shaders do with Events::oldest.
     void take_oldest_first() { waiting_.take_oldest_first(); }
@@ -100,6 +101,7 @@ class Detector : public Windows<Real, kMayVary> {
     void begin() {
         ++generation_;
         kept_.begin_disk();
+        Base::set_trims(waiting_.trims());
         count_.vertices = 0;
     }
 
@@ -218,9 +220,11 @@ class Detector : public Windows<Real, kMayVary> {
 
     /// Returns true if the window, given in the frame of h, is dropped by trimming.
     bool is_trimmed(std::uint32_t h, const Window& window) {
+        begin_operation(window.chain, waiting_.longest_chain());
         return kept_.trims(surface_.edges[h].origin, surface_.edges[next_in_face(h)].origin,
                            surface_.edges[h].length,
-                           {window.x, window.y, window.b0, window.b1, window.sigma}, limit_);
+                           {window.x, window.y, window.b0, window.b1, window.sigma},
+                           Base::path_limit());
     }
 
     /// Carries the window, given in the frame of h with its source at (x, -y), into the face of h.

@@ -25,6 +25,10 @@ class KeptWindows {
         Real x, y, b0, b1, sigma;
     };
 
+    /// `scale` is that of the rounding of positions, by which one window may be farther than
+    /// another that it trims: 1, or more where edges are long.
+    explicit KeptWindows(Real scale) : error_(scale * std::numeric_limits<Real>::epsilon()) {}
+
     /// Forgets the windows of earlier disks.
     void begin_disk() { ++generation_; }
 
@@ -66,20 +70,18 @@ class KeptWindows {
         std::uint32_t generation = 0;
         Window window;
     };
-    static constexpr Real kError = std::numeric_limits<Real>::epsilon();
-
     static Real square(Real v) { return v * v; }
 
     /// Returns true if the kept window is hardly farther from the point `at` of the edge.
-    static bool is_as_near(const Window& kept, const Window& other, Real at) {
+    bool is_as_near(const Window& kept, const Window& other, Real at) const {
         const Real distance = other.sigma + root(square(at - other.x) + square(other.y));
-        const Real rest = (distance - kept.sigma) + kError;
+        const Real rest = (distance - kept.sigma) + error_;
         return rest >= 0 && square(at - kept.x) + square(kept.y) <= rest * rest;
     }
 
     /// Returns true if this holds everywhere. The difference of the two is largest at an end, or
     /// where both sources are collinear with the point.
-    static bool dominates(const Window& kept, const Window& other, Real limit) {
+    bool dominates(const Window& kept, const Window& other, Real limit) const {
         const Real way = limit - other.sigma;
         const Real low = std::max(other.b0, other.x - way);
         const Real high = std::min(other.b1, other.x + way);
@@ -92,11 +94,12 @@ class KeptWindows {
         const Real part = across > static_cast<Real>(kSmallestSquare)
                               ? ratio(over - low * under, across)
                               : Real{0};
-        return kept.b0 - kError <= low && kept.b1 + kError >= high &&
+        return kept.b0 - error_ <= low && kept.b1 + error_ >= high &&
                is_as_near(kept, other, low) && is_as_near(kept, other, high) &&
                is_as_near(kept, other, low + width * part);
     }
 
+    Real error_;
     std::vector<std::array<Row, gpu::kKeptPerEdge>> edges_; ///< Kept windows; empty until a disk
                                                             ///< trims.
     std::uint32_t generation_ = 0;

@@ -64,7 +64,8 @@ class Windows {
             Real limit)
         : surface_(surface), bins_(bins), limit_(limit), guard_(tolerances.limit - Real{1}),
           least_margin_(tolerances.margin), slack_(tolerances.slack),
-          base_error_(tolerances.base_error), crossing_error_(tolerances.crossing_error) {}
+          base_error_(tolerances.base_error), crossing_error_(tolerances.crossing_error),
+          trim_scale_(std::max(Real{1}, static_cast<Real>(0x1p19) * base_error_)) {}
 
     /// Sets the limit of later disks.
     void set_limit(Real limit) { limit_ = limit; }
@@ -126,8 +127,15 @@ class Windows {
     bool classed() const { return kMayVary && !words_.empty(); }
 
     Real error_of(std::uint32_t crossings) const {
-        return base_error_ + static_cast<Real>(crossings) * crossing_error_;
+        const Real half = crossing_error_ / 2; // The other half is for trimming.
+        return base_error_ + static_cast<Real>(crossings) *
+                                 (trims_ ? half + trim_scale_ * half : crossing_error_);
     }
+
+    /// Says whether the disk trims its windows.
+    void set_trims(bool trims) { trims_ = trims; }
+    /// Returns by how much more positions round than those on edges of up to two units.
+    Real trim_scale() const { return trim_scale_; }
 
     /// Begins to spread a source, window or event over a face. Long chains widen limit and margin:
     /// a path by its own chain, since its distance has that error; the margin by the longest of the
@@ -386,7 +394,8 @@ class Windows {
     const Bins<Real>& bins_;
     Real limit_;
     const Real guard_, least_margin_, slack_;
-    const Real base_error_, crossing_error_;
+    const Real base_error_, crossing_error_, trim_scale_;
+    bool trims_ = false;
     Real margin_ = 0;       ///< By how much a known path must beat a window in this operation.
     Real beyond_guard_ = 0; ///< By how much its error exceeds the guard.
     Real own_radius_ = 0;   ///< Radius of the source, if radii vary.

@@ -141,9 +141,12 @@ float Frame::intensity(std::uint32_t stage) const {
                               (ref::samples_on(1, 1) * candidates_of_classes));
 }
 
-double Frame::error_of(std::uint32_t crossings) const {
-    const double of_crossings = kCrossingError * (crossings + 4 * std::ceil(longest_edge));
-    return radii_vary ? of_crossings + kRadiiError : of_crossings;
+double Frame::error_of(std::uint32_t crossings, bool trims) const {
+    const double base =
+        4 * kCrossingError * std::ceil(longest_edge) + (radii_vary ? kRadiiError : 0);
+    // Half of a crossing's error is for windows that trim others. On long edges they take more.
+    const double further = trims ? std::max(0.0, base / 16 - kCrossingError / 2) : 0;
+    return base + (kCrossingError + further) * crossings;
 }
 
 double Frame::guard_for(double error_bound) const {

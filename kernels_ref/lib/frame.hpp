@@ -42,8 +42,9 @@ struct Frame {
     double samples_on(double area) const;
     /// Returns the candidates that a stage expects per unit of area.
     float intensity(std::uint32_t stage) const;
-    /// Returns a bound on the error of a distance over this many crossings.
-    double error_of(std::uint32_t crossings) const;
+    /// Returns a bound on the error of a distance over this many crossings, in a disk that trims or
+    /// not.
+    double error_of(std::uint32_t crossings, bool trims = false) const;
     double guard_for(double error_bound) const;
     /// Returns the tolerances for an error bound; without one, for the first.
     Tolerances tolerances(double error_bound) const;

@@ -25,6 +25,8 @@ shared bool group_works;
 
 uint group_slice; // first row
 
+float crossing_error() { return kCrossingError; }
+
 const float kInsideFace = -1.0;
 const uint kNoVertex = 0xffffffffu;
 const uint kBendsThere = 0x80000000u; // with a vertex of the table: its fan is lit

@@ -43,7 +43,7 @@ float own_limit() {
 float margin;
 
 float error_of(uint crossings) {
-    precise float error = job.base_error + float(crossings) * kCrossingError;
+    precise float error = job.base_error + float(crossings) * crossing_error();
     return error;
 }
 

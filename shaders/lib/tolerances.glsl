@@ -13,8 +13,10 @@ const float kFar = 1073741824.0;            // 2^30
 // Sources closer than this to a vertex light its whole fan: unfolding around so near a vertex would
 // lose the direction.
 const float kNearVertex = 0.0009765625;     // 2^-10
-// A window is trimmed where another one is not farther by more than this.
+// A window is trimmed where another one is not farther by more than this, or this part of
+// JobRec::base_error: positions on longer edges round to more.
 const float kTrimError = 1.1920929e-7;      // 2^-23
+const float kTrimPart = 0.0625;             // 2^-4
 // Bound on the error that a crossing adds to a distance.
 const float kCrossingError = 2.3841858e-7;  // 2^-22
 // Part of an edge within which a source on its line counts as its end.

@@ -21,12 +21,12 @@ uint kept_row(uvec2 ends) {
     return first_kept + kKeptRows * kKeptPerEdge * (mixed & (kKeptEdges - 1u));
 }
 
-// Returns true if the kept window is at most kTrimError farther, at this position of the edge, than the
+// Returns true if the kept window is hardly farther, by trim_error(), at this position of the edge, than the
 // one in flight, whose source is at sx along and lane.y off the edge.
 bool is_as_near(vec2 kept_source, float kept_sigma, float sx, float at) {
     precise float dx = at - sx;
     precise float distance = lane.sigma + root(squared(dx, lane.y));
-    precise float rest = (distance - kept_sigma) + kTrimError;
+    precise float rest = (distance - kept_sigma) + trim_error();
     precise float rest_square = rest * rest;
     precise float kept_dx = at - kept_source.x;
     return rest >= 0.0 && squared(kept_dx, kept_source.y) <= rest_square;
@@ -40,8 +40,8 @@ bool dominates(vec2 kept_source, float kept_sigma, vec2 kept_lit, float sx, vec2
     precise float last = sx + way;
     float low = max(lit.x, first);
     float high = min(lit.y, last);
-    precise float kept_low = kept_lit.x - kTrimError;
-    precise float kept_high = kept_lit.y + kTrimError;
+    precise float kept_low = kept_lit.x - trim_error();
+    precise float kept_high = kept_lit.y + trim_error();
     precise float turn = sx * kept_source.y - kept_source.x * lane.y;
     precise float rise = kept_source.y - lane.y;
     float over = rise < 0.0 ? -turn : turn;

@@ -14,6 +14,18 @@ layout(constant_id = kSpecEventHeap) const bool kEventHeap = false;
 
 bool trims() { return kTrims && lane.trims != 0u; }
 
+// Returns by how much a window may be nearer than the one that trims it.
+float trim_error() {
+    precise float of_long_edges = job.base_error * kTrimPart;
+    return max(kTrimError, of_long_edges);
+}
+
+// Returns the bound on the error that a crossing adds to a distance: with its rounding, and what trims it.
+float crossing_error() {
+    precise float trimming = kTrimError + trim_error();
+    return trims() ? trimming : kCrossingError;
+}
+
 bool holds_window() { return kHolds && lane.held_around != kNoWindow; }
 
 // Returns the windows on the stack and the one held.

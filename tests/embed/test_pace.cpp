@@ -243,8 +243,8 @@ TEST_SUITE("pace") {
         CHECK(longest(device.seconds) < 2);
         std::vector<double> later(device.seconds.begin() + 7, device.seconds.end());
         std::sort(later.begin(), later.end());
-        // A GPU has so many lanes that most are idle in this job. Still the submission must be short
-        // if all are busy, so it often takes less than it may.
+        // A GPU has so many lanes that most are idle in this job. Still the submission must be
+        // short if all are busy, so it often takes less than it may.
         const bool cpu = bench.context.report().type == VK_PHYSICAL_DEVICE_TYPE_CPU;
         CHECK(later[later.size() / 2] > 0.05 / (cpu ? 4 : 16));
         CHECK(later[later.size() / 2] < 0.05 * 1.5);

@@ -48,7 +48,6 @@ void check_pool(const PreparedMesh& mesh, const SampleParams& params) {
     }
 }
 
-
 } // namespace
 
 TEST_CASE("drawn candidates: the twin's, in faces of any size") {

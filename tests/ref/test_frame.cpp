@@ -74,6 +74,7 @@ void check_frames(const PreparedMesh& mesh, const SampleParams& params) {
     const ErrorModel model(of_host);
     for (const std::uint32_t crossings : {1u, 64u, 100u, 1000u, 70000u}) {
         CHECK(model.error_of(crossings) == frame.error_of(crossings));
+        CHECK(model.error_of(crossings, true) == frame.error_of(crossings, true));
     }
     for (const double larger : {1.0, 1.5, 2.0, 40.0, 10000.0}) {
         const double error = larger * frame.first_error();

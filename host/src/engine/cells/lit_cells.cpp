@@ -56,7 +56,8 @@ double LitCells::smallest_radius() const {
 Closeness LitCells::closeness() const {
     // Lengths of larger disks are scaled down to less than 2.
     const double scale = std::max(1.0, 2 * largest_radius());
-    return {ErrorModel(frame_).error_of(report_.longest_chain) * scale, kTie * scale};
+    return {ErrorModel(frame_).error_of(report_.longest_chain, report_.plan.trims) * scale,
+            kTie * scale};
 }
 
 bool LitCells::report(const Progress& now) const {
@@ -109,6 +110,7 @@ Result<std::size_t> LitCells::some_disks(std::span<const std::uint32_t> samples,
         return recorded.error();
     }
     report_.add(*recorded);
+    report_.plan.trims |= recorded->plan.trims;
     records_per_disk_ = std::max(records_per_disk_, records.wanted / count);
     if (records.wanted > records.lights.size()) {
         return 0;

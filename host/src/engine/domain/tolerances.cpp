@@ -54,8 +54,11 @@ void ErrorModel::widen(const ErrorModel& other) noexcept {
     per_crossing_ = std::max(per_crossing_, other.per_crossing_);
 }
 
-double ErrorModel::error_of(std::uint32_t chain) const noexcept {
-    return per_crossing_ * (chain + 4 * std::ceil(longest_)) + further_;
+double ErrorModel::error_of(std::uint32_t chain, bool trims) const noexcept {
+    const double base = per_crossing_ * 4 * std::ceil(longest_) + further_;
+    const double half = per_crossing_ / 2;
+    const double crossing = trims ? half + std::max(half, base / 16) : per_crossing_;
+    return base + chain * crossing;
 }
 
 double ErrorModel::guard_for(double error_bound) const noexcept {

@@ -42,8 +42,9 @@ class GEODISK_API ErrorModel {
     /// Makes it one that holds of another as well.
     void widen(const ErrorModel& other) noexcept;
 
-    /// Of chains of so many crossings.
-    double error_of(std::uint32_t chain) const noexcept;
+    /// Of chains of so many crossings. A disk that trims adds more where edges are long: see
+    /// crossing_error() of the shaders.
+    double error_of(std::uint32_t chain, bool trims = false) const noexcept;
     /// Returns a guard that is safe while errors keep to the bound: powers of two from 2^-13 on,
     /// and where radii vary from 2^-15 on, so that an edit somewhere does not decide anew about
     /// ties elsewhere.

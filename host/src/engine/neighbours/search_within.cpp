@@ -127,6 +127,7 @@ Result<bool> Search::find(std::size_t sources, std::uint32_t room) {
         return recorded.error();
     }
     report_.add(*recorded);
+    report_.plan.trims |= recorded->plan.trims;
     records_per_source_ =
         std::max(records_per_source_, records.wanted / static_cast<double>(sources));
     if (records.wanted > records.hits.size()) {
@@ -183,7 +184,8 @@ Result<Neighbours> Search::go() {
         }
     }
     Neighbours neighbours = lists_.take();
-    neighbours.error = ErrorModel(frame_).error_of(report_.longest_chain) * frame_.unit;
+    neighbours.error =
+        ErrorModel(frame_).error_of(report_.longest_chain, report_.plan.trims) * frame_.unit;
     neighbours.report = report_;
     return neighbours;
 }

@@ -417,10 +417,10 @@ Task<Result<std::optional<SampleSet>>> Run::go(RunPlan& plan) {
     report_.candidates = static_cast<std::uint32_t>(*darts);
     report_.dispatches = static_cast<std::uint32_t>(job().dispatches);
     take_counts(control(), report_);
-    report_.guard = std::max(of_.guard_for(submissions_.plan().error_bound),
-                             job().error.error_of(report_.longest_chain));
-    report_.device_bytes = memory_.bytes();
     report_.plan = submissions_.plan();
+    report_.guard = std::max(of_.guard_for(submissions_.plan().error_bound),
+                             job().error.error_of(report_.longest_chain, report_.plan.trims));
+    report_.device_bytes = memory_.bytes();
     if (runner_.clock) {
         report_.stages = runner_.clock->seconds();
     }
