@@ -36,10 +36,10 @@ Result<std::vector<std::uint32_t>> scattered(const PreparedMesh& mesh, const Sam
 }
 
 Result<PartsResult> in_parts(const PreparedMesh& mesh, const SampleParams& params,
-                             std::uint32_t count, const Cut& cut = grown) {
+                             std::uint32_t count, const Cut& cut, double most_candidates) {
     static const auto sampler =
         std::make_shared<const Sampler>(expect(Sampler::create(shared_context().device())));
-    const WholeSurface whole{mesh, params, cut};
+    const WholeSurface whole{mesh, params, cut, most_candidates};
     std::vector<std::optional<Result<PartsResult>>> results(count);
     run_threads(count, [&](Exchange& exchange) {
         auto runner = Runner::create(sampler, shared_context().queue());
@@ -59,11 +59,12 @@ Result<PartsResult> in_parts(const PreparedMesh& mesh, const SampleParams& param
 }
 
 void check_parts(const PreparedMesh& mesh, const SampleParams& params,
-                 std::initializer_list<std::uint32_t> counts, const Cut& cut = grown) {
+                 std::initializer_list<std::uint32_t> counts, const Cut& cut = grown,
+                 double most_candidates = 0x1p26) {
     const SampleSet whole = sample(mesh, params);
     for (const std::uint32_t count : counts) {
         CAPTURE(count);
-        const PartsResult result = expect(in_parts(mesh, params, count, cut));
+        const PartsResult result = expect(in_parts(mesh, params, count, cut, most_candidates));
         CHECK(points_of(result.set) == points_of(whole));
         CHECK(result.set.given == whole.given);
         CHECK(result.set.report.guard == whole.report.guard);
@@ -73,14 +74,12 @@ void check_parts(const PreparedMesh& mesh, const SampleParams& params,
             faces += process.own_faces;
         }
         CHECK(faces == mesh.face_count());
-        if (params.stop_count == 0) {
-            CHECK(result.set.report.candidates == whole.report.candidates);
-        }
+        CHECK(result.set.report.candidates == whole.report.candidates);
     }
 }
 
 std::string refusal(const PreparedMesh& mesh, const SampleParams& params, std::uint32_t count) {
-    const auto result = in_parts(mesh, params, count);
+    const auto result = in_parts(mesh, params, count, grown, 0x1p26);
     REQUIRE_FALSE(result);
     CHECK(result.error().status == Status::invalid_argument);
     return result.error().message;
@@ -155,6 +154,20 @@ TEST_SUITE("parts") {
         check_parts(knot, params, {3});
     }
 
+    TEST_CASE("candidates drawn a stage at a time, and an exact number of darts") {
+        const TestMesh shape = builtin("torus-knot", 8);
+        const PreparedMesh knot = prepared(shape);
+        check_parts(knot, params_for(knot, 800), {3}, grown, 1);
+        SampleParams params = params_for(knot, 300);
+        params.throws = 2345;
+        check_parts(knot, params, {1, 4});
+        params.stop_count = 200;
+        check_parts(knot, params, {3});
+        params.throws = 1000000;
+        params.stop_count = 280;
+        check_parts(knot, params, {2});
+    }
+
     TEST_CASE("what parts cannot do is refused by all") {
         const PreparedMesh cube = prepared(builtin("cube", 1));
         SampleParams params = params_for(cube, 100);
@@ -163,10 +176,6 @@ TEST_SUITE("parts") {
         check_parts(cube, params, {12});
         params.maximal = true;
         CHECK(refusal(cube, params, 2) == "many processes take no maximal set; sample with one");
-        params = params_for(cube, 100);
-        params.throws = 100;
-        CHECK(refusal(cube, params, 2) ==
-              "many processes take no exact number of darts; sample with one");
         params = params_for(cube, 100);
         params.min_distance = -1;
         CHECK(refusal(cube, params, 2).starts_with("the minimum distance must be"));

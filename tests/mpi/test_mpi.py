@@ -58,6 +58,8 @@ def test_same_file_with_radii_and_constraints(tmp_path):
                           f"{existing}:4%"], [3], "given.csv")
     check_same(tmp_path, ["builtin:cube", "--min-distance", "10%", "--features", "30"], [2],
                "features.csv")
+    check_same(tmp_path, [MESH, "--count", "150", "--min-distance", "2%", "--method", "darts"],
+               [3], "darts.csv")
     check_same(tmp_path, [MESH, "--count", "150", "--order", "progressive", "--exact"], [2],
                "levels.csv")
 
@@ -80,7 +82,6 @@ def test_report_tells_of_processes(tmp_path):
 @pytest.mark.parametrize("arguments, message", [
     (["--count", "10", "--classes", "2"], "--classes is not for many processes"),
     (["--count", "10", "--maximal"], "--maximal is not for many processes"),
-    (["--count", "10", "--method", "darts"], "--method darts is not for many processes"),
     (["--count", "10", "--metric", "euclidean"], "--metric euclidean is not for many processes"),
     (["--count", "0"], "--count"),
     ([], "give one of --min-distance"),

@@ -25,9 +25,6 @@ void check_shared(const SampleOptions& options) {
     if (!options.classes.empty()) {
         refuse("--classes");
     }
-    if (options.method.throws_darts()) {
-        refuse("--method " + options.method.method);
-    }
     if (options.method.is_maximal) {
         refuse("--maximal");
     }

@@ -80,7 +80,7 @@ Result<Darts> agree(Exchange& exchange, const Part& part, const Decide& decide,
         dialogs.emplace_back(part, neighbour);
     }
     auto own = decide(nullptr);
-    for (;;) {
+    for (bool is_first = true;; is_first = false) {
         std::vector<Bytes> messages(others.size());
         for (std::size_t i = 0; i < others.size() && own; ++i) {
             messages[i] = dialogs[i].tell(*own);
@@ -93,7 +93,7 @@ Result<Darts> agree(Exchange& exchange, const Part& part, const Decide& decide,
             return received.error();
         }
         // In the first round near samples become known, if there are any or not.
-        bool has_changed = report.rounds == 1 && !others.empty();
+        bool has_changed = is_first && !others.empty();
         for (std::size_t i = 0; i < others.size(); ++i) {
             has_changed |= dialogs[i].hear((*received)[i]);
         }

@@ -4,6 +4,7 @@
 #include <string>
 #include <utility>
 
+#include "engine/domain/stages.hpp"
 #include "engine/domain/tolerances.hpp"
 #include "parts/halo.hpp"
 #include "parts/part.hpp"
@@ -21,20 +22,22 @@ Result<Done> check_params(const SampleParams& params) {
     const auto no = [](const char* what) {
         return invalid(std::string("many processes take no ") + what + "; sample with one");
     };
-    if (params.throws != 0) {
-        return no("exact number of darts");
-    }
     if (!params.class_factors.empty()) {
         return no("classes");
     }
     return params.maximal ? Result<Done>(no("maximal set")) : Result<Done>(Done{});
 }
 
+std::uint32_t stages_at_once(const Stages& stages, double most_candidates) {
+    const double most = std::max(1.0, most_candidates / stages.expected(0));
+    return static_cast<std::uint32_t>(std::min<double>(stages.most_at_once(), most));
+}
+
 /// Faces of all parts that are known so far.
 class Division {
   public:
     Division(const PreparedMesh& mesh, const SampleParams& params, const JobFrame& frame,
-             std::span<const std::uint32_t> owners, std::uint32_t processes)
+             std::span<const std::uint32_t> owners, std::uint32_t processes, double most_candidates)
         : mesh_(mesh), params_(params), owners_(owners), parts_(processes) {
         const double margin =
             std::max(kLeastMargin, 2 * ErrorModel(frame).guard_for(frame.error_bound));
@@ -43,6 +46,10 @@ class Division {
             part.reach = params.min_distance * (1 + margin);
             part.seed = params.seed;
             part.pool_ratio = params.pool_ratio;
+            part.throws = params.throws;
+            part.stop_count = params.stop_count;
+            part.all_given = static_cast<std::uint32_t>(params.given.size());
+            part.most_stages = stages_at_once(stages_in(frame, mesh, params), most_candidates);
             part.has_keys = !params.face_keys.empty();
         }
         widest_ = parts_.front().reach;
@@ -144,7 +151,8 @@ class Division {
 } // namespace
 
 Result<std::vector<Bytes>> divide(const PreparedMesh& mesh, const SampleParams& params,
-                                  std::span<const std::uint32_t> owners, std::uint32_t processes) {
+                                  std::span<const std::uint32_t> owners, std::uint32_t processes,
+                                  double most_candidates) {
     return guarded([&]() -> Result<std::vector<Bytes>> {
         if (auto checked = check_params(params); !checked) {
             return checked.error();
@@ -153,7 +161,7 @@ Result<std::vector<Bytes>> divide(const PreparedMesh& mesh, const SampleParams& 
         if (!frame) {
             return frame.error();
         }
-        Division division(mesh, params, *frame, owners, processes);
+        Division division(mesh, params, *frame, owners, processes, most_candidates);
         for (std::uint32_t process = 0; process < processes; ++process) {
             division.choose(process);
         }

@@ -13,6 +13,7 @@
 #include <geodisk/radius_field.hpp>
 #include <geodisk/status.hpp>
 
+#include "engine/domain/drawn.hpp"
 #include "parts/exchange.hpp"
 
 namespace geodisk {
@@ -48,17 +49,25 @@ struct Part {
     std::vector<KeepOut> avoid;
     std::vector<Neighbour> neighbours;
     std::uint64_t seed = 0;
-    double pool_ratio = 0; ///< Pool ratio that was asked for.
+    double pool_ratio = 0;         ///< Pool ratio that was asked for.
+    std::uint32_t throws = 0;      ///< SampleParams::throws.
+    std::uint32_t stop_count = 0;  ///< SampleParams::stop_count.
+    std::uint32_t all_given = 0;   ///< Number of given samples of the whole.
+    std::uint32_t most_stages = 1; ///< Stages that are drawn at a time.
 
     /// Returns the parameters of the whole, for the part. They refer to it.
     SampleParams params() const;
+    /// Returns the candidates of the whole, on the faces of the part.
+    CandidateDraw draw() const;
 };
 
 /// Returns the parts of all processes as messages, in their order. `owners` has the process of each
-/// face. Errors: `invalid_argument` for parameters that many processes do not take, and for more
-/// processes than faces; those of frame_of().
+/// face. At most so many candidates are expected to be drawn at a time, of all processes, unless
+/// one stage has more. Errors: `invalid_argument` for parameters that many processes do not take,
+/// and for more processes than faces; those of frame_of().
 Result<std::vector<Bytes>> divide(const PreparedMesh& mesh, const SampleParams& params,
-                                  std::span<const std::uint32_t> owners, std::uint32_t processes);
+                                  std::span<const std::uint32_t> owners, std::uint32_t processes,
+                                  double most_candidates);
 
 /// Reads a part. Errors: those of PreparedMesh::load() and the like.
 Result<std::unique_ptr<Part>> part_of(std::span<const std::byte> bytes);

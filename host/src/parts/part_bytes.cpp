@@ -20,6 +20,12 @@ SampleParams Part::params() const {
     return params;
 }
 
+CandidateDraw Part::draw() const {
+    SampleParams of_whole = params();
+    of_whole.throws = throws;
+    return {mesh, of_whole, frame};
+}
+
 Result<Bytes> message_of(const Part& part) {
     auto mesh = part.mesh.save();
     if (!mesh) {
@@ -38,6 +44,10 @@ Result<Bytes> message_of(const Part& part) {
     message.put(part.reach);
     message.put(part.seed);
     message.put(part.pool_ratio);
+    message.put(part.throws);
+    message.put(part.stop_count);
+    message.put(part.all_given);
+    message.put(part.most_stages);
     message.put(part.has_keys);
     message.put_all(*mesh);
     message.put_all(radii);
@@ -66,6 +76,10 @@ Result<std::unique_ptr<Part>> part_of(std::span<const std::byte> bytes) {
         message.get(part->reach);
         message.get(part->seed);
         message.get(part->pool_ratio);
+        message.get(part->throws);
+        message.get(part->stop_count);
+        message.get(part->all_given);
+        message.get(part->most_stages);
         message.get(part->has_keys);
         message.get_all(mesh);
         message.get_all(radii);

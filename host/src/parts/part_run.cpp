@@ -16,28 +16,81 @@ constexpr double kBorder = 6;
 } // namespace
 
 PartRun::PartRun(const Part& part, Runner& runner, ProgressCallback progress)
-    : part_(part), runner_(runner), progress_(std::move(progress)), order_{part.has_keys} {
-    const SampleParams params = part.params();
-    const CandidateDraw draw(part.mesh, params, part.frame);
-    for (std::uint32_t face = 0; face < part.mesh.face_count(); ++face) {
-        if (part.roles[face] == FaceRole::surface) {
-            continue;
-        }
-        const std::size_t first = drawn_.size();
-        for (std::uint32_t stage = 0; stage < draw.stages().pool_stages(); ++stage) {
-            draw.draw(face, stage, drawn_);
-        }
-        own_count_ += part.roles[face] == FaceRole::own ? drawn_.size() - first : 0;
-        for (std::size_t i = first; i < drawn_.size(); ++i) {
-            drawn_[i].point.face = part.faces[face];
-        }
-    }
-    std::ranges::sort(drawn_, order_);
+    : part_(part), runner_(runner), progress_(std::move(progress)), order_{part.has_keys},
+      draw_(part.draw()), settled_(part.given) {
     std::vector<std::uint8_t> is_near(part.faces.size());
     for (std::size_t face = 0; face < is_near.size(); ++face) {
         is_near[face] = part.roles[face] == FaceRole::near ? 1 : 0;
     }
-    from_near_ = distances_from(part.mesh, is_near, (kBorder + 1) * part.reach);
+    from_near_ = distances_from(part.mesh, is_near, (kBorder + 2) * part.reach);
+    for (std::uint32_t face = 0; face < is_near.size(); ++face) {
+        if (nearest_corner(part.mesh, from_near_, face) <= kBorder * part.reach) {
+            border_reach_ = std::max(border_reach_, farthest_corner(part.mesh, from_near_, face));
+        }
+    }
+    border_reach_ += part.reach;
+    for (const Sample& sample : settled_) {
+        if (nearest_corner(part.mesh, from_near_, sample.face) <= border_reach_) {
+            settled_near_.push_back(sample);
+        }
+    }
+}
+
+void PartRun::settle(const DrawnCandidate& dart) {
+    const float weight1 = static_cast<float>(dart.point.weight1) * 0x1p-24f;
+    const float weight2 = static_cast<float>(dart.point.weight2) * 0x1p-24f;
+    const Sample sample{local(dart), {1.0f - weight1 - weight2, weight1, weight2}};
+    settled_.push_back(sample);
+    if (nearest_corner(part_.mesh, from_near_, sample.face) <= border_reach_) {
+        settled_near_.push_back(sample);
+    }
+}
+
+void PartRun::begin(std::uint32_t first_stage, std::uint32_t stages) {
+    for (const Darts* const darts : {&own_, &near_}) {
+        for (const DrawnCandidate& dart : *darts) {
+            settle(dart);
+        }
+    }
+    settled_own_.insert(settled_own_.end(), own_.begin(), own_.end());
+    own_.clear();
+    near_.clear();
+    drawn_.clear();
+    own_count_ = 0;
+    for (std::uint32_t face = 0; face < part_.mesh.face_count(); ++face) {
+        if (part_.roles[face] == FaceRole::surface) {
+            continue;
+        }
+        const std::size_t first = drawn_.size();
+        for (std::uint32_t stage = first_stage; stage < first_stage + stages; ++stage) {
+            draw_.draw(face, stage, drawn_);
+        }
+        own_count_ += part_.roles[face] == FaceRole::own ? drawn_.size() - first : 0;
+        for (std::size_t i = first; i < drawn_.size(); ++i) {
+            drawn_[i].point.face = part_.faces[face];
+        }
+    }
+    std::ranges::sort(drawn_, order_);
+}
+
+std::uint64_t PartRun::own_up_to(std::uint32_t stage, std::uint32_t priority) const {
+    return static_cast<std::uint64_t>(
+        std::ranges::count_if(drawn_, [&](const DrawnCandidate& dart) {
+            return std::pair(dart.stage, dart.priority) <= std::pair(stage, priority) &&
+                   is_own(dart);
+        }));
+}
+
+void PartRun::end_at(std::uint32_t priority) {
+    std::erase_if(drawn_, [&](const DrawnCandidate& dart) { return dart.priority > priority; });
+    own_count_ = static_cast<std::uint64_t>(
+        std::ranges::count_if(drawn_, [&](const DrawnCandidate& dart) { return is_own(dart); }));
+}
+
+Darts PartRun::samples() const {
+    Darts all = settled_own_;
+    all.insert(all.end(), own_.begin(), own_.end());
+    return all;
 }
 
 std::uint32_t PartRun::local(const DrawnCandidate& dart) const {
@@ -49,7 +102,7 @@ bool PartRun::is_own(const DrawnCandidate& dart) const {
     return part_.roles[local(dart)] == FaceRole::own;
 }
 
-Result<Darts> PartRun::accepted_of(const Darts& candidates) {
+Result<Darts> PartRun::accepted_of(const Darts& candidates, std::span<const Sample> settled) {
     Darts accepted;
     if (candidates.empty()) {
         return accepted;
@@ -59,7 +112,9 @@ Result<Darts> PartRun::accepted_of(const Darts& candidates) {
     for (const DrawnCandidate& dart : candidates) {
         list.push_back({local(dart), dart.point.weight1, dart.point.weight2});
     }
-    const auto domain = listed_domain(part_.mesh, part_.params(), part_.frame, list);
+    SampleParams params = part_.params();
+    params.given = settled;
+    const auto domain = listed_domain(part_.mesh, params, part_.frame, list);
     if (!domain) {
         return domain.error();
     }
@@ -90,6 +145,7 @@ Result<Darts> PartRun::accepted_of(const Darts& candidates) {
 
 Result<Darts> PartRun::decide(const Darts* near) {
     if (own_count_ == 0) {
+        near_ = near != nullptr ? *near : Darts();
         return Darts();
     }
     if (near != nullptr && *near == near_) {
@@ -97,7 +153,7 @@ Result<Darts> PartRun::decide(const Darts* near) {
     }
     Result<Darts> all = Darts();
     if (near == nullptr) {
-        all = accepted_of(drawn_);
+        all = accepted_of(drawn_, settled_);
         ++whole_runs_;
         std::erase_if(drawn_, [&](const DrawnCandidate& dart) { return !is_own(dart); });
     } else {
@@ -126,7 +182,7 @@ Result<Darts> PartRun::decide_all(const Darts& near) {
     candidates.reserve(drawn_.size() + near.size());
     std::ranges::merge(drawn_, near, std::back_inserter(candidates), order_);
     ++whole_runs_;
-    return accepted_of(candidates);
+    return accepted_of(candidates, settled_);
 }
 
 Result<std::optional<Darts>> PartRun::decide_border(const Darts& near) {
@@ -139,12 +195,12 @@ Result<std::optional<Darts>> PartRun::decide_border(const Darts& near) {
                          [&](const DrawnCandidate& dart) { return is_within(dart, width); });
     // Samples beyond the border reject candidates in it, and stay as they are.
     std::ranges::copy_if(own_, std::back_inserter(kept), [&](const DrawnCandidate& dart) {
-        return !is_within(dart, width) && is_within(dart, width + part_.reach);
+        return !is_within(dart, width) && is_within(dart, border_reach_);
     });
     Darts fixed;
     std::ranges::merge(kept, near, std::back_inserter(fixed), order_);
     std::ranges::merge(own, fixed, std::back_inserter(candidates), order_);
-    auto accepted = accepted_of(candidates);
+    auto accepted = accepted_of(candidates, settled_near_);
     if (!accepted) {
         return accepted.error();
     }
@@ -152,7 +208,7 @@ Result<std::optional<Darts>> PartRun::decide_border(const Darts& near) {
     std::erase_if(*accepted, [&](const DrawnCandidate& dart) { return !is_own(dart); });
     Darts before, changed, beyond;
     std::ranges::copy_if(own_, std::back_inserter(before), [&](const DrawnCandidate& dart) {
-        return is_within(dart, width + part_.reach);
+        return is_within(dart, border_reach_);
     });
     std::ranges::set_symmetric_difference(before, *accepted, std::back_inserter(changed), order_);
     const bool is_far = std::ranges::any_of(changed, [&](const DrawnCandidate& dart) {
@@ -162,7 +218,7 @@ Result<std::optional<Darts>> PartRun::decide_border(const Darts& near) {
         return std::optional<Darts>();
     }
     std::ranges::copy_if(own_, std::back_inserter(beyond), [&](const DrawnCandidate& dart) {
-        return !is_within(dart, width + part_.reach);
+        return !is_within(dart, border_reach_);
     });
     Darts all;
     std::ranges::merge(*accepted, beyond, std::back_inserter(all), order_);

@@ -15,15 +15,25 @@ namespace geodisk {
 
 class PartRun {
   public:
-    /// Draws the candidates of own and near faces. The part and the runner must outlive it.
+    /// The part and the runner must outlive it.
     PartRun(const Part& part, Runner& runner, ProgressCallback progress);
+
+    /// Draws the candidates of own and near faces in some stages. Samples of the stages before,
+    /// which all processes have agreed upon, are settled.
+    void begin(std::uint32_t first_stage, std::uint32_t stages);
+    /// Returns the number of own candidates of these stages up to a stage and priority.
+    std::uint64_t own_up_to(std::uint32_t stage, std::uint32_t priority) const;
+    /// Leaves out candidates of these stages beyond a priority, of which there is only one.
+    void end_at(std::uint32_t priority);
 
     /// Implements Decide. From the second time on, only own candidates near others are decided
     /// anew, or all if that changes samples farther away. Errors: those of listed_domain() and
     /// Runner::sample_and_wait().
     Result<Darts> decide(const Darts* near);
 
-    /// Returns the number of own candidates.
+    /// Returns own samples of all stages, in dart order.
+    Darts samples() const;
+    /// Returns the number of own candidates of these stages.
     std::uint64_t own_candidates() const { return own_count_; }
     /// Returns the work on the device so far.
     const RunReport& report() const { return report_; }
@@ -34,8 +44,10 @@ class PartRun {
   private:
     std::uint32_t local(const DrawnCandidate& dart) const;
     bool is_own(const DrawnCandidate& dart) const;
-    /// Decides these candidates, in dart order. Returns those that are accepted.
-    Result<Darts> accepted_of(const Darts& candidates);
+    /// Decides these candidates, in dart order, behind settled samples. Returns those that are
+    /// accepted.
+    Result<Darts> accepted_of(const Darts& candidates, std::span<const Sample> settled);
+    void settle(const DrawnCandidate& dart);
     /// Decides all own candidates among near samples.
     Result<Darts> decide_all(const Darts& near);
     /// Decides own candidates near others. Returns nothing if other samples may change.
@@ -45,10 +57,16 @@ class PartRun {
     Runner& runner_;
     ProgressCallback progress_;
     DartOrder order_;
+    CandidateDraw draw_;
     Darts drawn_; ///< Candidates of own faces, in dart order. Those of near faces until decided.
-    Darts own_;   ///< Own samples as they were decided last, among these near ones.
+    Darts settled_own_;           ///< Own samples of earlier stages.
+    std::vector<Sample> settled_; ///< Given samples, and own and near ones of earlier stages.
+    /// Those of them that reach the border.
+    std::vector<Sample> settled_near_;
+    Darts own_; ///< Own samples as they were decided last, among these near ones.
     Darts near_;
     std::vector<double> from_near_; ///< Lower bounds on the distance of vertices from near faces.
+    double border_reach_ = 0;       ///< How far samples may be to reject candidates in the border.
     std::uint64_t own_count_ = 0;
     RunReport report_;
     std::uint32_t whole_runs_ = 0, border_runs_ = 0;

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "engine/domain/given.hpp"
-#include "parts/agree.hpp"
+#include "parts/decide_stages.hpp"
 #include "parts/part.hpp"
 #include "parts/part_run.hpp"
 #include "parts/peak_memory.hpp"
@@ -43,7 +43,7 @@ Result<std::vector<Bytes>> parts_of(const WholeSurface& whole, std::uint32_t pro
             return frame.error();
         }
         const auto owners = whole.cut(whole.mesh, whole.params, processes);
-        return owners ? divide(whole.mesh, whole.params, *owners, processes)
+        return owners ? divide(whole.mesh, whole.params, *owners, processes, whole.most_candidates)
                       : Result<std::vector<Bytes>>(owners.error());
     });
 }
@@ -52,38 +52,32 @@ Sample sample_at(std::uint32_t face, float weight1, float weight2) {
     return {face, {1.0f - weight1 - weight2, weight1, weight2}};
 }
 
-/// Puts the samples of all processes together as one run does.
-SampleSet merged(const SampleParams& params, Darts darts, const RunReport& report) {
-    std::ranges::sort(darts, DartOrder{!params.face_keys.empty()});
-    SampleSet set;
-    set.report = report;
-    set.given = params.given.size();
+/// Returns the samples of all processes as one run gives them.
+std::vector<Sample> merged(const SampleParams& params, const Darts& darts) {
+    std::vector<Sample> samples;
+    samples.reserve(params.given.size() + darts.size());
     for (const Sample& given : params.given) {
         const auto [weight1, weight2] = rounded_weights(given.weights);
-        set.samples.push_back(sample_at(given.face, weight1, weight2));
+        samples.push_back(sample_at(given.face, weight1, weight2));
     }
     for (const DrawnCandidate& dart : darts) {
-        if (params.stop_count != 0 && set.samples.size() >= params.stop_count) {
-            break;
-        }
-        set.samples.push_back(sample_at(dart.point.face,
-                                        static_cast<float>(dart.point.weight1) * 0x1p-24f,
-                                        static_cast<float>(dart.point.weight2) * 0x1p-24f));
+        samples.push_back(sample_at(dart.point.face,
+                                    static_cast<float>(dart.point.weight1) * 0x1p-24f,
+                                    static_cast<float>(dart.point.weight2) * 0x1p-24f));
     }
-    return set;
+    return samples;
 }
 
-PartsResult put_together(const SampleParams& params, const std::vector<Bytes>& messages) {
+/// Puts together what the processes tell; the first of `darts` are samples.
+PartsResult put_together(const SampleParams& params, const std::vector<Bytes>& messages,
+                         Darts& darts) {
     PartsResult result;
-    Darts darts;
-    RunReport run;
-    std::uint64_t candidates = 0;
+    RunReport& run = result.set.report;
     for (const Bytes& message : messages) {
         Summary summary;
         std::memcpy(&summary, message.data(), sizeof summary);
         const Darts own = darts_of(std::span(message).subspan(sizeof summary));
         darts.insert(darts.end(), own.begin(), own.end());
-        candidates += summary.process.candidates;
         if (result.processes.empty()) {
             run = summary.run;
         } else {
@@ -94,9 +88,27 @@ PartsResult put_together(const SampleParams& params, const std::vector<Bytes>& m
         }
         result.processes.push_back(summary.process);
     }
-    run.candidates = static_cast<std::uint32_t>(candidates);
-    result.set = merged(params, std::move(darts), run);
+    std::ranges::sort(darts, DartOrder{!params.face_keys.empty()});
+    const std::size_t given = params.given.size();
+    if (params.stop_count != 0) {
+        darts.resize(std::min<std::size_t>(darts.size(), params.stop_count - given));
+    }
+    result.set.given = given;
+    result.set.samples = merged(params, darts);
     return result;
+}
+
+/// Returns the candidates of all processes up to the last sample; `last` is known to the first.
+Result<std::uint64_t> candidates_up_to(Exchange& exchange, const PartRun& run,
+                                       const DrawnCandidate& last) {
+    Bytes told;
+    append(told, std::span(&last, 1));
+    const auto heard = exchange.scatter(std::vector<Bytes>(exchange.size(), told));
+    if (!heard) {
+        return heard.error();
+    }
+    const DrawnCandidate end = darts_of(*heard).front();
+    return exchange.sum(run.own_up_to(end.stage, end.priority));
 }
 
 } // namespace
@@ -129,22 +141,20 @@ Result<PartsResult> sample_parts(Exchange& exchange, Runner& runner, const Whole
     if (auto well = exchange.check_all(error_of(begun)); !well) {
         return well.error();
     }
-    AgreementReport agreement;
-    const auto own = agree(
-        exchange, **part,
-        [&](const Darts* near) { return guarded([&] { return run->decide(near); }); }, agreement);
-    if (!own) {
-        return own.error();
+    const auto stages = decide_stages(exchange, **part, *run);
+    if (!stages) {
+        return stages.error();
     }
+    const Darts own = run->samples();
     ProcessReport& report = summary.process;
     report.own_faces =
         static_cast<std::uint64_t>(std::ranges::count((*part)->roles, FaceRole::own));
     report.faces = (*part)->faces.size();
-    report.candidates = run->own_candidates();
-    report.samples = own->size();
-    report.messages = agreement.messages;
-    report.bytes = agreement.bytes;
-    report.rounds = agreement.rounds;
+    report.candidates = stages->own_candidates;
+    report.samples = own.size();
+    report.messages = stages->agreement.messages;
+    report.bytes = stages->agreement.bytes;
+    report.rounds = stages->agreement.rounds;
     report.neighbours = static_cast<std::uint32_t>((*part)->neighbours.size());
     report.whole_runs = run->whole_runs();
     report.border_runs = run->border_runs();
@@ -152,12 +162,27 @@ Result<PartsResult> sample_parts(Exchange& exchange, Runner& runner, const Whole
     summary.run = run->report();
     Bytes told(sizeof summary);
     std::memcpy(told.data(), &summary, sizeof summary);
-    append(told, *own);
+    append(told, own);
     const auto all = exchange.gather(std::move(told));
     if (!all) {
         return all.error();
     }
-    return whole != nullptr ? put_together(whole->params, *all) : PartsResult();
+    PartsResult result;
+    Darts darts;
+    if (whole != nullptr) {
+        result = put_together(whole->params, *all, darts);
+    }
+    std::uint64_t candidates = stages->candidates;
+    if (stages->is_stopped) {
+        const auto last =
+            candidates_up_to(exchange, *run, darts.empty() ? DrawnCandidate() : darts.back());
+        if (!last) {
+            return last.error();
+        }
+        candidates = stages->before + *last;
+    }
+    result.set.report.candidates = static_cast<std::uint32_t>(candidates);
+    return result;
 }
 
 } // namespace geodisk

@@ -24,6 +24,8 @@ struct WholeSurface {
     const PreparedMesh& mesh;
     const SampleParams& params;
     const Cut& cut;
+    /// Candidates that all processes draw at a time, about; a stage at least.
+    double most_candidates = 0x1p26;
 };
 
 /// What came of it, at the first process alone.
@@ -34,7 +36,7 @@ struct PartsResult {
 
 /// Samples a surface together with the other processes; all call it. `whole` is null on all but the
 /// first one. Errors, the same on all processes: `invalid_argument` for more processes than faces,
-/// and for an exact number of darts, classes and maximal sets; those of frame_of() and
+/// and for classes and maximal sets; those of frame_of() and
 /// Runner::sample_and_wait(). Throws std::bad_alloc.
 GEODISK_API Result<PartsResult> sample_parts(Exchange& exchange, Runner& runner,
                                              const WholeSurface* whole,

@@ -31,8 +31,8 @@ struct SharedSamples {
 /// it waits for others; the numbers are those of its part.
 ///
 /// Errors: the same on all processes, naming the process that failed: those of
-/// Runner::sample_and_wait(); `invalid_argument` for more processes than faces, for darts
-/// (`throws`), classes and maximal sets. `cancelled` if `progress` returns false while waiting: the
+/// Runner::sample_and_wait(); `invalid_argument` for more processes than faces, for classes
+/// and maximal sets. `cancelled` if `progress` returns false while waiting: the
 /// process then no longer takes part, so end the others, as MPI_Abort() does.
 Result<SharedSamples> sample_together(MPI_Comm communicator, Runner& runner,
                                       const PreparedMesh* mesh, const SampleParams* params,

@@ -1,0 +1,80 @@
+#include "parts/decide_stages.hpp"
+
+#include <algorithm>
+
+#include "constants.h"
+#include "engine/job/order_cut.hpp"
+#include "support/guard.hpp"
+
+namespace geodisk {
+namespace {
+
+/// Leaves out all but the first candidates of a stage with so many on all processes. Returns how
+/// many there are left: a few more where several share the last priority.
+Result<std::uint64_t> keep_first(Exchange& exchange, PartRun& run, std::uint32_t stage,
+                                 std::uint64_t drawn, std::uint64_t wanted) {
+    OrderCut cut(1u << gpu::kPriorityBits, static_cast<std::uint32_t>(drawn),
+                 static_cast<std::uint32_t>(wanted));
+    while (!cut.is_found()) {
+        const auto below = exchange.sum(run.own_up_to(stage, cut.guess() - 1));
+        if (!below) {
+            return below.error();
+        }
+        cut.note(static_cast<std::uint32_t>(*below));
+    }
+    run.end_at(cut.end() - 1);
+    return cut.count();
+}
+
+/// Draws the candidates of stages. Returns how many all processes have that take part.
+Result<std::uint64_t> draw(Exchange& exchange, PartRun& run, const Stages& stages,
+                           std::uint64_t drawn, std::uint32_t first, std::uint32_t count) {
+    const auto begun = guarded([&]() -> Result<Done> {
+        run.begin(first, count);
+        return Done{};
+    });
+    if (auto well = exchange.check_all(begun ? nullptr : &begun.error()); !well) {
+        return well.error();
+    }
+    const auto all = exchange.sum(run.own_candidates());
+    const std::uint64_t wanted = stages.still_wanted(drawn);
+    return all && *all > wanted ? keep_first(exchange, run, first, *all, wanted) : all;
+}
+
+} // namespace
+
+Result<StagesReport> decide_stages(Exchange& exchange, const Part& part, PartRun& run) {
+    StagesReport report;
+    const Stages stages = part.draw().stages();
+    std::uint64_t accepted = part.all_given;
+    const auto is_enough = [&] { return part.stop_count != 0 && accepted >= part.stop_count; };
+    std::uint32_t first = 0;
+    while (!is_enough() && stages.left(first, report.candidates) > 0) {
+        const std::uint32_t count =
+            std::min(part.most_stages, stages.left(first, report.candidates));
+        const auto drawn = draw(exchange, run, stages, report.candidates, first, count);
+        if (!drawn) {
+            return drawn.error();
+        }
+        const auto own = agree(
+            exchange, part,
+            [&](const Darts* near) { return guarded([&] { return run.decide(near); }); },
+            report.agreement);
+        if (!own) {
+            return own.error();
+        }
+        const auto more = exchange.sum(own->size());
+        if (!more) {
+            return more.error();
+        }
+        accepted += *more;
+        report.own_candidates += run.own_candidates();
+        report.before = report.candidates;
+        report.candidates += *drawn;
+        report.is_stopped = is_enough();
+        first += count;
+    }
+    return report;
+}
+
+} // namespace geodisk

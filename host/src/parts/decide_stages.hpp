@@ -1,0 +1,28 @@
+// The stages of a job, one after the other, decided by all processes.
+#pragma once
+
+#include <cstdint>
+
+#include <geodisk/status.hpp>
+
+#include "parts/agree.hpp"
+#include "parts/exchange.hpp"
+#include "parts/part.hpp"
+#include "parts/part_run.hpp"
+
+namespace geodisk {
+
+/// What the stages were, the same on all processes but for own candidates.
+struct StagesReport {
+    std::uint64_t own_candidates = 0; ///< That this process decided.
+    std::uint64_t before = 0;         ///< Candidates of all processes before those drawn last.
+    std::uint64_t candidates = 0;     ///< Candidates of all processes.
+    bool is_stopped = false;          ///< There are as many samples as SampleParams::stop_count.
+    AgreementReport agreement;
+};
+
+/// Decides the candidates of all stages that take part: all of a pool, or up to an exact number of
+/// darts, or until there are enough samples. All processes call it. Errors: those of agree().
+Result<StagesReport> decide_stages(Exchange& exchange, const Part& part, PartRun& run);
+
+} // namespace geodisk
