@@ -52,8 +52,7 @@ class Scene {
     /// Samples the surface as it is, and begins to follow it.
     void begin() {
         const PreparedMesh surface = prepare();
-        JobFrame frame = expect(frame_of(surface, params));
-        frame.longest_edge += 2; // Room for edits.
+        const JobFrame frame = frame_for_edits(expect(frame_of(surface, params)));
         const SampleSet set = expect(runner().sample_and_wait(surface, params));
         updater.emplace(expect(Updater::create(mesh.view(), params, frame, set.samples)));
         CHECK(points_of(updater->samples()) == test::points_of(set));

@@ -1,6 +1,7 @@
 #include "geodisk/sample_run.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -15,6 +16,7 @@
 #include "geodisk/feature_run.hpp"
 #include "geodisk/inputs/given_input.hpp"
 #include "geodisk/records.hpp"
+#include "geodisk/update_run.hpp"
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
 
@@ -29,20 +31,12 @@ void check_space(const SampleJob& job, const MeshInput& mesh) {
     }
 }
 
-SampleParams params_on(const MeshInput& mesh, const SampleJob& job) {
-    SampleParams params = mesh.with_fields(job.params);
-    params.class_factors = job.class_factors;
-    const double area = effective_area(mesh.prepared, params);
-    params.min_distance =
-        job.min_distance
-            ? distance_on_mesh(*job.min_distance, mesh.prepared.statistics()) / mesh.distance_part
-            : distance_for_count(mesh.prepared, params, job.wanted_count.samples) *
-                  job.method.distance_factor();
-    params.throws = job.method.throws_for(expected_count(area, params.min_distance));
-    return params;
-}
-
-Domain domain_of(const SampleJob& job, const MeshInput& mesh, const SampleParams& params) {
+/// In the frame of another mesh, unless it is null.
+Domain domain_of(const SampleJob& job, const MeshInput& mesh, const SampleParams& params,
+                 const JobFrame* frame = nullptr) {
+    if (frame != nullptr) {
+        return take(Domain::surface(mesh.prepared, params, *frame));
+    }
     if (job.is_geodesic()) {
         return take(Domain::surface(mesh.prepared, params));
     }
@@ -65,8 +59,8 @@ std::vector<SampleRow> to_rows(const MeshInput& mesh, double min_distance,
 }
 
 Task task_of(const SampleJob& job, const MeshInput& mesh, const SampleParams& params,
-             double expected) {
-    Task task{domain_of(job, mesh, params), expected};
+             double expected, const JobFrame* frame = nullptr) {
+    Task task{domain_of(job, mesh, params, frame), expected};
     if (job.is_geodesic()) {
         task.surface = SurfaceTask{&mesh.prepared, params};
     }
@@ -170,6 +164,19 @@ void put_farthest_first(const SampleJob& job, const MeshInput& mesh, RunDevice& 
 
 } // namespace
 
+SampleParams params_on(const MeshInput& mesh, const SampleJob& job) {
+    SampleParams params = mesh.with_fields(job.params);
+    params.class_factors = job.class_factors;
+    const double area = effective_area(mesh.prepared, params);
+    params.min_distance =
+        job.min_distance
+            ? distance_on_mesh(*job.min_distance, mesh.prepared.statistics()) / mesh.distance_part
+            : distance_for_count(mesh.prepared, params, job.wanted_count.samples) *
+                  job.method.distance_factor();
+    params.throws = job.method.throws_for(expected_count(area, params.min_distance));
+    return params;
+}
+
 std::vector<NamedFile> files_read(const SampleJob& job) {
     std::vector<NamedFile> read;
     job.mesh.add_files(read, "the mesh");
@@ -177,6 +184,12 @@ std::vector<NamedFile> files_read(const SampleJob& job) {
     job.mask.add_files(read);
     job.constraints.add_files(read);
     add_class_file(job.classes_option, read);
+    for (const auto& [what, path] :
+         {std::pair{"the mesh before", job.from}, {"the samples before", job.update}}) {
+        if (!path.empty()) {
+            read.push_back({what, path});
+        }
+    }
     return read;
 }
 
@@ -201,6 +214,11 @@ SampleResult sample_mesh(const SampleJob& job, const MeshInput& mesh, RunDevice&
     params.given = given.samples;
     params.given_classes = given.classes;
     params.avoid = given.avoided;
+    std::optional<UpdateRun> update;
+    if (!job.from.empty()) {
+        update.emplace(job, mesh, progress);
+        params.min_distance = update->min_distance();
+    }
     FeatureRun features(job, mesh);
     std::vector<Sample> settled; // Of the latest distance.
     const auto task_at = [&](double min_distance) {
@@ -213,9 +231,16 @@ SampleResult sample_mesh(const SampleJob& job, const MeshInput& mesh, RunDevice&
             return level_task(job, mesh, params, levels_of(job.method, mesh, params), 0, {});
         }
         const double room = expected_count(effective_area(mesh.prepared, params), min_distance);
-        return task_of(job, mesh, params, job.method.expected(room));
+        return task_of(job, mesh, params, job.method.expected(room),
+                       update ? &update->frame() : nullptr);
     };
+    if (update && update->has_samples()) {
+        device.sample_by(&*update);
+    }
     auto [set, done] = device.run(task_at, params.min_distance, job.wanted_count, progress);
+    if (update && update->has_samples()) {
+        device.sample_by(nullptr); // It ends with this run.
+    }
     features.add_seconds(done);
     params.min_distance = done.min_distance;
     if (set.samples.empty() && !given.avoided.empty()) {

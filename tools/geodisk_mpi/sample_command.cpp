@@ -31,6 +31,9 @@ void check_shared(const SampleOptions& options) {
     if (options.metric != "geodesic") {
         refuse("--metric " + options.metric);
     }
+    if (!options.from.empty()) {
+        refuse("--from");
+    }
     if (options.out.is_dry_run) {
         refuse("--dry-run");
     }

@@ -32,6 +32,10 @@ struct SurfaceJob {
     SampleParams params;
 };
 
+/// Returns a frame with room for edits that make edges longer: by up to 8 minimum distances.
+/// Without it, an edge longer than the longest one of the first surface is refused.
+GEODISK_API JobFrame frame_for_edits(const JobFrame& frame) noexcept;
+
 /// The samples of a pool on a surface, kept up to date while the surface is edited. An update
 /// decides only what the edit can reach, and takes time in proportion to the edit.
 ///
@@ -41,7 +45,8 @@ class GEODISK_API Updater {
   public:
     /// Makes the updater of a surface and its samples, as Runner returned them: the given ones of
     /// `params` first. Copies what it needs. Takes time linear in the mesh. `frame` is frame_of()
-    /// the surface that the job began with; all later surfaces are sampled in it.
+    /// the surface that the job began with, or frame_for_edits() of that. All later surfaces are
+    /// sampled in it.
     ///
     /// Errors: `invalid_argument` for parameters that cannot be updated: darts, a stop count,
     /// classes, points to avoid or a maximal set; for a frame of another job; for a minimum
@@ -82,7 +87,7 @@ class GEODISK_API Updater {
     std::span<const Sample> samples() const noexcept;
     /// Returns the number of given samples.
     std::size_t given() const noexcept;
-    /// Returns the frame, with the longest edge rounded up as far as this changes no decision.
+    /// Returns the frame. Its longest edge is rounded up as far as this changes no decision.
     const JobFrame& frame() const noexcept;
 
     struct Impl; ///< Internal.

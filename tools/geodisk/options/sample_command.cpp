@@ -79,6 +79,7 @@ std::string sample_command(const SampleOptions& options) {
     for (const std::string& mask : options.mask.masks) {
         list.add("--mask", mask);
     }
+    list.add("--from", options.from);
     list.add("--metric", options.metric, usual.metric);
     list.add("--method", options.method.method, usual.method.method);
     list.add("--pool-ratio", options.method.pool_ratio);

@@ -101,6 +101,37 @@ void take_features(const SampleOptions& options, SampleJob& job) {
     }
 }
 
+/// Takes the mesh and the samples before an edit. Samples of other kinds are not updated.
+void take_edit(const SampleOptions& options, SampleJob& job) {
+    job.from = options.from;
+    job.update = options.update;
+    if (job.from.empty()) {
+        if (!job.update.empty()) {
+            fail_usage("--update needs the mesh of the samples; add --from OLD_MESH");
+        }
+        return;
+    }
+    const std::pair<const char*, bool> refused[] = {
+        {"--count; give --min-distance", !options.count.empty()},
+        {"--method darts", job.method.throws_darts},
+        {"--maximal", job.method.is_maximal},
+        {"--order", options.method.order != SampleOptions().method.order},
+        {"--classes", job.classes.is_given()},
+        {"--avoid", !options.constraints.avoid.empty()},
+        {"--features", job.features.has_value()},
+        {"--metric", !job.is_geodesic()},
+        {"--lift", !options.mesh.lifts.empty()},
+        {"--edge-lengths", !options.mesh.edge_lengths.empty()},
+        {"--coordinates", !options.mesh.coordinates.empty()},
+        {"--dry-run", options.out.is_dry_run},
+    };
+    for (const auto& [name, is_given] : refused) {
+        if (is_given) {
+            fail_usage(std::string("--from takes no ") + name);
+        }
+    }
+}
+
 /// Checks that the distance is given once.
 void check_distance(const SampleOptions& options, const ClassTable& classes) {
     if (classes.distances.empty()) {
@@ -185,6 +216,7 @@ SampleJob parse_job(const SampleOptions& options) {
                    "the first ones; give just one of them");
     }
     check_metric(options, job);
+    take_edit(options, job);
     job.constraints.check(options.metric);
     job.mesh.parsed_lifts(); // Wrong ones are known before a mesh is read.
     job.mesh.weld_distance();
@@ -197,6 +229,14 @@ SampleJob parse_job(const SampleOptions& options) {
 void add_sample_options(Command command, SampleOptions& options) {
     add_output_or_dry_run(command, options.out, kSampleFiles);
     add_job_options(command, options);
+    command.add_option("--from", options.from, "OLD_MESH",
+                       "Sample the mesh as an edit of OLD_MESH: with the distance and\n"
+                       "the tolerances that follow from it",
+                       "Edits");
+    command.add_option("--update", options.update, "OLD_SAMPLES",
+                       "Start from the samples of OLD_MESH, and decide only what the\n"
+                       "edit can reach. The samples are those without --update",
+                       "Edits");
     command.add_option("--picture", options.picture, "FILE",
                        "Also draw the samples and their disks, to *.png; geodisk render\n"
                        "has more styles and views");

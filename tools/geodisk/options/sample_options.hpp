@@ -33,6 +33,7 @@ struct SampleOptions {
     std::string metric = "geodesic";
     std::string picture;
     bool legend = false;
+    std::string from, update;
 };
 
 /// Adds all options of the command but the mesh; `options` must outlive the parsing.
@@ -66,6 +67,8 @@ struct SampleJob {
     RunnerOptions runner;
     std::string picture; ///< File for one, or empty.
     bool legend = false; ///< On the picture.
+    std::string from;    ///< Mesh before an edit, in whose frame this one is sampled; or "".
+    std::string update;  ///< Its samples, or "".
 
     bool is_geodesic() const { return !metric; }
 

@@ -12,6 +12,7 @@
 #include "engine/domain/check_frame.hpp"
 #include "engine/domain/given.hpp"
 #include "engine/domain/stages.hpp"
+#include "engine/domain/tolerances.hpp"
 #include "engine/update/dart_set.hpp"
 #include "engine/update/face_set.hpp"
 #include "engine/update/live_mesh.hpp"
@@ -24,6 +25,9 @@
 
 namespace geodisk {
 namespace {
+
+// Distances by which edges may become longer.
+constexpr double kSpareEdges = 8;
 
 /// Returns the faces of given samples that only one of two lists has.
 std::vector<std::uint32_t> faces_of_difference(std::vector<Sample> a, std::vector<Sample> b) {
@@ -40,6 +44,13 @@ std::vector<std::uint32_t> faces_of_difference(std::vector<Sample> a, std::vecto
 }
 
 } // namespace
+
+JobFrame frame_for_edits(const JobFrame& frame) noexcept {
+    JobFrame wide = frame;
+    wide.longest_edge = std::min(std::ceil(frame.longest_edge) + kSpareEdges, kLongestEdge);
+    wide.error_bound += ErrorModel(wide).error_of(0) - ErrorModel(frame).error_of(0);
+    return wide;
+}
 
 struct Updater::Impl {
     JobFrame frame;

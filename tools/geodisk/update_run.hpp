@@ -1,0 +1,43 @@
+// Samples that follow an edit of their mesh: --from and --update of `geodisk sample`.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include <geodisk/job_frame.hpp>
+#include <geodisk/sample.hpp>
+
+#include "geodisk/device_run.hpp"
+#include "geodisk/inputs/mesh_input.hpp"
+#include "geodisk/options/sample_options.hpp"
+#include "geodisk/outputs/progress.hpp"
+
+namespace geodisk::tools {
+
+/// The mesh before the edit, and its samples. Samples the edited mesh.
+class UpdateRun : public SurfaceSampler {
+  public:
+    /// Reads the mesh of --from, and the samples of --update if there are any. `mesh` is the edited
+    /// mesh; both must outlive it. Throws UserError.
+    UpdateRun(const SampleJob& job, const MeshInput& mesh, ProgressLine& progress);
+
+    /// Returns the minimum distance on the mesh before.
+    double min_distance() const { return params_.min_distance; }
+    const JobFrame& frame() const { return frame_; }
+    /// Returns true if there are samples to update.
+    bool has_samples() const { return !samples_.empty(); }
+
+    Result<SampleSet> sample(Runner& runner, const SurfaceTask& surface,
+                             const ProgressCallback& progress) override;
+    const std::vector<ProcessReport>& processes() const override { return processes_; }
+
+  private:
+    const MeshInput& mesh_;
+    MeshInput before_;
+    SampleParams params_; ///< On the mesh before.
+    JobFrame frame_;
+    std::vector<Sample> samples_; ///< Before; the given ones first.
+    std::vector<ProcessReport> processes_;
+};
+
+} // namespace geodisk::tools
