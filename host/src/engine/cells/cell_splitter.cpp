@@ -45,7 +45,7 @@ void CellSplitter::split(std::uint32_t face, FoundCells& found) {
 
 void CellSplitter::split(const GapCell& cell, const State& around) {
     const LitFaces::Target target = lit_.target(cell);
-    const NearLights::View view = near_.look(target, around.lights);
+    const NearLights::View view = near_.look(cell, target, around.lights);
     const auto lights = near_.at(view.lights);
     const double area = around.has_area ? 0 : lit_.area(cell.face) * cell.step() * cell.step();
     if (lights.empty()) {

@@ -126,7 +126,8 @@ Result<SurfaceCells> CellSearch::go() {
     }
     cells_.unreached *= square;
     cells_.area_error = *std::ranges::max_element(doubts_) * square;
-    cells_.distance_error = lit_.closeness().error * frame_.unit;
+    cells_.distance_error =
+        lit_.closeness().error * std::max(1.0, 2 * lit_.largest_radius()) * frame_.unit;
     if (params_.has_dual) {
         cells_.triangles = dual_triangles(std::move(meetings_), std::move(ends_), knots_);
         cells_.edges = dual_edges(std::move(pairs_), cells_.triangles);

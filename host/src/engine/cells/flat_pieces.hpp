@@ -7,18 +7,16 @@
 #include <span>
 #include <vector>
 
+#include "engine/cells/corner_functions.hpp"
 #include "engine/cells/lower_parts.hpp"
 #include "engine/cells/near_lights.hpp"
 #include "engine/maximal/lit_faces.hpp"
 
 namespace geodisk {
 
-/// A distance d becomes the function (d - s)^2 - |p|^2, with s the least distance of a source and p
-/// the place: linear where that source is the sample's, and as large where d is.
 class FlatPieces {
   public:
-    FlatPieces(const LitFaces& lit, const Closeness& closeness)
-        : lit_(lit), error_(closeness.error), tie_(closeness.tie) {}
+    FlatPieces(const LitFaces& lit, const Closeness& closeness) : lit_(lit), tie_(closeness.tie) {}
 
     /// Finds the distances of all lights that NearLights::look() found for a cell. Returns false
     /// if it is too large, or partly lit.
@@ -41,21 +39,16 @@ class FlatPieces {
   private:
     struct Piece {
         std::uint32_t sample;
-        std::array<double, 3> distances; ///< At the corners.
-        CornerValues values;             ///< Of its function.
-        double bend;                     ///< By how much that may be off from linear.
-        std::uint32_t lit;               ///< Bit of each corner that is lit.
+        CornerFunction function;
     };
-    void gather(const GapCell& cell, const LitFaces::Target& target,
-                std::span<const std::uint32_t> lights);
+    void gather(const CornerFunctions& functions, std::span<const std::uint32_t> lights);
     bool drop_beaten(double margin);
 
     const LitFaces& lit_;
-    double error_, tie_;
+    double tie_;
     std::vector<Piece> pieces_;
     std::vector<CornerValues> functions_;
     std::vector<std::uint32_t> samples_;
-    double nearest_source_ = 0;
     double band_ = 0, wide_band_ = 0;
     bool is_exact_ = false;
 };

@@ -54,10 +54,8 @@ double LitCells::smallest_radius() const {
 }
 
 Closeness LitCells::closeness() const {
-    // Lengths of larger disks are scaled down to less than 2.
-    const double scale = std::max(1.0, 2 * largest_radius());
-    return {ErrorModel(frame_).error_of(report_.longest_chain, report_.plan.trims) * scale,
-            kTie * scale};
+    return {ErrorModel(frame_).error_of(report_.longest_chain, report_.plan.trims),
+            kTie * std::max(1.0, 2 * largest_radius())};
 }
 
 bool LitCells::report(const Progress& now) const {
@@ -117,6 +115,8 @@ Result<std::size_t> LitCells::some_disks(std::span<const std::uint32_t> samples,
     }
     for (gpu::LitRec& record : records.lights) {
         record.sample_index = samples[record.sample_index];
+        // The device adds to it what the error bound of its run asks for.
+        record.limit = static_cast<float>(-radii_[record.sample_index]);
     }
     take(records.lights);
     return disks.size();

@@ -1,19 +1,19 @@
 // NearLights: which samples may be the nearest ones somewhere in a part of a face.
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
 
+#include "engine/cells/corner_functions.hpp"
 #include "engine/maximal/lit_faces.hpp"
 
 namespace geodisk {
 
 /// How well distances are known, in units of the frame.
 struct Closeness {
-    double error; ///< Distances are at most so far from exact ones.
+    double error; ///< Distances of disks with the radius 1 are at most so far from exact ones.
     double tie;   ///< Distances that differ by less count as equal.
 };
 
@@ -31,15 +31,16 @@ class NearLights {
         bool is_lit;           ///< The centroid is.
         std::uint32_t nearest; ///< Sample, if it is lit; of equally near ones the first.
         double distance;       ///< Of that sample.
+        double error;          ///< Bound on the error of the distances of all these lights.
     };
 
     NearLights(const LitFaces& lit, const Closeness& closeness)
-        : lit_(lit), more_(std::max(2 * closeness.error, 3 * closeness.tie)) {}
+        : lit_(lit), closeness_(closeness) {}
 
     /// Begins again, with all lights of a face.
     Range begin(std::uint32_t face);
-    /// Pushes the lights of a range that may be nearest somewhere in the target.
-    View look(const LitFaces::Target& target, Range lights);
+    /// Pushes the lights of a range that may be nearest somewhere in the cell of the target.
+    View look(const GapCell& cell, const LitFaces::Target& target, Range lights);
     /// Pops all lights above this range.
     void pop_to(Range lights) { stack_.resize(lights.end); }
 
@@ -51,14 +52,18 @@ class NearLights {
     bool is_single(Range lights) const;
 
   private:
+    /// Drops lights that one of a few others beats all over the cell.
+    void drop_beaten(const GapCell& cell, const LitFaces::Target& target, double margin,
+                     View& view);
     struct Seen {
         std::uint32_t light;
         double distance;
     };
     const LitFaces& lit_;
-    double more_; ///< One that is farther by no more may be nearest as well.
+    Closeness closeness_;
     std::vector<std::uint32_t> stack_;
     std::vector<Seen> seen_;
+    std::vector<CornerFunction> functions_;
 };
 
 } // namespace geodisk

@@ -40,7 +40,7 @@ class RimSearch {
 
 void RimSearch::search(const GapCell& cell, NearLights::Range lights) {
     const LitFaces::Target target = lit_.target(cell);
-    const NearLights::View view = near_.look(target, lights);
+    const NearLights::View view = near_.look(cell, target, lights);
     bool is_coarse = false;
     const std::size_t before = found_.size();
     for (const std::uint32_t light : near_.at(view.lights)) {
