@@ -128,6 +128,19 @@ TEST_SUITE("parts") {
         check_parts(two, params_for(two, 400), {3});
     }
 
+    TEST_CASE("surfaces in R^4, and of edge lengths alone") {
+        const TestMesh shape = builtin("clifford-torus", 24);
+        const PreparedMesh torus = prepared(shape);
+        check_parts(torus, params_for(torus, 400), {3});
+        std::vector<double> lengths;
+        for (const HalfEdge& edge : torus.half_edges()) {
+            lengths.push_back(edge.length);
+        }
+        const PreparedMesh bare = expect(
+            PreparedMesh::prepare(LengthMeshView{shape.triangles, lengths, shape.vertex_count()}));
+        check_parts(bare, params_for(bare, 300), {4});
+    }
+
     TEST_CASE("masks, keys, given samples, points to avoid, and a count to stop at") {
         const TestMesh shape = builtin("torus-knot", 8);
         const PreparedMesh knot = prepared(shape);
