@@ -222,7 +222,7 @@ TEST_CASE("orders that cannot be are refused without a file") {
         const char* message;
     };
     const Case cases[] = {
-        {{"--order", "random"}, "--order: 'random' is neither dart nor progressive"},
+        {{"--order", "random"}, "--order: 'random' is none of dart, progressive and farthest"},
         {{"--levels", "3"}, "--levels is for --order progressive"},
         {{"--level-factor", "3"}, "--level-factor is for --order progressive"},
         {{"--order", "progressive", "--levels", "0"}, "--levels: '0' is not a whole number"},

@@ -38,7 +38,11 @@ std::vector<Place> places_in(const TemporaryFolder& folder, const char* file) {
 }
 
 std::vector<double> column_in(const TemporaryFolder& folder, const char* file, const char* name) {
-    return tools::read_samples(folder / file, name).numbers;
+    std::vector<double> numbers = tools::read_samples(folder / file, name).numbers;
+    for (double& number : numbers) {
+        number = double{static_cast<float>(number)}; // Text has the shortest one.
+    }
+    return numbers;
 }
 
 } // namespace
