@@ -33,6 +33,7 @@ from ._sample import Sample
 from ._samples import Samples
 from ._sampling import sample, sample_box
 from ._transfer import transfer
+from ._update import update
 from ._verification import Verification, verify
 
 __version__ = version()
@@ -66,5 +67,6 @@ __all__ = [
     "sample_box",
     "sample_many",
     "transfer",
+    "update",
     "verify",
 ]
