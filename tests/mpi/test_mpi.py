@@ -125,12 +125,12 @@ def children_of(process):
 
 def test_killed_process_ends_all(tmp_path):
     out = tmp_path / "s.ply"
-    process = launch(3, "sample", MESH, "--count", "100000", "-o", str(out), "--quiet")
+    process = launch(3, "sample", MESH, "--count", "3000000", "-o", str(out), "--quiet")
     deadline = time.monotonic() + 30
     while len(children_of(process)) < 3:
         assert time.monotonic() < deadline
         time.sleep(0.05)
-    time.sleep(2)
+    time.sleep(1)
     pids = children_of(process)
     os.kill(pids[-1], signal.SIGKILL)
     process.communicate(timeout=30)
