@@ -43,6 +43,10 @@ UpdateRun::UpdateRun(const SampleJob& job, const MeshInput& mesh, ProgressLine& 
         fail_input(job.update, "has no faces and weights, so its samples cannot be updated; give "
                                "a file of geodisk with them");
     }
+    if (file.header.find("kept_of") != nullptr) {
+        fail_input(job.update, "has just the first samples of --order farthest, so the others are "
+                               "not known; give a file with all samples");
+    }
     for (const MeshWarning& warning : warnings) {
         print_warning(job.update + ": " + warning.message);
     }
