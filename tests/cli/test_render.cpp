@@ -234,6 +234,17 @@ TEST_CASE("radii that vary are those of the file") {
     CHECK(count_if(wrong, is_orange) > 100);
 }
 
+TEST_CASE("samples without a distance are drawn by that of the closest pair") {
+    TemporaryFolder folder;
+    REQUIRE(run(folder, {"sample", kMesh, "-n", "30", "-o", "a.ply"}).status == 0);
+    tools::write_samples(folder / "bare.csv", {}, tools::read_samples(folder / "a.ply").rows,
+                         false);
+    const Outcome bare = run(folder, {"render", kMesh, "bare.csv", "-o", "p.png"});
+    CHECK(bare.status == 0);
+    CHECK(bare.err.find("closest pair") != std::string::npos);
+    CHECK(std::filesystem::exists(folder / "p.png"));
+}
+
 TEST_CASE("what cannot be drawn is told, and leaves no picture") {
     const TemporaryFolder folder;
     make_samples(folder);
@@ -258,9 +269,6 @@ TEST_CASE("what cannot be drawn is told, and leaves no picture") {
                 {"render", "builtin:torus-knot:9", "a.ply", "-o", "p.png"});
     folder.write("none.csv", "# min_distance: 0.1\nface_index,bary_u,bary_v,bary_w,x,y,z\n");
     check_fails(folder, 3, "no samples", {"render", kMesh, "none.csv", "-o", "p.png"});
-    tools::write_samples(folder / "bare.csv", {}, tools::read_samples(folder / "a.ply").rows,
-                         false);
-    check_fails(folder, 2, "--min-distance", {"render", kMesh, "bare.csv", "-o", "p.png"});
     // Boxes of other dimensions, and what is no box.
     REQUIRE(run(folder, {"box", "--dim", "4", "-n", "30", "-o", "box.csv"}).status == 0);
     check_fails(folder, 3, "4 dimensions", {"render", "box.csv", "-o", "p.png"});
