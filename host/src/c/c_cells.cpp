@@ -16,23 +16,14 @@ struct geodisk_cells {
 namespace geodisk::c {
 namespace {
 
-Result<geodisk_cells*> found(SamplerState& state, const Mesh& mesh,
-                             const geodisk_cell_params& params, const ProgressCallback& progress) {
+Result<CellParams> params_of(const geodisk_cell_params& params) {
     if (params.samples == nullptr && params.sample_count != 0) {
         return wrong("params->samples is NULL");
     }
-    const std::vector<Sample> samples = samples_of(params.samples, params.sample_count);
     CellParams cells;
     cells.has_dual = params.areas_only == 0;
     cells.most_records = params.most_records == 0 ? cells.most_records : params.most_records;
-    auto result = find_cells(state.runner, mesh.prepared, samples, cells, progress);
-    if (!result) {
-        return result.error();
-    }
-    if (const auto checked = state.device->check_validation(); !checked) {
-        return checked.error();
-    }
-    return new geodisk_cells{std::move(*result)};
+    return cells;
 }
 
 } // namespace
@@ -54,15 +45,19 @@ geodisk_status geodisk_find_cells(geodisk_sampler* sampler, const geodisk_mesh* 
         if (!wanted) {
             return wanted.error();
         }
-        if (state.running) {
-            return run_in_progress();
+        const auto cell_params = params_of(*wanted);
+        if (!cell_params) {
+            return cell_params.error();
         }
-        state.is_cancelled = false;
-        const auto made = found(state, *mesh->shared, *wanted, state.callback(progress, user));
-        if (!made) {
-            return made.error();
+        auto found = search(state, progress, user, [&](const ProgressCallback& heard) {
+            return find_cells(state.runner, mesh->shared->prepared,
+                              samples_of(wanted->samples, wanted->sample_count), *cell_params,
+                              heard);
+        });
+        if (!found) {
+            return found.error();
         }
-        *cells = *made;
+        *cells = new geodisk_cells{std::move(*found)};
         return Done{};
     });
 }

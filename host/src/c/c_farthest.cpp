@@ -42,18 +42,12 @@ geodisk_status geodisk_farthest_order(geodisk_sampler* sampler, const geodisk_me
                 return given.error();
             }
         }
-        if (state.running) {
-            return run_in_progress();
-        }
-        state.is_cancelled = false;
-        const auto found =
-            farthest_order(state.runner, mesh->shared->prepared, samples_of(samples, sample_count),
-                           count, state.callback(progress, user));
+        const auto found = search(state, progress, user, [&](const ProgressCallback& heard) {
+            return farthest_order(state.runner, mesh->shared->prepared,
+                                  samples_of(samples, sample_count), count, heard);
+        });
         if (!found) {
             return found.error();
-        }
-        if (const auto checked = state.device->check_validation(); !checked) {
-            return checked.error();
         }
         std::ranges::copy(found->indices, order);
         if (distances != nullptr) {

@@ -73,7 +73,7 @@ Result<NeighbourKind> kind_of(geodisk_neighbour_kind kind) {
 
 Result<geodisk_neighbours*> found(SamplerState& state, const Mesh& mesh,
                                   const geodisk_neighbour_params& params,
-                                  const ProgressCallback& progress) {
+                                  geodisk_progress_fn progress, void* user) {
     const auto kind = kind_of(params.kind);
     if (!kind) {
         return kind.error();
@@ -97,12 +97,11 @@ Result<geodisk_neighbours*> found(SamplerState& state, const Mesh& mesh,
     query.joined = joined_of(mesh, params);
     query.nearest = params.nearest;
     query.most_pairs = params.most_pairs == 0 ? query.most_pairs : params.most_pairs;
-    auto lists = find_neighbours(state.runner, mesh.prepared, query, progress);
+    auto lists = search(state, progress, user, [&](const ProgressCallback& heard) {
+        return find_neighbours(state.runner, mesh.prepared, query, heard);
+    });
     if (!lists) {
         return lists.error();
-    }
-    if (const auto checked = state.device->check_validation(); !checked) {
-        return checked.error();
     }
     return new geodisk_neighbours{std::move(*lists), std::move(sources->vertices)};
 }
@@ -127,11 +126,7 @@ geodisk_status geodisk_find_neighbours(geodisk_sampler* sampler, const geodisk_m
         if (!wanted) {
             return wanted.error();
         }
-        if (state.running) {
-            return run_in_progress();
-        }
-        state.is_cancelled = false;
-        const auto made = found(state, *mesh->shared, *wanted, state.callback(progress, user));
+        const auto made = found(state, *mesh->shared, *wanted, progress, user);
         if (!made) {
             return made.error();
         }

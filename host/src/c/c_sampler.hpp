@@ -55,4 +55,21 @@ geodisk_status with_sampler(geodisk_sampler* sampler, geodisk_error* error, cons
     });
 }
 
+/// Returns what `find(progress)` does, unless a run is in progress or the validation layer objects.
+template <class Find>
+auto search(SamplerState& state, geodisk_progress_fn progress, void* user, const Find& find)
+    -> decltype(find(ProgressCallback{})) {
+    if (state.running) {
+        return run_in_progress();
+    }
+    state.is_cancelled = false;
+    auto found = find(state.callback(progress, user));
+    if (found) {
+        if (const auto checked = state.device->check_validation(); !checked) {
+            return checked.error();
+        }
+    }
+    return found;
+}
+
 } // namespace geodisk::c
