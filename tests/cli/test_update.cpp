@@ -88,8 +88,23 @@ TEST_CASE("updates of other samples, meshes and kinds are refused") {
     const Arguments edit{"--from", "old.ply", "--update", "a.ply"};
     refused(2, "--update needs the mesh of the samples; add --from OLD_MESH",
             {"-d", "3", "--update", "a.ply"});
-    refused(2, "is no candidate of its face: the samples are of another mesh, seed",
+    refused(3, "a.ply: has as its seed 0, not 9; give the options it was made with",
             joined(edit, {"-d", "3", "--seed", "9"}));
+    refused(3, "a.ply: has as its minimum distance 3, not 2.9", joined(edit, {"-d", "2.9"}));
+    refused(3, "a.ply: has as its pool_ratio none, not 10",
+            joined(edit, {"-d", "3", "--pool-ratio", "10"}));
+    refused(3, "a.ply: has as its mask none, not x<9", joined(edit, {"-d", "3", "--mask", "x<9"}));
+    for (const Arguments& kind : {Arguments{"--maximal"}, Arguments{"--classes", "2"},
+                                  Arguments{"--method", "darts", "--darts", "400"}}) {
+        const Arguments make{"sample", "old.ply", "-o", "other.ply", "-d", "3"};
+        const Outcome made = run(folder, joined(make, kind));
+        INFO(made.err);
+        REQUIRE(made.status == 0);
+        refused(3, "has samples of --", {"-d", "3", "--from", "old.ply", "--update", "other.ply"});
+    }
+    folder.write("bare.csv", "x,y,z,face_index,bary_u,bary_v,bary_w\n0,0,0,0,1,0,0\n");
+    refused(3, "does not say its seed and minimum distance",
+            {"-d", "3", "--from", "old.ply", "--update", "bare.csv"});
     refused(2, "--from takes no --count; give --min-distance", joined(edit, {"-n", "50"}));
     refused(2, "--from takes no --maximal", joined(edit, {"-d", "3", "--maximal"}));
     refused(2, "--from takes no --avoid", joined(edit, {"-d", "3", "--avoid", "a.ply:1"}));

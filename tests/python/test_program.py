@@ -158,6 +158,11 @@ def test_update():
         geodisk.update(dataclasses.replace(SAMPLES, seed=SAMPLES.seed + 1), edited)
     with pytest.raises(geodisk.InvalidArgument, match="do not know their seed"):
         geodisk.update(dataclasses.replace(SAMPLES, seed=None), edited)
+    with pytest.raises(geodisk.InvalidArgument, match="of [0-9]+ samples; give all of them"):
+        geodisk.update(SAMPLES[::2], edited)
+    sparse = geodisk.sample(VERTICES, FACES, min_distance=0.5, pool_ratio=5)
+    with pytest.raises(geodisk.InvalidArgument, match="made with pool_ratio cannot be updated"):
+        geodisk.update(sparse, edited)
 
 
 def test_transfer():

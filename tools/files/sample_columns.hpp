@@ -66,6 +66,7 @@ constexpr std::string_view key_of_column(std::string_view name) {
 }
 
 /// Keys of header entries that a reader of samples goes by.
-inline constexpr std::string_view kSampleCount = "samples", kOrigin = "origin";
+inline constexpr std::string_view kSampleCount = "samples", kOrigin = "origin",
+                                  kPoolRatio = "pool_ratio";
 
 } // namespace geodisk::tools

@@ -1,16 +1,20 @@
 #include "geodisk/update_run.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include <geodisk/update.hpp>
 
 #include "files/sample_columns.hpp"
+#include "geodisk/checks/sample_checks.hpp"
 #include "geodisk/checks/sample_input.hpp"
 #include "geodisk/outputs/outputs.hpp"
 #include "geodisk/sample_run.hpp"
+#include "program/exact_text.hpp"
 #include "program/failure.hpp"
 
 namespace geodisk::tools {
@@ -26,12 +30,85 @@ MeshOptions options_of(const SampleJob& job) {
     return options;
 }
 
+/// Returns the values of a key, one after the other.
+std::string values_of(std::string_view key, const HeaderEntries& entries) {
+    std::string text;
+    for (const auto& [name, value] : entries) {
+        if (name == key) {
+            text += (text.empty() ? "" : ", ") + value;
+        }
+    }
+    return text;
+}
+
+/// Checks that samples are of a kind that can be updated.
+void check_kind(const SampleHeader& header, const std::string& path) {
+    const std::pair<std::string_view, const char*> kinds[] = {
+        {"throws", "--method darts"}, {"classes", "--classes"},
+        {"features", "--features"},   {kLevelDistances, "--order progressive"},
+        {"maximal", "--maximal"},     {"avoid", "--avoid"},
+        {"metric", "--metric"}};
+    for (const auto& [key, option] : kinds) {
+        if (header.find(key) != nullptr) {
+            fail_input(path, std::string("has samples of ") + option +
+                                 ", which cannot be updated; sample the mesh again");
+        }
+    }
+    if (const std::string* const options = header.find("options")) {
+        fail_input(path, "was made in Python with " + *options +
+                             ", and cannot be updated; sample the mesh again");
+    }
+    if (header.find("kept_of") != nullptr) {
+        fail_input(path, "has just the first samples of --order farthest, so the others are "
+                         "not known; give a file with all samples");
+    }
+}
+
+/// Checks that the samples before are of this job, as far as their header tells.
+void check_job(const SampleFile& file, const SampleJob& job, double min_distance) {
+    if (file.header.find("min_distance") == nullptr || file.header.find("seed") == nullptr) {
+        fail_input(job.update,
+                   "does not say its seed and minimum distance, so it may not be whole; "
+                   "give a file as geodisk sample writes it");
+    }
+    HeaderEntries wanted = with_entries(job.density.added_to({}), job.mask);
+    wanted.emplace_back("seed", exact_text(job.params.seed));
+    if (job.params.pool_ratio != kDefaultPoolRatio) {
+        wanted.emplace_back(kPoolRatio, exact_text(job.params.pool_ratio));
+    }
+    const auto fail = [&](std::string_view key, const std::string& is, const std::string& should) {
+        const auto told = [](const std::string& text) { return text.empty() ? "none" : text; };
+        fail_input(job.update, "has as its " + std::string(key) + " " + told(is) + ", not " +
+                                   told(should) + "; give the options it was made with");
+    };
+    constexpr std::string_view kKeys[] = {
+        "seed", kPoolRatio, "density", "radius_factor", "radius_factor_floor", "mask", "only"};
+    for (const std::string_view key : kKeys) {
+        const std::string is = values_of(key, file.header.entries);
+        const std::string should = values_of(key, wanted);
+        if (is != should) {
+            fail(key, is, should);
+        }
+    }
+    // Distances relative to the mesh may round in another way.
+    const double of_file = header_distance(job.update, file.header);
+    if (!(std::abs(of_file - min_distance) <= 1e-12 * min_distance)) {
+        fail("minimum distance", exact_text(of_file), exact_text(min_distance));
+    }
+}
+
 } // namespace
 
 UpdateRun::UpdateRun(const SampleJob& job, const MeshInput& mesh, ProgressLine& progress)
     : mesh_(mesh), before_(load_mesh(options_of(job), progress, job.density, job.mask)),
       params_(params_on(before_, job)),
       frame_(frame_for_edits(take(frame_of(before_.prepared, params_)))) {
+    if (before_.radii && mesh_.radii &&
+        before_.radii->largest_density() != mesh_.radii->largest_density()) {
+        fail_input(job.mesh.mesh, "has another largest density than " + job.from +
+                                      ", at which the distance applies, so all radii are others; "
+                                      "sample it without --from");
+    }
     if (job.update.empty()) {
         return;
     }
@@ -43,10 +120,8 @@ UpdateRun::UpdateRun(const SampleJob& job, const MeshInput& mesh, ProgressLine& 
         fail_input(job.update, "has no faces and weights, so its samples cannot be updated; give "
                                "a file of geodisk with them");
     }
-    if (file.header.find("kept_of") != nullptr) {
-        fail_input(job.update, "has just the first samples of --order farthest, so the others are "
-                               "not known; give a file with all samples");
-    }
+    check_kind(file.header, job.update);
+    check_job(file, job, distance_on_mesh(*job.min_distance, before_.prepared.statistics()));
     for (const MeshWarning& warning : warnings) {
         print_warning(job.update + ": " + warning.message);
     }

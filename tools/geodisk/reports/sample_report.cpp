@@ -25,8 +25,11 @@ std::string metric_text(const SampleJob& job) {
 /// The distance that was given, or as it would be; `largest` is that of two samples with the
 /// largest radius.
 double told_distance(const SampleJob& job, const MeshInput& mesh, double largest) {
-    return job.min_distance ? distance_on_mesh(*job.min_distance, mesh.prepared.statistics())
-                            : largest * mesh.distance_part;
+    // A part of the diagonal is that of the mesh before an edit.
+    const bool is_as_given =
+        job.min_distance && (job.from.empty() || !job.min_distance->is_percent);
+    return is_as_given ? distance_on_mesh(*job.min_distance, mesh.prepared.statistics())
+                       : largest * mesh.distance_part;
 }
 
 std::string distance_line(const SampleJob& job, const MeshInput& mesh, double largest) {
@@ -229,6 +232,9 @@ SampleHeader SampleReport::header() const {
                          {"device", done.device.name},
                          {"driver", driver_text(done.device)}}};
     header.entries.insert(header.entries.begin() + 2, additions.begin(), additions.end());
+    if (job_.params.pool_ratio != kDefaultPoolRatio) {
+        header.entries.emplace_back(kPoolRatio, exact_text(job_.params.pool_ratio));
+    }
     if (!job_.is_geodesic()) {
         header.entries.emplace_back("metric", metric_text(job_));
     }

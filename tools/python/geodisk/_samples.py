@@ -99,7 +99,8 @@ class Samples:
     periodic : bool
         True if its opposite sides are glued together.
     report : dict
-        Report of the run: candidates, disks, windows, rho, bytes and seconds.
+        Report of the run: candidates, disks, windows, rho, bytes and seconds. ``"options"`` names
+        the arguments that chose these samples, besides seed and distance.
     polygon_index : ndarray of uint32, shape (n,) or None
         Numbers of the given faces, if polygons were split into triangles.
     columns : dict of ndarray of uint32, shape (n,)

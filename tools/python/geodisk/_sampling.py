@@ -271,6 +271,24 @@ def sample(
             samples, mesh._handle, count, stop_count, throws, mask, len(kept), len(points) > 0
         )
     )
+    chosen = {
+        "pool_ratio": pool_ratio != 20,
+        "throws": throws,
+        "stop_count": stop_count,
+        "exact": exact,
+        "density": density is not None,
+        "radius_factor": radius_factor is not None,
+        "face_keys": face_keys is not None,
+        "face_mask": face_mask is not None,
+        "metric": metric != "geodesic",
+        "classes": classes is not None,
+        "features": features is not None,
+        "order": order != "dart",
+        "maximal": maximal,
+        "existing": existing is not None,
+        "avoid": avoid is not None,
+    }
+    samples.report["options"] = [name for name, is_chosen in chosen.items() if is_chosen]
     if order == "farthest":
         samples = put_farthest_first(mesh._handle, mesh._surface, samples, device, progress)
     return samples

@@ -34,7 +34,8 @@ def update(
     Parameters
     ----------
     samples : Samples
-        Samples of one radius on the mesh before, of a pool of the default ratio.
+        All samples of a run on the mesh before, by a distance or count alone: of one radius, the
+        default pool, and without a mask.
     to : array_like of float, shape (v, d), or a mesh
         The edited mesh, or positions of its vertices.
     to_faces : array_like of int, optional
@@ -73,6 +74,14 @@ def update(
         raise e.invalid("samples in a box have no mesh")
     if samples.seed is None or not samples.min_distance > 0:
         raise e.invalid("these samples do not know their seed and minimum distance")
+    if others := samples.report.get("options"):
+        raise e.invalid(
+            f"samples made with {', '.join(others)} cannot be updated; sample the mesh again"
+        )
+    if len(samples) != samples.report.get("samples", len(samples)):
+        raise e.invalid(
+            f"these are {len(samples)} of {samples.report['samples']} samples; give all of them"
+        )
     if is_mesh(to):
         target = mesh_of(to, to_faces, None, False)._surface
     else:

@@ -44,6 +44,8 @@ def header_of(samples: Samples) -> Header:
         header["classes"] = ";".join(rows) + (";" if len(rows) == 1 else "")
     if samples.seed is not None:
         header["seed"] = str(samples.seed)
+    if samples.report.get("options"):
+        header["options"] = " ".join(samples.report["options"])
     if samples.level_distances is not None:
         header["order"] = "progressive"
         header["level_distances"] = " ".join(map(repr, samples.level_distances))
