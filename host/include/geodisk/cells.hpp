@@ -14,7 +14,7 @@
 
 namespace geodisk {
 
-/// What to find of cells.
+/// Settings of find_cells().
 struct CellParams {
     /// Finds which cells touch, and where three meet.
     bool has_dual = true;

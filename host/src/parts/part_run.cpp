@@ -37,9 +37,8 @@ PartRun::PartRun(const Part& part, Runner& runner, ProgressCallback progress)
 }
 
 void PartRun::settle(const DrawnCandidate& dart) {
-    const float weight1 = static_cast<float>(dart.point.weight1) * 0x1p-24f;
-    const float weight2 = static_cast<float>(dart.point.weight2) * 0x1p-24f;
-    const Sample sample{local(dart), {1.0f - weight1 - weight2, weight1, weight2}};
+    Sample sample = to_sample(dart.point);
+    sample.face = local(dart);
     settled_.push_back(sample);
     if (nearest_corner(part_.mesh, from_near_, sample.face) <= border_reach_) {
         settled_near_.push_back(sample);
@@ -124,21 +123,12 @@ Result<Darts> PartRun::accepted_of(const Darts& candidates, std::span<const Samp
     }
     report_.starts += set->report.starts;
     report_.add(set->report);
-    // Samples come in the order of the list.
-    std::size_t next = 0;
-    for (const Sample& sample : std::span(set->samples).subspan(set->given)) {
-        const auto is_it = [&](const ListedCandidate& point) {
-            return point.face == sample.face &&
-                   static_cast<float>(point.weight1) * 0x1p-24f == sample.weights[1] &&
-                   static_cast<float>(point.weight2) * 0x1p-24f == sample.weights[2];
-        };
-        while (next < list.size() && !is_it(list[next])) {
-            ++next;
-        }
-        if (next == list.size()) {
-            return Error{Status::internal, "a sample is none of the candidates"};
-        }
-        accepted.push_back(candidates[next++]);
+    const auto places = places_of(std::span(set->samples).subspan(set->given), list);
+    if (!places) {
+        return places.error();
+    }
+    for (const std::size_t place : *places) {
+        accepted.push_back(candidates[place]);
     }
     return accepted;
 }

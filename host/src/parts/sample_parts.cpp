@@ -48,22 +48,16 @@ Result<std::vector<Bytes>> parts_of(const WholeSurface& whole, std::uint32_t pro
     });
 }
 
-Sample sample_at(std::uint32_t face, float weight1, float weight2) {
-    return {face, {1.0f - weight1 - weight2, weight1, weight2}};
-}
-
 /// Returns the samples of all processes as one run gives them.
 std::vector<Sample> merged(const SampleParams& params, const Darts& darts) {
     std::vector<Sample> samples;
     samples.reserve(params.given.size() + darts.size());
     for (const Sample& given : params.given) {
         const auto [weight1, weight2] = rounded_weights(given.weights);
-        samples.push_back(sample_at(given.face, weight1, weight2));
+        samples.push_back({given.face, {1.0f - weight1 - weight2, weight1, weight2}});
     }
     for (const DrawnCandidate& dart : darts) {
-        samples.push_back(sample_at(dart.point.face,
-                                    static_cast<float>(dart.point.weight1) * 0x1p-24f,
-                                    static_cast<float>(dart.point.weight2) * 0x1p-24f));
+        samples.push_back(to_sample(dart.point));
     }
     return samples;
 }

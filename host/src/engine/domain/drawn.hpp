@@ -27,6 +27,18 @@ struct DrawnCandidate {
 GEODISK_API bool is_before(const DrawnCandidate& a, const DrawnCandidate& b,
                            bool has_keys) noexcept;
 
+/// Candidates of a surface, whose faces are numbered in the whole.
+using Darts = std::vector<DrawnCandidate>;
+
+/// Dart order of a job whose faces have keys, or have none.
+struct DartOrder {
+    bool has_keys = false;
+
+    bool operator()(const DrawnCandidate& a, const DrawnCandidate& b) const {
+        return is_before(a, b, has_keys);
+    }
+};
+
 /// Draws the candidates of faces of a surface, or of a part of one in the frame of the whole: each
 /// is the one that kernels draw, to the bit. Without classes.
 class GEODISK_API CandidateDraw {

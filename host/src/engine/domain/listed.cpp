@@ -198,4 +198,32 @@ Result<Domain> listed_domain(const PreparedMesh& mesh, const SampleParams& param
     });
 }
 
+Sample to_sample(const ListedCandidate& candidate) {
+    const float second = static_cast<float>(candidate.weight1) * 0x1p-24f;
+    const float third = static_cast<float>(candidate.weight2) * 0x1p-24f;
+    return {candidate.face, {1 - second - third, second, third}};
+}
+
+Result<std::vector<std::size_t>> places_of(std::span<const Sample> samples,
+                                           std::span<const ListedCandidate> list) {
+    std::vector<std::size_t> places;
+    places.reserve(samples.size());
+    std::size_t next = 0;
+    for (const Sample& sample : samples) {
+        const auto is_it = [&](const ListedCandidate& candidate) {
+            const Sample own = to_sample(candidate);
+            return own.face == sample.face && own.weights[1] == sample.weights[1] &&
+                   own.weights[2] == sample.weights[2];
+        };
+        while (next < list.size() && !is_it(list[next])) {
+            ++next;
+        }
+        if (next == list.size()) {
+            return Error{Status::internal, "a sample is none of the listed candidates"};
+        }
+        places.push_back(next++);
+    }
+    return places;
+}
+
 } // namespace geodisk

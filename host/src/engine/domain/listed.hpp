@@ -1,6 +1,7 @@
 // Candidates that the host gives, in place of those that kernels draw from a seed.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -9,6 +10,7 @@
 #include <geodisk/export.hpp>
 #include <geodisk/mesh.hpp>
 #include <geodisk/params.hpp>
+#include <geodisk/sample.hpp>
 #include <geodisk/status.hpp>
 
 #include "engine/domain/device_mesh.hpp"
@@ -40,6 +42,14 @@ GEODISK_API Result<Domain> listed_domain(const PreparedMesh& mesh, const SampleP
 GEODISK_API Result<Domain> listed_domain(const PreparedMesh& mesh, const SampleParams& params,
                                          const JobFrame& frame,
                                          std::span<const ListedCandidate> candidates) noexcept;
+
+/// Returns the sample at a candidate.
+Sample to_sample(const ListedCandidate& candidate);
+
+/// Returns where in a list the samples of a run on it are, which come in its order. Errors:
+/// `internal` for a sample that is none of them.
+Result<std::vector<std::size_t>> places_of(std::span<const Sample> samples,
+                                           std::span<const ListedCandidate> list);
 
 /// What the device holds of listed candidates: the contents of these buffers.
 struct ListedBuffers {

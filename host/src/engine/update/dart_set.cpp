@@ -101,10 +101,7 @@ Result<DartSet> DartSet::find(const MeshView& mesh, const SampleParams& params,
             }
         }
     }
-    const bool has_keys = !params.face_keys.empty();
-    std::ranges::sort(set.in_order_, [has_keys](const DrawnCandidate& a, const DrawnCandidate& b) {
-        return is_before(a, b, has_keys);
-    });
+    std::ranges::sort(set.in_order_, DartOrder{!params.face_keys.empty()});
     for (const DrawnCandidate& dart : set.in_order_) {
         set.on_face_[dart.point.face].push_back(dart);
     }
@@ -117,9 +114,7 @@ std::span<const DrawnCandidate> DartSet::on_face(std::uint32_t face) const {
 }
 
 void DartSet::replace(const Darts& removed, const Darts& added, bool has_keys) {
-    const auto before = [has_keys](const DrawnCandidate& a, const DrawnCandidate& b) {
-        return is_before(a, b, has_keys);
-    };
+    const DartOrder before{has_keys};
     Darts kept, all;
     kept.reserve(in_order_.size());
     all.reserve(in_order_.size() + added.size());
@@ -132,12 +127,6 @@ void DartSet::replace(const Darts& removed, const Darts& added, bool has_keys) {
     for (const DrawnCandidate& dart : added) {
         on_face_[dart.point.face].push_back(dart);
     }
-}
-
-Sample to_sample(const ListedCandidate& point) {
-    const float second = static_cast<float>(point.weight1) * 0x1p-24f;
-    const float third = static_cast<float>(point.weight2) * 0x1p-24f;
-    return {point.face, {1 - second - third, second, third}};
 }
 
 } // namespace geodisk

@@ -16,9 +16,6 @@
 
 namespace geodisk {
 
-/// Candidates, with the faces of the whole.
-using Darts = std::vector<DrawnCandidate>;
-
 class DartSet {
   public:
     /// Finds the candidates that samples are, and puts them in dart order. Errors:
@@ -38,8 +35,5 @@ class DartSet {
     Darts in_order_;
     std::unordered_map<std::uint32_t, Darts> on_face_;
 };
-
-/// Returns the sample at a candidate.
-Sample to_sample(const ListedCandidate& point);
 
 } // namespace geodisk

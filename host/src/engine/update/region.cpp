@@ -73,10 +73,7 @@ std::vector<Region::Entry> Region::list(const MeshPart& part) const {
         }
     }
     // The part has its faces in the order of the whole.
-    std::ranges::sort(
-        entries, [has_keys = !surface_.params.face_keys.empty()](const Entry& a, const Entry& b) {
-            return is_before(a.dart, b.dart, has_keys);
-        });
+    std::ranges::sort(entries, DartOrder{!surface_.params.face_keys.empty()}, &Entry::dart);
     return entries;
 }
 
@@ -115,32 +112,19 @@ Result<std::vector<bool>> Region::accept(const MeshPart& part, const std::vector
     }
     report.run.add(set->report);
     report.run.guard = std::max(report.run.guard, set->report.guard);
-    // Samples come in the order of the list.
-    std::size_t at = 0;
-    for (std::size_t i = set->given; i < set->samples.size(); ++i, ++at) {
-        const Sample& sample = set->samples[i];
-        const auto is_it = [&](const ListedCandidate& point) {
-            const Sample other = to_sample(point);
-            return point.face == sample.face && other.weights[1] == sample.weights[1] &&
-                   other.weights[2] == sample.weights[2];
-        };
-        const auto found =
-            std::find_if(points.begin() + static_cast<std::ptrdiff_t>(at), points.end(), is_it);
-        if (found == points.end()) {
-            return Error{Status::internal, "a sample of a region is none of its candidates"};
-        }
-        at = static_cast<std::size_t>(found - points.begin());
-        accepted[at] = true;
+    const auto places = places_of(std::span(set->samples).subspan(set->given), points);
+    if (!places) {
+        return places.error();
+    }
+    for (const std::size_t place : *places) {
+        accepted[place] = true;
     }
     return accepted;
 }
 
 Changes Region::compare(const MeshPart& part, const std::vector<Entry>& entries,
                         const std::vector<bool>& accepted) {
-    const bool has_keys = !surface_.params.face_keys.empty();
-    const auto before = [has_keys](const DrawnCandidate& a, const DrawnCandidate& b) {
-        return is_before(a, b, has_keys);
-    };
+    const DartOrder before{!surface_.params.face_keys.empty()};
     Darts old, now;
     for (const std::uint32_t face : region_.members()) {
         const auto samples = surface_.darts.on_face(face);
