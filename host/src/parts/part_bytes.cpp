@@ -6,6 +6,29 @@
 #include "support/guard.hpp"
 
 namespace geodisk {
+namespace {
+
+/// Passes what a message holds as it is to `one`, or an array to `all`, in the order of the
+/// message.
+template <class AnyPart, class One, class All>
+void for_fields(AnyPart& part, const One& one, const All& all) {
+    one(part.reach);
+    one(part.seed);
+    one(part.pool_ratio);
+    one(part.throws);
+    one(part.stop_count);
+    one(part.all_given);
+    one(part.most_stages);
+    one(part.has_keys);
+    all(part.faces);
+    all(part.roles);
+    all(part.keys);
+    all(part.mask);
+    all(part.given);
+    all(part.avoid);
+}
+
+} // namespace
 
 SampleParams Part::params() const {
     SampleParams params;
@@ -41,22 +64,11 @@ Result<Bytes> message_of(const Part& part) {
     }
     MessageWriter message;
     message.put(to_bytes(part.frame));
-    message.put(part.reach);
-    message.put(part.seed);
-    message.put(part.pool_ratio);
-    message.put(part.throws);
-    message.put(part.stop_count);
-    message.put(part.all_given);
-    message.put(part.most_stages);
-    message.put(part.has_keys);
     message.put_all(*mesh);
     message.put_all(radii);
-    message.put_all(part.faces);
-    message.put_all(part.roles);
-    message.put_all(part.keys);
-    message.put_all(part.mask);
-    message.put_all(part.given);
-    message.put_all(part.avoid);
+    for_fields(
+        part, [&](const auto& value) { message.put(value); },
+        [&](const auto& values) { message.put_all(values); });
     message.put(part.neighbours.size());
     for (const Neighbour& neighbour : part.neighbours) {
         message.put(neighbour.process);
@@ -73,22 +85,11 @@ Result<std::unique_ptr<Part>> part_of(std::span<const std::byte> bytes) {
         std::vector<std::byte> mesh, radii;
         std::size_t neighbours = 0;
         message.get(frame);
-        message.get(part->reach);
-        message.get(part->seed);
-        message.get(part->pool_ratio);
-        message.get(part->throws);
-        message.get(part->stop_count);
-        message.get(part->all_given);
-        message.get(part->most_stages);
-        message.get(part->has_keys);
         message.get_all(mesh);
         message.get_all(radii);
-        message.get_all(part->faces);
-        message.get_all(part->roles);
-        message.get_all(part->keys);
-        message.get_all(part->mask);
-        message.get_all(part->given);
-        message.get_all(part->avoid);
+        for_fields(
+            *part, [&](auto& value) { message.get(value); },
+            [&](auto& values) { message.get_all(values); });
         message.get(neighbours);
         for (std::size_t i = 0; i < neighbours && i < bytes.size(); ++i) {
             Neighbour& neighbour = part->neighbours.emplace_back();
