@@ -1,6 +1,7 @@
 // Neighbours by the C API are those of the C++ API.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <cstring>
 #include <memory>
@@ -96,6 +97,49 @@ TEST_CASE("neighbours are those of C++") {
     CHECK(arrays_of(few).indices[0] == 7);
     CHECK(arrays_of(few).indices[1] == 3);
     CHECK(arrays_of(few).distances[1] == 0);
+}
+
+TEST_CASE("a search goes on poll by poll, apart from what the caller gave") {
+    const auto mesh = mesh_of(builtin("torus-knot", 8));
+    geodisk_sampler* const sampler = shared_sampler();
+    std::vector<geodisk_surface_point> points{{0, {1, 0, 0}}, {7, {0, 1, 0}}, {40, {0, 0, 1}}};
+    std::vector<double> radii{0.5, 0.2, 1};
+    geodisk_neighbour_params params = params_within(0);
+    params.sources = points.data();
+    params.source_count = points.size();
+    params.radii = radii.data();
+    const Lists expected = found(mesh.get(), params);
+    REQUIRE(geodisk_start_neighbours(sampler, mesh.get(), &params, nullptr) == GEODISK_OK);
+    std::fill(points.begin(), points.end(), geodisk_surface_point{});
+    std::fill(radii.begin(), radii.end(), 0);
+    CHECK(geodisk_start_neighbours(sampler, mesh.get(), &params, nullptr) == GEODISK_BUSY);
+    geodisk_samples* samples = nullptr;
+    CHECK(geodisk_poll(sampler, 0, &samples, nullptr) == GEODISK_INVALID_ARGUMENT);
+    geodisk_progress progress{};
+    progress.struct_size = sizeof progress;
+    CHECK(geodisk_sampler_progress(sampler, &progress, nullptr) == GEODISK_OK);
+    CHECK(progress.candidates == 3);
+    geodisk_neighbours* lists = nullptr;
+    while (lists == nullptr) {
+        REQUIRE(geodisk_poll_neighbours(sampler, 10, &lists, nullptr) == GEODISK_OK);
+    }
+    const Lists polled(lists);
+    const geodisk_neighbour_arrays one = arrays_of(expected), other = arrays_of(polled);
+    REQUIRE(one.pair_count == other.pair_count);
+    CHECK(std::equal(one.offsets, one.offsets + 4, other.offsets));
+    CHECK(std::equal(one.indices, one.indices + one.pair_count, other.indices));
+    CHECK(std::equal(one.distances, one.distances + one.pair_count, other.distances));
+    CHECK(geodisk_poll_neighbours(sampler, 0, &lists, nullptr) == GEODISK_INVALID_ARGUMENT);
+
+    params = params_within(0.3);
+    REQUIRE(geodisk_start_neighbours(sampler, mesh.get(), &params, nullptr) == GEODISK_OK);
+    geodisk_cancel(sampler);
+    geodisk_status status = GEODISK_OK;
+    while (status == GEODISK_OK) {
+        status = geodisk_poll_neighbours(sampler, 10, &lists, nullptr);
+    }
+    CHECK(status == GEODISK_CANCELLED);
+    CHECK(found(mesh.get(), params)); // It stays usable.
 }
 
 TEST_CASE("neighbours among points, with distances of their own") {

@@ -1,9 +1,12 @@
 // Runs that do not block.
 #include <doctest/doctest.h>
 
+#include <cmath>
 #include <optional>
 #include <string>
 #include <vector>
+
+#include <geodisk/neighbours.hpp>
 
 #include "watched_bench.hpp"
 
@@ -29,6 +32,39 @@ std::string refusal(const Result<Done>& result) {
     REQUIRE_FALSE(result);
     CHECK(result.error().status == Status::invalid_argument);
     return result.error().message;
+}
+
+/// A search on the mesh of a bench, from all vertices.
+struct Search {
+    explicit Search(const PreparedMesh& of) : mesh(of), sources(expect(vertex_points(of)).points) {
+        query.sources = sources;
+        query.within = std::sqrt(mesh.statistics().area) / 5;
+    }
+
+    void check(const Result<Neighbours>& found) const {
+        REQUIRE_MESSAGE(found, (found ? "" : found.error().message));
+        static Context context = expect(Context::create());
+        Runner runner = expect(Runner::create(context.device(), context.queue()));
+        const Neighbours wanted = expect(find_neighbours(runner, mesh, query));
+        CHECK(found->offsets == wanted.offsets);
+        CHECK(found->indices == wanted.indices);
+        CHECK(found->distances == wanted.distances);
+        CHECK(found->error == wanted.error);
+    }
+
+    const PreparedMesh& mesh;
+    std::vector<Sample> sources;
+    NeighbourQuery query;
+};
+
+/// Polls to the end of a search, and counts the polls.
+Neighbours polled_neighbours(Runner& runner, std::uint32_t& polls) {
+    for (polls = 1;; ++polls) {
+        auto found = expect(poll_neighbours(runner, std::chrono::milliseconds(1)));
+        if (found) {
+            return std::move(*found);
+        }
+    }
 }
 
 } // namespace
@@ -165,6 +201,97 @@ TEST_SUITE("polling") {
         CHECK(asked == 5);
         CHECK(accepted == 0);
         bench.check_run(runner);
+    }
+
+    TEST_CASE("a search for neighbours goes on poll by poll, and finds the same") {
+        Bench bench;
+        Search search(bench.mesh);
+        RunnerOptions options;
+        SUBCASE("within a distance") {}
+        SUBCASE("the nearest ones, however far") {
+            search.query.within = 0;
+            search.query.nearest = 40;
+        }
+        SUBCASE("with memory that grows") {
+            options.plan.slots = 8;
+            options.plan.window_capacity = 2;
+            options.plan.table_capacity = 4;
+            options.device_bytes = 4 << 20;
+        }
+        Runner runner = expect(bench.create(options));
+        for (int turn = 0; turn < 2; ++turn) {
+            std::uint32_t last = 0, told = 0;
+            const auto count = static_cast<std::uint32_t>(search.sources.size());
+            expect(start_neighbours(runner, bench.mesh, search.query, [&](const Progress& now) {
+                CHECK(now.candidates == count);
+                CHECK(now.decided >= last);
+                CHECK(now.decided <= count);
+                last = now.decided;
+                ++told;
+                return true;
+            }));
+            CHECK(runner.fence() != VK_NULL_HANDLE);
+            std::uint32_t polls = 0;
+            search.check(polled_neighbours(runner, polls));
+            CHECK(polls > 1);
+            CHECK(told > 1);
+            CHECK(runner.fence() == VK_NULL_HANDLE);
+        }
+        bench.check_run(runner);
+    }
+
+    TEST_CASE("a search may be cancelled, or go with its runner, at any time") {
+        Bench bench;
+        Search search(bench.mesh);
+        search.query.within = 0;
+        search.query.nearest = 40; // Several jobs.
+        const Domain domain = expect(Domain::surface(bench.mesh, bench.params));
+        for (std::uint32_t polls = 0; polls < 12; ++polls) {
+            CAPTURE(polls);
+            Runner runner = expect(bench.create());
+            expect(start_neighbours(runner, bench.mesh, search.query));
+            for (std::uint32_t i = 0; i < polls; ++i) {
+                if (expect(poll_neighbours(runner, std::chrono::seconds(1)))) {
+                    break;
+                }
+            }
+            runner.cancel();
+            CHECK(runner.fence() == VK_NULL_HANDLE);
+            bench.check_run(runner);
+            search.check(find_neighbours(runner, bench.mesh, search.query));
+            expect(start_neighbours(runner, bench.mesh, search.query));
+        }
+        CHECK(bench.spy.alive().empty());
+    }
+
+    TEST_CASE("searches and runs of a runner exclude each other") {
+        Bench bench;
+        const Search search(bench.mesh);
+        Runner runner = expect(bench.create());
+        const Domain domain = expect(Domain::surface(bench.mesh, bench.params));
+        CHECK(poll_neighbours(runner).error().message == "no run is in progress");
+        expect(runner.start(domain));
+        CHECK(refusal(start_neighbours(runner, bench.mesh, search.query)) ==
+              "a run is in progress");
+        CHECK(poll_neighbours(runner).error().status == Status::invalid_argument);
+        bench.check_set(polled(runner).set);
+        expect(start_neighbours(runner, bench.mesh, search.query));
+        CHECK(refusal(runner.start(domain)) == "a run is in progress");
+        CHECK(runner.poll().error().status == Status::invalid_argument);
+        CHECK_FALSE(find_neighbours(runner, bench.mesh, search.query));
+        std::uint32_t polls = 0;
+        search.check(polled_neighbours(runner, polls));
+        NeighbourQuery none;
+        CHECK(refusal(start_neighbours(runner, bench.mesh, none)) == "there is no source");
+        expect(start_neighbours(runner, bench.mesh, search.query,
+                                [](const Progress&) { return false; }));
+        Result<std::optional<Neighbours>> found = std::optional<Neighbours>();
+        while (found && !*found) {
+            found = poll_neighbours(runner, std::chrono::milliseconds(1));
+        }
+        REQUIRE_FALSE(found);
+        CHECK(found.error().status == Status::cancelled);
+        search.check(find_neighbours(runner, bench.mesh, search.query));
     }
 
     TEST_CASE("one run at a time") {

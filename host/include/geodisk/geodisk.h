@@ -500,7 +500,8 @@ GEODISK_C_API geodisk_status geodisk_start(geodisk_sampler *sampler, const geodi
 GEODISK_C_API geodisk_status geodisk_poll(geodisk_sampler *sampler, uint32_t milliseconds,
                                           geodisk_samples **samples, geodisk_error *error);
 
-/* Writes how far a run begun by geodisk_start is; all 0 if there is none. */
+/* Writes how far a run begun by geodisk_start, or a search begun by geodisk_start_neighbours, is; all
+ * 0 if there is none. */
 GEODISK_C_API geodisk_status geodisk_sampler_progress(geodisk_sampler *sampler,
                                                       geodisk_progress *progress,
                                                       geodisk_error *error);
@@ -621,6 +622,20 @@ GEODISK_C_API geodisk_status geodisk_find_neighbours(geodisk_sampler *sampler,
                                                      const geodisk_mesh *mesh,
                                                      const geodisk_neighbour_params *params,
                                                      geodisk_progress_fn progress, void *user,
+                                                     geodisk_neighbours **neighbours,
+                                                     geodisk_error *error);
+
+/* Begins such a search without waiting, and copies what `params` refers to. Call
+ * geodisk_poll_neighbours until it ends. geodisk_cancel and geodisk_sampler_progress serve it too. */
+GEODISK_C_API geodisk_status geodisk_start_neighbours(geodisk_sampler *sampler,
+                                                      const geodisk_mesh *mesh,
+                                                      const geodisk_neighbour_params *params,
+                                                      geodisk_error *error);
+/* Waits for the latest submission, at most this many milliseconds. Once it has ended, submits the
+ * next one. Writes the neighbours to `neighbours` when all are found, else NULL. A failure ends the
+ * search. */
+GEODISK_C_API geodisk_status geodisk_poll_neighbours(geodisk_sampler *sampler,
+                                                     uint32_t milliseconds,
                                                      geodisk_neighbours **neighbours,
                                                      geodisk_error *error);
 

@@ -1,8 +1,10 @@
 // Neighbours: which points of a surface are near which, and how far it is along the surface.
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -76,6 +78,23 @@ struct Neighbours {
 GEODISK_API Result<Neighbours> find_neighbours(Runner& runner, const PreparedMesh& mesh,
                                                const NeighbourQuery& query,
                                                const ProgressCallback& progress = {}) noexcept;
+
+// Without waiting, as Runner::start() and Runner::poll() sample. Runner::fence(), progress() and
+// cancel() serve both. A runner has one run in progress at a time, whatever its kind.
+
+/// Begins a search. Runner, mesh and all that the query refers to must outlive it; the query itself
+/// is copied. Errors: `invalid_argument` if a run is in progress; those of a query that cannot be;
+/// all others come from poll_neighbours().
+GEODISK_API Result<Done> start_neighbours(Runner& runner, const PreparedMesh& mesh,
+                                          const NeighbourQuery& query,
+                                          const ProgressCallback& progress = {}) noexcept;
+
+/// Waits for the latest submission of a search, at most for `patience`. Once it has ended, takes
+/// what it found and submits the next one. Returns the neighbours when the search is complete, else
+/// nothing. Errors: `invalid_argument` if no search is in progress; otherwise as find_neighbours(),
+/// and the search has then ended.
+GEODISK_API Result<std::optional<Neighbours>>
+poll_neighbours(Runner& runner, std::chrono::milliseconds patience = {}) noexcept;
 
 /// Vertices as points of a surface.
 struct VertexPoints {

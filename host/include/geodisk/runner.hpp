@@ -176,7 +176,7 @@ class GEODISK_API Runner {
     Result<SampleSet> sample_and_wait(const PreparedMesh& mesh, const SampleParams& params,
                                       const ProgressCallback& progress = {}) noexcept;
 
-    // Without waiting, one run at a time. sample_and_wait() is refused meanwhile.
+    // Without waiting, one run or search at a time. sample_and_wait() is refused meanwhile.
 
     /// Begins a run; the domain must outlive it. Errors: `invalid_argument` if one is in progress;
     /// all others come from poll().
@@ -189,9 +189,9 @@ class GEODISK_API Runner {
     /// Returns the fence of the submission in flight, or null. Pass it to vkWaitForFences only, for
     /// example with fences of your own.
     VkFence fence() const noexcept;
-    /// Returns how far the run is.
+    /// Returns how far the run or search is.
     Progress progress() const noexcept;
-    /// Ends the run, if one is in progress, and waits for the submission in flight.
+    /// Ends the run or search, if one is in progress, and waits for the submission in flight.
     void cancel() noexcept;
 
     /// Frees the device memory that is kept for later runs; not while one is in progress. An error

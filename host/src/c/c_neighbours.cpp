@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <chrono>
+#include <memory>
 #include <span>
 #include <string>
 #include <utility>
@@ -71,39 +73,57 @@ Result<NeighbourKind> kind_of(geodisk_neighbour_kind kind) {
     }
 }
 
-Result<geodisk_neighbours*> found(SamplerState& state, const Mesh& mesh,
-                                  const geodisk_neighbour_params& params,
-                                  geodisk_progress_fn progress, void* user) {
+} // namespace
+
+/// A query with all that it refers to, apart from the caller's arrays.
+struct NeighbourSearch {
+    std::shared_ptr<const Mesh> mesh;
+    Sources sources;
+    std::vector<Sample> points;
+    std::vector<double> radii;
+    std::vector<std::uint32_t> joined;
+    NeighbourQuery query;
+};
+
+namespace {
+
+Result<std::shared_ptr<NeighbourSearch>> search_for(const geodisk_mesh& mesh,
+                                                    const geodisk_neighbour_params& params) {
     const auto kind = kind_of(params.kind);
     if (!kind) {
         return kind.error();
     }
-    auto sources = sources_of(mesh, params);
+    auto sources = sources_of(*mesh.shared, params);
     if (!sources) {
         return sources.error();
     }
     if (params.points == nullptr && params.point_count != 0) {
         return wrong("params->points is NULL");
     }
-    const std::vector<Sample> points = samples_of(params.points, params.point_count);
-    NeighbourQuery query;
-    query.sources = sources->points;
-    query.within = params.within;
+    auto search = std::make_shared<NeighbourSearch>();
+    search->mesh = mesh.shared;
+    search->sources = std::move(*sources);
+    search->points = samples_of(params.points, params.point_count);
+    const std::size_t count = search->sources.points.size();
     if (params.radii != nullptr) {
-        query.radii = std::span(params.radii, sources->points.size());
+        search->radii.assign(params.radii, params.radii + count);
     }
+    const auto joined = joined_of(*mesh.shared, params);
+    search->joined.assign(joined.begin(), joined.end());
+    NeighbourQuery& query = search->query;
+    query.sources = search->sources.points;
+    query.within = params.within;
+    query.radii = search->radii;
     query.kind = *kind;
-    query.points = points;
-    query.joined = joined_of(mesh, params);
+    query.points = search->points;
+    query.joined = search->joined;
     query.nearest = params.nearest;
     query.most_pairs = params.most_pairs == 0 ? query.most_pairs : params.most_pairs;
-    auto lists = search(state, progress, user, [&](const ProgressCallback& heard) {
-        return find_neighbours(state.runner, mesh.prepared, query, heard);
-    });
-    if (!lists) {
-        return lists.error();
-    }
-    return new geodisk_neighbours{std::move(*lists), std::move(sources->vertices)};
+    return search;
+}
+
+geodisk_neighbours* handed_over(Neighbours lists, NeighbourSearch& search) {
+    return new geodisk_neighbours{std::move(lists), std::move(search.sources.vertices)};
 }
 
 } // namespace
@@ -126,11 +146,71 @@ geodisk_status geodisk_find_neighbours(geodisk_sampler* sampler, const geodisk_m
         if (!wanted) {
             return wanted.error();
         }
-        const auto made = found(state, *mesh->shared, *wanted, progress, user);
+        const auto made = search_for(*mesh, *wanted);
         if (!made) {
             return made.error();
         }
-        *neighbours = *made;
+        auto lists = search(state, progress, user, [&](const ProgressCallback& heard) {
+            return find_neighbours(state.runner, (*made)->mesh->prepared, (*made)->query, heard);
+        });
+        if (!lists) {
+            return lists.error();
+        }
+        *neighbours = handed_over(std::move(*lists), **made);
+        return Done{};
+    });
+}
+
+geodisk_status geodisk_start_neighbours(geodisk_sampler* sampler, const geodisk_mesh* mesh,
+                                        const geodisk_neighbour_params* params,
+                                        geodisk_error* error) {
+    return with_sampler(sampler, error, [&](SamplerState& state) -> Result<Done> {
+        if (mesh == nullptr) {
+            return wrong("mesh is NULL");
+        }
+        const auto wanted = taken(params, "params");
+        if (!wanted) {
+            return wanted.error();
+        }
+        if (state.is_busy()) {
+            return run_in_progress();
+        }
+        const auto made = search_for(*mesh, *wanted);
+        if (!made) {
+            return made.error();
+        }
+        state.is_cancelled = false;
+        auto started = start_neighbours(state.runner, (*made)->mesh->prepared, (*made)->query,
+                                        state.callback(nullptr, nullptr));
+        if (started) {
+            state.searching = *made;
+        }
+        return started;
+    });
+}
+
+geodisk_status geodisk_poll_neighbours(geodisk_sampler* sampler, uint32_t milliseconds,
+                                       geodisk_neighbours** neighbours, geodisk_error* error) {
+    return with_sampler(sampler, error, [&](SamplerState& state) -> Result<Done> {
+        if (neighbours == nullptr) {
+            return wrong("neighbours is NULL");
+        }
+        if (!state.searching) {
+            return wrong("the sampler has no search for neighbours in progress");
+        }
+        auto polled = poll_neighbours(state.runner, std::chrono::milliseconds(milliseconds));
+        if (polled && !*polled) {
+            *neighbours = nullptr;
+            return Done{};
+        }
+        const auto ended = std::exchange(state.searching, nullptr);
+        if (!polled) {
+            return polled.error();
+        }
+        if (const auto checked = state.device->check_validation(); !checked) {
+            return checked;
+        }
+        *neighbours = handed_over(std::move(**polled), *ended);
         return Done{};
     });
 }

@@ -9,8 +9,7 @@
 namespace geodisk::c {
 
 Error run_in_progress() {
-    return Error{Status::busy,
-                 "the sampler has a run in progress; call geodisk_poll until it ends"};
+    return Error{Status::busy, "the sampler has a run in progress; poll until it ends"};
 }
 
 geodisk_progress progress_of(const Progress& state) {
@@ -87,7 +86,7 @@ geodisk_status geodisk_sample(geodisk_sampler* sampler, const geodisk_domain* do
         if (domain == nullptr || samples == nullptr) {
             return wrong("domain or samples is NULL");
         }
-        if (state.running) {
+        if (state.is_busy()) {
             return run_in_progress();
         }
         state.is_cancelled = false;
@@ -106,7 +105,7 @@ geodisk_status geodisk_start(geodisk_sampler* sampler, const geodisk_domain* dom
         if (domain == nullptr) {
             return wrong("domain is NULL");
         }
-        if (state.running) {
+        if (state.is_busy()) {
             return run_in_progress();
         }
         state.is_cancelled = false;
@@ -145,7 +144,7 @@ geodisk_status geodisk_sampler_progress(geodisk_sampler* sampler, geodisk_progre
                                         geodisk_error* error) {
     return with_sampler(sampler, error, [&](SamplerState& state) {
         return give(progress, "progress",
-                    state.running ? progress_of(state.runner.progress()) : geodisk_progress{});
+                    state.is_busy() ? progress_of(state.runner.progress()) : geodisk_progress{});
     });
 }
 
@@ -157,7 +156,7 @@ void geodisk_cancel(geodisk_sampler* sampler) {
 
 geodisk_status geodisk_sampler_trim(geodisk_sampler* sampler, geodisk_error* error) {
     return with_sampler(sampler, error, [](SamplerState& state) -> Result<Done> {
-        if (state.running) {
+        if (state.is_busy()) {
             return run_in_progress();
         }
         state.runner.release_memory();

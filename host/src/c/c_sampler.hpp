@@ -14,6 +14,8 @@
 
 namespace geodisk::c {
 
+struct NeighbourSearch;
+
 struct SamplerState {
     SamplerState(std::shared_ptr<const Device> on, Runner made)
         : device(std::move(on)), runner(std::move(made)) {}
@@ -24,6 +26,9 @@ struct SamplerState {
     std::atomic<bool> is_cancelled = false;
     std::shared_ptr<const DomainState> running; ///< Domain of the run in progress, if one was
                                                 ///< started.
+    std::shared_ptr<NeighbourSearch> searching; ///< The search in progress, likewise.
+
+    bool is_busy() const { return running || searching; }
 
     /// Returns what tells the caller's function of progress, if there is one, and stops the run
     /// once it is cancelled.
@@ -59,7 +64,7 @@ geodisk_status with_sampler(geodisk_sampler* sampler, geodisk_error* error, cons
 template <class Find>
 auto search(SamplerState& state, geodisk_progress_fn progress, void* user, const Find& find)
     -> decltype(find(ProgressCallback{})) {
-    if (state.running) {
+    if (state.is_busy()) {
         return run_in_progress();
     }
     state.is_cancelled = false;

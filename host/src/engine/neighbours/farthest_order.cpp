@@ -135,7 +135,9 @@ Result<Done> FarthestSearch::search(std::uint32_t first) {
     query.within = is_infinite ? distance_bound(mesh_)
                                : std::max(kMargin * double{distance}, shortest_distance(mesh_));
     const ProgressCallback heard = [this](const Progress& now) { return report(now); };
-    const auto found = search_within(runner_, mesh_, query, progress_ ? heard : nullptr);
+    Runner::Impl& impl = Runner::Impl::of(runner_);
+    const auto found =
+        impl.complete(search_within(impl, mesh_, query), 0, progress_ ? heard : nullptr);
     if (!found) {
         return found.error();
     }

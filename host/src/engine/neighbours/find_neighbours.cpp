@@ -9,6 +9,26 @@
 
 namespace geodisk {
 
+namespace {
+
+/// Runs a checked query.
+Task<Result<Neighbours>> search(Runner::Impl& runner, const PreparedMesh& mesh,
+                                NeighbourQuery query) {
+    auto searched = query.has_distances() ? search_within(runner, mesh, query)
+                                          : search_nearest(runner, mesh, query);
+    auto found = co_await searched;
+    if (found && query.kind == NeighbourKind::vertices && !query.joined.empty()) {
+        name_joined(query.joined, query.nearest, *found);
+    }
+    co_return found;
+}
+
+std::uint32_t count_of(const NeighbourQuery& query) {
+    return static_cast<std::uint32_t>(query.sources.size());
+}
+
+} // namespace
+
 Result<Neighbours> find_neighbours(Runner& runner, const PreparedMesh& mesh,
                                    const NeighbourQuery& query,
                                    const ProgressCallback& progress) noexcept {
@@ -16,13 +36,25 @@ Result<Neighbours> find_neighbours(Runner& runner, const PreparedMesh& mesh,
         if (auto checked = check_query(mesh, query); !checked) {
             return checked.error();
         }
-        auto found = query.has_distances() ? search_within(runner, mesh, query, progress)
-                                           : search_nearest(runner, mesh, query, progress);
-        if (found && query.kind == NeighbourKind::vertices && !query.joined.empty()) {
-            name_joined(query.joined, query.nearest, *found);
-        }
-        return found;
+        Runner::Impl& impl = Runner::Impl::of(runner);
+        return impl.complete(search(impl, mesh, query), count_of(query), progress);
     });
+}
+
+Result<Done> start_neighbours(Runner& runner, const PreparedMesh& mesh, const NeighbourQuery& query,
+                              const ProgressCallback& progress) noexcept {
+    return guarded([&]() -> Result<Done> {
+        if (auto checked = check_query(mesh, query); !checked) {
+            return checked;
+        }
+        Runner::Impl& impl = Runner::Impl::of(runner);
+        return impl.begin(search(impl, mesh, query), count_of(query), progress);
+    });
+}
+
+Result<std::optional<Neighbours>> poll_neighbours(Runner& runner,
+                                                  std::chrono::milliseconds patience) noexcept {
+    return Runner::Impl::of(runner).poll<Neighbours>(patience);
 }
 
 Result<VertexPoints> vertex_points(const PreparedMesh& mesh,

@@ -21,11 +21,12 @@ constexpr double kFactor = 2;
 
 class NearestSearch {
   public:
-    NearestSearch(Runner& runner, const PreparedMesh& mesh, const NeighbourQuery& query,
-                  const ProgressCallback& progress)
-        : runner_(runner), mesh_(mesh), query_(query), progress_(progress) {}
+    NearestSearch(Runner::Impl& runner, const PreparedMesh& mesh, const NeighbourQuery& query)
+        : runner_(runner), mesh_(mesh), query_(query) {}
+    NearestSearch(const NearestSearch&) = delete;
+    NearestSearch& operator=(const NearestSearch&) = delete;
 
-    Result<Neighbours> go();
+    Task<Result<Neighbours>> go();
 
   private:
     /// Tells how many neighbours each source can have, at most as many as wanted.
@@ -33,15 +34,15 @@ class NearestSearch {
     double first_distance() const;
     /// Searches at this distance for those that lack neighbours. If it is the last one, they have
     /// what it finds.
-    Result<Done> search(double within, bool is_last);
+    Task<Result<Done>> search(double within, bool is_last);
     void keep(const Neighbours& found, bool is_last);
     Neighbours all() const;
-    bool report(const Progress& now);
+    /// Returns how far the search is, from the progress of that at one distance.
+    Progress so_far(const Progress& now);
 
-    Runner& runner_;
+    Runner::Impl& runner_;
     const PreparedMesh& mesh_;
     const NeighbourQuery& query_;
-    const ProgressCallback& progress_;
     std::vector<std::uint32_t> wanted_;  ///< Neighbours of each source.
     std::vector<std::uint32_t> pending_; ///< Sources that lack some.
     std::vector<Sample> points_;         ///< Those of the search in work.
@@ -86,15 +87,14 @@ double NearestSearch::first_distance() const {
     return std::max(kFirst * needed, shortest_distance(mesh_));
 }
 
-bool NearestSearch::report(const Progress& now) {
+Progress NearestSearch::so_far(const Progress& now) {
     const auto all = static_cast<std::uint32_t>(query_.sources.size());
     const std::uint32_t done = all - static_cast<std::uint32_t>(pending_.size()) + now.decided;
     told_ = std::max(told_, std::min(done, all));
-    return progress_(
-        {told_, all, now.accepted, report_.disks + now.disks, report_.windows + now.windows});
+    return {told_, all, now.accepted, report_.disks + now.disks, report_.windows + now.windows};
 }
 
-Result<Done> NearestSearch::search(double within, bool is_last) {
+Task<Result<Done>> NearestSearch::search(double within, bool is_last) {
     points_.clear();
     for (const std::uint32_t source : pending_) {
         points_.push_back(query_.sources[source]);
@@ -107,15 +107,16 @@ Result<Done> NearestSearch::search(double within, bool is_last) {
         query.points = query_.sources;
         ++query.nearest;
     }
-    const ProgressCallback heard = [this](const Progress& now) { return report(now); };
-    const auto found = search_within(runner_, mesh_, query, progress_ ? heard : nullptr);
+    const auto searched =
+        search_within(runner_, mesh_, query, [this](const Progress& now) { return so_far(now); });
+    const auto found = co_await searched;
     if (!found) {
-        return found.error();
+        co_return found.error();
     }
     report_.add(found->report);
     error_ = std::max(error_, found->error);
     keep(*found, is_last);
-    return Done{};
+    co_return Done{};
 }
 
 void NearestSearch::keep(const Neighbours& found, bool is_last) {
@@ -156,25 +157,25 @@ Neighbours NearestSearch::all() const {
     return all;
 }
 
-Result<Neighbours> NearestSearch::go() {
+Task<Result<Neighbours>> NearestSearch::go() {
     count_wanted();
     indices_.resize(query_.sources.size());
     distances_.resize(query_.sources.size());
     const double bound = distance_bound(mesh_);
     for (double within = first_distance(); !pending_.empty(); within *= kFactor) {
-        if (auto searched = search(within, within > bound); !searched) {
-            return searched.error();
+        if (auto searched = co_await search(within, within > bound); !searched) {
+            co_return searched.error();
         }
     }
-    return all();
+    co_return all();
 }
 
 } // namespace
 
-Result<Neighbours> search_nearest(Runner& runner, const PreparedMesh& mesh,
-                                  const NeighbourQuery& query, const ProgressCallback& progress) {
-    NearestSearch search(runner, mesh, query, progress);
-    return search.go();
+Task<Result<Neighbours>> search_nearest(Runner::Impl& runner, const PreparedMesh& mesh,
+                                        const NeighbourQuery& query) {
+    NearestSearch search(runner, mesh, query);
+    co_return co_await search.go();
 }
 
 } // namespace geodisk

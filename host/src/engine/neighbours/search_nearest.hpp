@@ -3,11 +3,15 @@
 
 #include <geodisk/neighbours.hpp>
 
+#include "engine/run/runner_impl.hpp"
+#include "engine/run/task.hpp"
+
 namespace geodisk {
 
 /// Implements find_neighbours() for a checked query without distances, but for joined vertices: by
-/// disks of ever larger radius, until each source has as many as it can have.
-Result<Neighbours> search_nearest(Runner& runner, const PreparedMesh& mesh,
-                                  const NeighbourQuery& query, const ProgressCallback& progress);
+/// disks of ever larger radius, until each source has as many as it can have. Runner, mesh and
+/// query must outlive it.
+Task<Result<Neighbours>> search_nearest(Runner::Impl& runner, const PreparedMesh& mesh,
+                                        const NeighbourQuery& query);
 
 } // namespace geodisk

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <geodisk/job_frame.hpp>
@@ -12,8 +13,7 @@
 #include "engine/domain/surface_domain.hpp"
 #include "engine/domain/tolerances.hpp"
 #include "engine/neighbours/neighbour_lists.hpp"
-#include "engine/run/record_disks.hpp"
-#include "engine/run/runner_impl.hpp"
+#include "engine/run/run.hpp"
 #include "support/invalid.hpp"
 #include "support/number_text.hpp"
 
@@ -58,33 +58,34 @@ std::vector<ListedCandidate> targets_of(const NeighbourQuery& query) {
 
 class Search {
   public:
-    Search(Runner& runner, const PreparedMesh& mesh, const NeighbourQuery& query,
-           const SampleParams& params, const JobFrame& frame, const ProgressCallback& progress)
-        : runner_(runner), impl_(Runner::Impl::of(runner)), mesh_(mesh), query_(query),
-          params_(params), frame_(frame), progress_(progress), targets_(targets_of(query)),
-          lists_(query, frame.unit, impl_.options.threads) {}
+    Search(Runner::Impl& runner, const PreparedMesh& mesh, const NeighbourQuery& query,
+           const SampleParams& params, const JobFrame& frame)
+        : runner_(runner), mesh_(mesh), query_(query), params_(params), frame_(frame),
+          targets_(targets_of(query)), lists_(query, frame.unit, runner.options.threads) {}
+    Search(const Search&) = delete;
+    Search& operator=(const Search&) = delete;
 
-    Result<Neighbours> go();
+    Task<Result<Neighbours>> go(WholeProgress whole);
 
   private:
     /// Returns the records to provide for a source at first.
     double first_guess() const;
     /// Finds those of up to so many sources. Returns false if there are more records than room.
-    Result<bool> find(std::size_t sources, std::uint32_t room);
+    Task<Result<bool>> find(std::size_t sources, std::uint32_t room);
     Result<Done> check_pairs() const;
-    bool report(const Progress& now) const;
+    /// Returns how far the search is, from the progress of the job at hand.
+    Progress so_far(const Progress& now);
 
-    Runner& runner_;
-    Runner::Impl& impl_;
+    Runner::Impl& runner_;
     const PreparedMesh& mesh_;
     const NeighbourQuery& query_;
     const SampleParams& params_;
     const JobFrame& frame_;
-    const ProgressCallback& progress_;
     std::vector<ListedCandidate> targets_;
     NeighbourLists lists_;
     RunReport report_;
-    std::size_t done_ = 0; ///< Sources.
+    std::size_t done_ = 0;   ///< Sources.
+    std::uint32_t told_ = 0; ///< Of them, at most.
     double records_per_source_ = 0;
 };
 
@@ -94,16 +95,16 @@ double Search::first_guess() const {
     return kPathsPerTarget * all * std::min(1.0, part) + kMoreRecords;
 }
 
-bool Search::report(const Progress& now) const {
+Progress Search::so_far(const Progress& now) {
     const auto all = static_cast<std::uint32_t>(query_.sources.size());
     const auto sources = static_cast<std::uint32_t>(done_) + now.disks;
+    told_ = std::max(told_, std::min(sources, all)); // A job may begin again.
     const std::uint64_t pairs = lists_.pairs();
-    return !progress_ || progress_({std::min(sources, all), all,
-                                    static_cast<std::uint32_t>(std::min<std::uint64_t>(pairs, ~0u)),
-                                    report_.disks + now.disks, report_.windows + now.windows});
+    return {told_, all, static_cast<std::uint32_t>(std::min<std::uint64_t>(pairs, ~0u)),
+            report_.disks + now.disks, report_.windows + now.windows};
 }
 
-Result<bool> Search::find(std::size_t sources, std::uint32_t room) {
+Task<Result<bool>> Search::find(std::size_t sources, std::uint32_t room) {
     SampleParams params = params_;
     std::vector<KeepOut> disks;
     if (query_.radii.empty()) {
@@ -118,27 +119,26 @@ Result<bool> Search::find(std::size_t sources, std::uint32_t room) {
     const auto domain =
         SurfaceDomain::recording(mesh_, params, frame_, Ending::reach, targets_, room);
     if (!domain) {
-        return domain.error();
+        co_return domain.error();
     }
     DiskRecords records;
-    const auto heard = [this](const Progress& now) { return report(now); };
-    const auto recorded = record_disks(runner_, *domain, records, heard);
+    const auto recorded = co_await run_job(runner_, *domain, &records);
     if (!recorded) {
-        return recorded.error();
+        co_return recorded.error();
     }
-    report_.add(*recorded);
-    report_.plan.trims |= recorded->plan.trims;
+    report_.add(recorded->report);
+    report_.plan.trims |= recorded->report.plan.trims;
     records_per_source_ =
         std::max(records_per_source_, records.wanted / static_cast<double>(sources));
     if (records.wanted > records.hits.size()) {
-        return false;
+        co_return false;
     }
     const auto& of = static_cast<const SurfaceDomain&>(Domain::Impl::of(*domain));
-    const double start = impl_.now();
+    const double start = runner_.now();
     lists_.add(sources, records.hits,
                targets_.empty() ? std::span<const std::uint32_t>() : of.target_numbers());
-    report_.seconds.readback += impl_.now() - start;
-    return true;
+    report_.seconds.readback += runner_.now() - start;
+    co_return true;
 }
 
 Result<Done> Search::check_pairs() const {
@@ -158,10 +158,13 @@ Result<Done> Search::check_pairs() const {
     return Done{};
 }
 
-Result<Neighbours> Search::go() {
+Task<Result<Neighbours>> Search::go(WholeProgress whole) {
+    runner_.as_whole = [this, whole = std::move(whole)](const Progress& now) {
+        return whole ? whole(so_far(now)) : so_far(now);
+    };
     records_per_source_ = first_guess();
     const double most =
-        std::clamp(impl_.record_bytes() / sizeof(gpu::HitRec), kLeastRecords, kMostRecords);
+        std::clamp(runner_.record_bytes() / sizeof(gpu::HitRec), kLeastRecords, kMostRecords);
     while (done_ < query_.sources.size()) {
         const auto left = static_cast<double>(query_.sources.size() - done_);
         // The first ones tell how many records a source has.
@@ -172,14 +175,14 @@ Result<Neighbours> Search::go() {
         const double room = std::clamp(wanted * sources + kLeastRecords, kLeastRecords,
                                        std::max(most, wanted) + kLeastRecords);
         const auto found =
-            find(static_cast<std::size_t>(sources), static_cast<std::uint32_t>(room));
+            co_await find(static_cast<std::size_t>(sources), static_cast<std::uint32_t>(room));
         if (!found) {
-            return found.error();
+            co_return found.error();
         }
         if (*found) {
             done_ += static_cast<std::size_t>(sources);
             if (auto checked = check_pairs(); !checked) {
-                return checked.error();
+                co_return checked.error();
             }
         }
     }
@@ -187,7 +190,7 @@ Result<Neighbours> Search::go() {
     neighbours.error =
         ErrorModel(frame_).error_of(report_.longest_chain, report_.plan.trims) * frame_.unit;
     neighbours.report = report_;
-    return neighbours;
+    co_return neighbours;
 }
 
 } // namespace
@@ -196,22 +199,22 @@ double shortest_distance(const PreparedMesh& mesh) {
     return 2 * mesh.statistics().longest_edge / kLongestEdge;
 }
 
-Result<Neighbours> search_within(Runner& runner, const PreparedMesh& mesh,
-                                 const NeighbourQuery& query, const ProgressCallback& progress) {
+Task<Result<Neighbours>> search_within(Runner::Impl& runner, const PreparedMesh& mesh,
+                                       const NeighbourQuery& query, WholeProgress whole) {
     SampleParams params;
     params.min_distance =
         query.radii.empty() ? query.within : *std::ranges::max_element(query.radii);
     if (auto checked = check_edges(mesh, params.min_distance); !checked) {
-        return checked.error();
+        co_return checked.error();
     }
     params.throws = 1; // A pool might be too large, and none is drawn.
     const auto frame = frame_of(mesh, params);
     params.throws = 0;
     if (!frame) {
-        return frame.error();
+        co_return frame.error();
     }
-    Search search(runner, mesh, query, params, *frame, progress);
-    return search.go();
+    Search search(runner, mesh, query, params, *frame);
+    co_return co_await search.go(std::move(whole));
 }
 
 } // namespace geodisk

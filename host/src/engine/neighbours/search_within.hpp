@@ -3,13 +3,18 @@
 
 #include <geodisk/neighbours.hpp>
 
+#include "engine/run/runner_impl.hpp"
+#include "engine/run/task.hpp"
+
 namespace geodisk {
 
 /// Returns a distance that is large enough for all edges of the mesh.
 double shortest_distance(const PreparedMesh& mesh);
 
 /// Implements find_neighbours() for a checked query with distances, but for joined vertices.
-Result<Neighbours> search_within(Runner& runner, const PreparedMesh& mesh,
-                                 const NeighbourQuery& query, const ProgressCallback& progress);
+/// Runner, mesh and query must outlive it. `whole`, if not empty, returns the progress of what the
+/// search is a part of.
+Task<Result<Neighbours>> search_within(Runner::Impl& runner, const PreparedMesh& mesh,
+                                       const NeighbourQuery& query, WholeProgress whole = {});
 
 } // namespace geodisk

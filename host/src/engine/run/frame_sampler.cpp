@@ -259,7 +259,7 @@ Result<Done> FrameSampler::sample_and_wait(Runner& runner,
                                            const ProgressCallback& progress) noexcept {
     return guarded([&]() -> Result<Done> {
         Runner::Impl& with = Runner::Impl::of(runner);
-        if (with.run) {
+        if (with.work) {
             return invalid("a run of the runner is in progress");
         }
         while (!impl_->is_complete) {

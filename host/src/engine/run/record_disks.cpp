@@ -1,30 +1,14 @@
 #include "engine/run/record_disks.hpp"
 
-#include <chrono>
-
 #include "engine/run/runner_impl.hpp"
 
 namespace geodisk {
-namespace {
-
-constexpr std::chrono::milliseconds kPatience(50);
-
-} // namespace
 
 Result<RunReport> record_disks(Runner& runner, const Domain& domain, DiskRecords& records,
                                const ProgressCallback& progress) {
-    if (auto begun = Runner::Impl::of(runner).begin(domain, &records, progress); !begun) {
-        return begun.error();
-    }
-    for (;;) {
-        const auto ended = runner.poll(kPatience);
-        if (!ended) {
-            return ended.error();
-        }
-        if (*ended) {
-            return (*ended)->report;
-        }
-    }
+    Runner::Impl& impl = Runner::Impl::of(runner);
+    const auto ended = impl.complete(run_job(impl, domain, &records), 0, progress);
+    return ended ? Result<RunReport>(ended->report) : Result<RunReport>(ended.error());
 }
 
 } // namespace geodisk

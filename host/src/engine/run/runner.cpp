@@ -24,8 +24,6 @@ constexpr double kCpuStallSeconds = 600;
 // Part of the memory that a run may take, and of a binding, for records of disks.
 constexpr double kRecordsOfMemory = 0.2;
 constexpr double kRecordsOfBinding = 0.5;
-// Length of one wait for the end of a submission.
-constexpr std::chrono::milliseconds kPatience(50);
 
 Result<VkQueueFamilyProperties>
 check_queue(const InstanceTable& vk, VkPhysicalDevice physical_device, const QueueRef& queue) {
@@ -61,6 +59,11 @@ Result<Done> check_seconds(const RunnerOptions& options) {
     return checked ? check("stall_seconds", options.stall_seconds) : checked;
 }
 
+/// Returns the candidates of a run, as far as they are known.
+std::uint32_t candidates_of(const Domain& domain) {
+    return static_cast<std::uint32_t>(Domain::Impl::of(domain).stages.candidates());
+}
+
 } // namespace
 
 Runner::Impl::Impl(std::shared_ptr<const Sampler> s)
@@ -81,26 +84,13 @@ std::chrono::duration<double> Runner::Impl::stall_limit() const {
                                                                    : kStallSeconds);
 }
 
-Result<Done> Runner::Impl::begin(const Domain& domain, DiskRecords* records,
-                                 const ProgressCallback& callback) {
-    if (run) {
-        return Error{Status::invalid_argument, "a run is in progress"};
-    }
-    progress = {};
-    progress.candidates = static_cast<std::uint32_t>(Domain::Impl::of(domain).stages.candidates());
-    on_progress = callback;
-    run.emplace(records == nullptr ? geodisk::run(*this, domain) : run_job(*this, domain, records));
-    run->resume();
-    return Done{};
-}
-
 Runner::Runner(std::unique_ptr<Impl> impl) noexcept : impl_(std::move(impl)) {}
 Runner::Runner(Runner&&) noexcept = default;
 Runner& Runner::operator=(Runner&&) noexcept = default;
 Runner::~Runner() = default;
 
 void Runner::release_memory() noexcept {
-    if (!impl_->run) {
+    if (!impl_->work) {
         impl_->release();
     }
 }
@@ -158,9 +148,10 @@ Result<Done> Runner::Impl::submit_timed(const std::function<void(VkCommandBuffer
 }
 
 void Runner::Impl::cancel() noexcept {
-    if (run) {
+    if (work) {
         submitter->give_up();
-        run.reset();
+        work.reset();
+        as_whole = nullptr;
     }
 }
 
@@ -233,19 +224,8 @@ Result<Runner> Runner::create(std::shared_ptr<const Sampler> sampler, const Queu
 
 Result<SampleSet> Runner::sample_and_wait(const Domain& domain,
                                           const ProgressCallback& progress) noexcept {
-    return guarded([&]() -> Result<SampleSet> {
-        if (auto started = start(domain, progress); !started) {
-            return started.error();
-        }
-        for (;;) {
-            auto ended = poll(kPatience);
-            if (!ended) {
-                return ended.error();
-            }
-            if (*ended) {
-                return std::move(**ended);
-            }
-        }
+    return guarded([&] {
+        return impl_->complete(geodisk::run(*impl_, domain), candidates_of(domain), progress);
     });
 }
 
@@ -261,38 +241,13 @@ Result<SampleSet> Runner::sample_and_wait(const PreparedMesh& mesh, const Sample
 }
 
 Result<Done> Runner::start(const Domain& domain, const ProgressCallback& progress) noexcept {
-    return guarded([&] { return impl_->begin(domain, nullptr, progress); });
+    return guarded([&] {
+        return impl_->begin(geodisk::run(*impl_, domain), candidates_of(domain), progress);
+    });
 }
 
 Result<std::optional<SampleSet>> Runner::poll(std::chrono::milliseconds patience) noexcept {
-    auto polled = guarded([&]() -> Result<std::optional<SampleSet>> {
-        if (!impl_->run) {
-            return Error{Status::invalid_argument, "no run is in progress"};
-        }
-        Submitter& submitter = *impl_->submitter;
-        const bool goes_on = submitter.is_awaited() && submitter.is_over(std::max(patience, {}));
-        if (goes_on) {
-            submitter.resume();
-        }
-        std::optional<SampleSet> set;
-        if (impl_->run->is_done()) {
-            auto ended = impl_->run->take();
-            if (!ended) {
-                return ended.error();
-            }
-            set = std::move(*ended);
-        }
-        if (goes_on && impl_->on_progress && !impl_->on_progress(impl_->progress)) {
-            impl_->cancel();
-            impl_->release(); // Also if the run had ended.
-            return Error{Status::cancelled, "cancelled"};
-        }
-        return set;
-    });
-    if (!polled || *polled) {
-        impl_->cancel();
-    }
-    return polled;
+    return impl_->poll<SampleSet>(patience);
 }
 
 void Runner::cancel() noexcept {

@@ -1,6 +1,7 @@
 // Runner::Impl, shared by the files that implement it.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cstddef>
@@ -9,7 +10,7 @@
 #include <map>
 #include <memory>
 #include <optional>
-#include <vector>
+#include <utility>
 
 #include <geodisk/runner.hpp>
 
@@ -20,11 +21,26 @@
 #include "engine/run/submitter.hpp"
 #include "engine/run/task.hpp"
 #include "records.h"
+#include "support/guard.hpp"
 #include "vk/buffer.hpp"
 
 namespace geodisk {
 
-struct DiskRecords;
+/// Returns the progress of a run of several jobs, from that of the one at hand.
+using WholeProgress = std::function<Progress(const Progress&)>;
+
+/// What a runner has in progress.
+struct Work {
+    Work() = default;
+    Work(const Work&) = delete;
+    Work& operator=(const Work&) = delete;
+    virtual ~Work() = default;
+};
+template <class T>
+struct WorkOn final : Work {
+    explicit WorkOn(Task<Result<T>> made) : task(std::move(made)) {}
+    Task<Result<T>> task;
+};
 
 struct Runner::Impl {
     std::shared_ptr<const Sampler> shared_sampler;
@@ -43,10 +59,10 @@ struct Runner::Impl {
     };
     std::array<KeptJob, kDomainKinds> jobs; ///< Indexed by index_of(DomainKind).
     std::map<KernelVariant, Paces> paces;
-    // The run in progress.
-    std::optional<Task<Result<SampleSet>>> run;
+    std::unique_ptr<Work> work; ///< The run in progress: one job, or several.
     Progress progress{};
     ProgressCallback on_progress;
+    WholeProgress as_whole; ///< Set by a run of several jobs.
 
     /// Clock in seconds; tests may replace it.
     std::function<double()> now;
@@ -89,9 +105,19 @@ struct Runner::Impl {
     const Sampler::Impl& engine() const { return *sampler.impl_; }
     /// Submits recordings of a job, as Submitter::submit; StageClock::collect returns their times.
     Result<Done> submit_timed(const std::function<void(VkCommandBuffer)>& record);
-    /// Begins a run, as Runner::start(). `records` as for run_job().
-    Result<Done> begin(const Domain& domain, DiskRecords* records,
-                       const ProgressCallback& progress);
+    /// Begins a run, as Runner::start(), of so many candidates.
+    template <class T>
+    Result<Done> begin(Task<Result<T>> task, std::uint32_t candidates,
+                       const ProgressCallback& callback);
+    /// Goes on with the run in progress, as Runner::poll(). It must be one for a T.
+    template <class T>
+    Result<std::optional<T>> poll(std::chrono::milliseconds patience) noexcept;
+    /// Begins a run and waits for its end.
+    template <class T>
+    Result<T> complete(Task<Result<T>> task, std::uint32_t candidates,
+                       const ProgressCallback& callback);
+    /// Notes how far the job at hand is.
+    void note(const Progress& of_job) { progress = as_whole ? as_whole(of_job) : of_job; }
     /// Ends the run in progress.
     void cancel() noexcept;
     bool is_cpu() const { return engine().report.type == VK_PHYSICAL_DEVICE_TYPE_CPU; }
@@ -108,5 +134,76 @@ struct Runner::Impl {
     /// Compares the self_test kernel with the host's arithmetic, bit by bit.
     Result<Done> check_rounding();
 };
+
+template <class T>
+Result<Done> Runner::Impl::begin(Task<Result<T>> task, std::uint32_t candidates,
+                                 const ProgressCallback& callback) {
+    if (work) {
+        return Error{Status::invalid_argument, "a run is in progress"};
+    }
+    progress = {};
+    progress.candidates = candidates;
+    on_progress = callback;
+    as_whole = nullptr;
+    auto begun = std::make_unique<WorkOn<T>>(std::move(task));
+    const Task<Result<T>>& own = begun->task;
+    work = std::move(begun);
+    own.resume();
+    return Done{};
+}
+
+template <class T>
+Result<std::optional<T>> Runner::Impl::poll(std::chrono::milliseconds patience) noexcept {
+    auto* const own = dynamic_cast<WorkOn<T>*>(work.get());
+    if (own == nullptr) {
+        return guarded([&]() -> Result<std::optional<T>> {
+            return Error{Status::invalid_argument,
+                         work ? "the run in progress is another: it was started for something else"
+                              : "no run is in progress"};
+        });
+    }
+    auto polled = guarded([&]() -> Result<std::optional<T>> {
+        const bool goes_on = submitter->is_awaited() && submitter->is_over(std::max(patience, {}));
+        if (goes_on) {
+            submitter->resume();
+        }
+        std::optional<T> result;
+        if (own->task.is_done()) {
+            auto ended = own->task.take();
+            if (!ended) {
+                return ended.error();
+            }
+            result = std::move(*ended);
+        }
+        if (goes_on && on_progress && !on_progress(progress)) {
+            cancel();
+            release(); // Also if the run had ended.
+            return Error{Status::cancelled, "cancelled"};
+        }
+        return result;
+    });
+    if (!polled || *polled) {
+        cancel();
+    }
+    return polled;
+}
+
+template <class T>
+Result<T> Runner::Impl::complete(Task<Result<T>> task, std::uint32_t candidates,
+                                 const ProgressCallback& callback) {
+    constexpr std::chrono::milliseconds kPatience(50);
+    if (auto begun = begin(std::move(task), candidates, callback); !begun) {
+        return begun.error();
+    }
+    for (;;) {
+        auto ended = poll<T>(kPatience);
+        if (!ended) {
+            return ended.error();
+        }
+        if (*ended) {
+            return std::move(**ended);
+        }
+    }
+}
 
 } // namespace geodisk

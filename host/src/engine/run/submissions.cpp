@@ -57,7 +57,7 @@ Result<double> Submissions::took(Result<Done> end) {
     if (control_.abi != gpu::kAbi && job().begun.is_at_start()) {
         return Error{Status::internal, "the device did not write its control record"};
     }
-    runner_.progress = how_far();
+    runner_.note(how_far());
     return runner_.now() - submitted_;
 }
 
