@@ -72,6 +72,14 @@ std::optional<std::size_t> PlyElement::find_list(std::string_view wanted) const 
     return find_property(*this, wanted, true);
 }
 
+std::size_t size_of(PlyType type) {
+    return info_of(type).size;
+}
+
+double value_of(PlyType type, const char* bytes, bool is_little_endian) {
+    return info_of(type).value(bytes, is_little_endian);
+}
+
 PlyFile::PlyFile(const Path& path, ReadingProgress progress)
     : PlyFile(path, read_text(path), std::move(progress)) {}
 

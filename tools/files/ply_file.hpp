@@ -36,6 +36,11 @@ struct PlyElement {
     std::optional<std::size_t> find_list(std::string_view name) const;
 };
 
+/// Returns the bytes of a value in binary files.
+std::size_t size_of(PlyType type);
+/// Returns the value of such bytes.
+double value_of(PlyType type, const char* bytes, bool is_little_endian);
+
 /// The values of one record, by property index. A double holds every PLY value exactly.
 struct PlyRecord {
     std::vector<double> scalars;            ///< 0 for lists.
@@ -57,6 +62,11 @@ class PlyFile {
     const Path& path() const noexcept { return path_; }
     const std::vector<PlyElement>& elements() const noexcept { return elements_; }
     const std::vector<std::string>& comments() const noexcept { return comments_; }
+
+    bool is_binary() const noexcept { return format_ != Format::ascii; }
+    bool is_little_endian() const noexcept { return format_ == Format::little_endian; }
+    /// Returns the number of bytes before the next record.
+    std::size_t position() const noexcept { return position_; }
 
     /// Throws UserError(bad_input) if another element has its name.
     void check_unique(const PlyElement& element) const;

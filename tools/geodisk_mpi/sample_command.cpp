@@ -6,6 +6,7 @@
 #include "geodisk/commands/commands.hpp"
 #include "geodisk/commands/help_text.hpp"
 #include "program/failure.hpp"
+#include "ranged_sample.hpp"
 #include "session.hpp"
 
 namespace geodisk::tools {
@@ -51,7 +52,9 @@ void add_shared_sample_command(Command app, Session& session) {
     command.calls([options, &session] {
         check_shared(*options);
         if (session.is_first()) {
-            sample_to_files(*options, {}, &session);
+            if (!sample_ranges_to_files(*options, session)) {
+                sample_to_files(*options, {}, &session);
+            }
         } else {
             const SampleJob job = parse_job(*options);
             session.help(&job);

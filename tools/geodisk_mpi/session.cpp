@@ -1,5 +1,7 @@
 #include "session.hpp"
 
+#include <algorithm>
+#include <cstring>
 #include <optional>
 #include <utility>
 
@@ -7,7 +9,9 @@
 
 #include "cut_surface.hpp"
 #include "geodisk/sample_run.hpp"
+#include "parts/ranges/talk.hpp"
 #include "parts/sample_parts.hpp"
+#include "ply_range.hpp"
 #include "program/command_text.hpp"
 #include "program/failure.hpp"
 #include "program/interrupt.hpp"
@@ -19,6 +23,11 @@ Bytes to_bytes(const std::string& text) {
     const auto bytes = std::as_bytes(std::span(text));
     return {bytes.begin(), bytes.end()};
 }
+
+struct FaceCorners {
+    std::uint32_t face;
+    double corners[9];
+};
 
 Error unlike(std::size_t process) {
     return Error{Status::invalid_argument,
@@ -42,6 +51,70 @@ Result<Done> open(RunDevice& device, ProgressLine& progress) {
     }
 }
 
+/// Returns what the first process says.
+template <class Record>
+Result<Record> all_hear(Exchange& exchange, const Record& of_first) {
+    Bytes word(sizeof of_first);
+    std::memcpy(word.data(), &of_first, sizeof of_first);
+    const auto heard = exchange.scatter(std::vector<Bytes>(exchange.size(), word));
+    if (!heard) {
+        return heard.error();
+    }
+    Record record = of_first;
+    std::memcpy(&record, heard->data(), sizeof record);
+    return record;
+}
+
+/// A job on a surface that is read in ranges.
+struct RangedJob {
+    double min_distance, pool_ratio;
+    std::uint64_t seed;
+    std::uint32_t throws, stop_count;
+
+    explicit RangedJob(const SampleParams& params)
+        : min_distance(params.min_distance), pool_ratio(params.pool_ratio), seed(params.seed),
+          throws(params.throws), stop_count(params.stop_count) {}
+    SampleParams params() const {
+        SampleParams params;
+        params.min_distance = min_distance;
+        params.pool_ratio = pool_ratio;
+        params.seed = seed;
+        params.throws = throws;
+        params.stop_count = stop_count;
+        return params;
+    }
+};
+
+/// Reads a range, and makes a surface of those of all processes.
+Result<RangedSurface> read_surface(Exchange& exchange, const Path& path) {
+    auto range = read_ply_range(exchange, path);
+    return range ? RangedSurface::create(exchange, std::move(*range)) : range.error();
+}
+
+/// The corners of own faces among some, at the first process those of all.
+std::vector<FaceCorners> corners_of(Exchange& exchange, const RangedSurface& surface,
+                                    std::span<const std::uint32_t> wanted) {
+    std::vector<std::uint32_t> own;
+    for (const WholeFace& face : surface.faces()) {
+        if (std::ranges::binary_search(wanted, face.face)) {
+            own.push_back(face.face);
+        }
+    }
+    const std::vector<double> corners = take(surface.corners(exchange, own));
+    ByProcess<FaceCorners> told(exchange.size());
+    for (std::size_t i = 0; i < own.size(); ++i) {
+        FaceCorners& one = told[0].emplace_back();
+        one.face = own[i];
+        std::copy_n(&corners[9 * i], 9, one.corners);
+    }
+    std::vector<FaceCorners> all;
+    for (const auto& some : Talk(exchange).swap(std::move(told))) {
+        all.insert(all.end(), some.begin(), some.end());
+    }
+    std::ranges::sort(all, {}, &FaceCorners::face);
+    return all;
+}
+
 } // namespace
 
 Session::Session()
@@ -49,14 +122,13 @@ Session::Session()
 
 Session::~Session() {
     if (is_first() && !is_interrupted()) {
-        is_more(false);
+        next(Task::nothing);
     }
 }
 
-bool Session::is_more(bool first_has_more) {
-    const Bytes word(1, static_cast<std::byte>(first_has_more ? 1 : 0));
-    const auto heard = exchange_->scatter(std::vector<Bytes>(exchange_->size(), word));
-    return heard && heard->front() == std::byte{1};
+Session::Task Session::next(Task of_first) {
+    const auto heard = all_hear(*exchange_, of_first);
+    return heard ? *heard : Task::nothing;
 }
 
 void Session::check_arguments(const std::vector<std::string>& arguments) {
@@ -71,15 +143,53 @@ void Session::check_arguments(const std::vector<std::string>& arguments) {
     take(exchange_->check_all(error ? &*error : nullptr));
 }
 
+std::optional<std::string> Session::read_ranges(const Path& path) {
+    next(Task::read);
+    auto surface = read_surface(*exchange_, path);
+    if (surface) {
+        surface_ = std::move(*surface);
+        return std::nullopt;
+    }
+    const Error& error = surface.error();
+    if (error.status == Status::mesh_rejected) {
+        return error.message;
+    }
+    if (error.status == Status::invalid_argument) {
+        fail_input(path, error.message);
+    }
+    check_interrupted();
+    take(std::move(surface));
+    return std::nullopt;
+}
+
+std::vector<double> Session::corners(const std::vector<std::uint32_t>& faces) {
+    next(Task::corners);
+    const auto bytes = std::as_bytes(std::span(faces));
+    take(exchange_->scatter(
+        std::vector<Bytes>(exchange_->size(), Bytes(bytes.begin(), bytes.end()))));
+    std::vector<double> corners;
+    for (const FaceCorners& one : corners_of(*exchange_, *surface_, faces)) {
+        corners.insert(corners.end(), one.corners, one.corners + 9);
+    }
+    return corners;
+}
+
 Result<SampleSet> Session::sample(Runner& runner, const SurfaceTask& surface,
                                   const ProgressCallback& progress) {
-    is_more(true);
+    next(surface_ ? Task::sample_ranges : Task::sample_whole);
     if (auto well = exchange_->check_all(nullptr); !well) {
         return well.error();
     }
-    const Cut cut = cut_surface;
-    const WholeSurface whole{*surface.mesh, surface.params, cut};
-    auto result = sample_parts(*exchange_, runner, &whole, progress);
+    Result<PartsResult> result = PartsResult();
+    if (surface_) {
+        const auto job = all_hear(*exchange_, RangedJob(surface.params));
+        result = job ? sample_ranges(*exchange_, runner, *surface_, job->params(), progress)
+                     : Result<PartsResult>(job.error());
+    } else {
+        const Cut cut = cut_surface;
+        const WholeSurface whole{*surface.mesh, surface.params, cut};
+        result = sample_parts(*exchange_, runner, &whole, progress);
+    }
     if (!result) {
         return result.error();
     }
@@ -87,22 +197,49 @@ Result<SampleSet> Session::sample(Runner& runner, const SurfaceTask& surface,
     return std::move(result->set);
 }
 
+void Session::help_to_read(const Path& path) {
+    surface_.reset();
+    if (auto surface = read_surface(*exchange_, path)) {
+        surface_ = std::move(*surface);
+    }
+}
+
+void Session::help_to_sample(RunDevice* device, bool has_ranges) {
+    ProgressLine quiet(true);
+    const Error no_job{Status::internal, "its arguments are none"};
+    const auto opened = device != nullptr ? open(*device, quiet) : Result<Done>(no_job);
+    if (!exchange_->check_all(opened ? nullptr : &opened.error())) {
+        return; // The first process tells of errors.
+    }
+    const ProgressCallback goes_on = [](const Progress&) { return !is_interrupted(); };
+    if (!has_ranges) {
+        surface_.reset();
+        (void)sample_parts(*exchange_, device->runner(), nullptr, goes_on);
+    } else if (const auto job = all_hear(*exchange_, RangedJob(SampleParams()))) {
+        (void)sample_ranges(*exchange_, device->runner(), *surface_, job->params(), goes_on);
+    }
+}
+
 void Session::help(const SampleJob* job) {
     if (has_ended_) {
         return;
     }
-    ProgressLine quiet(true);
     std::optional<RunDevice> device;
     if (job != nullptr) {
         device = device_for(*job);
     }
-    const Error no_job{Status::internal, "its arguments are none"};
-    while (is_more(false)) {
-        const auto opened = device ? open(*device, quiet) : Result<Done>(no_job);
-        if (exchange_->check_all(opened ? nullptr : &opened.error())) {
-            // The first process tells of errors.
-            (void)sample_parts(*exchange_, device->runner(), nullptr,
-                               [](const Progress&) { return !is_interrupted(); });
+    for (Task task = next(Task::nothing); task != Task::nothing; task = next(Task::nothing)) {
+        switch (task) {
+        case Task::read:
+            help_to_read(job != nullptr ? Path(job->mesh.mesh) : Path());
+            break;
+        case Task::corners:
+            if (const auto faces = exchange_->scatter({})) {
+                (void)corners_of(*exchange_, *surface_, Talk::records_of<std::uint32_t>(*faces));
+            }
+            break;
+        default:
+            help_to_sample(device ? &*device : nullptr, task == Task::sample_ranges);
         }
     }
     has_ended_ = true;

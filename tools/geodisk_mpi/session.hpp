@@ -1,13 +1,17 @@
 // The processes of a run: the first one reads, asks the others for help, and writes.
 #pragma once
 
+#include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "geodisk/device_run.hpp"
 #include "geodisk/options/sample_options.hpp"
 #include "mpi_exchange.hpp"
+#include "parts/ranges/ranged_surface.hpp"
+#include "program/path.hpp"
 
 namespace geodisk::tools {
 
@@ -26,7 +30,20 @@ class Session : public SurfaceSampler {
     /// Throws UserError(usage) on all processes unless all have the same program and arguments.
     void check_arguments(const std::vector<std::string>& arguments);
 
-    /// Samples by all processes, on the first one.
+    // On the first process.
+
+    /// Reads a mesh file by all processes, each a range of it; from then on sample() samples that
+    /// surface. Returns the reason if the first process has to read the whole. Throws
+    /// UserError(bad_input) if the file changes meanwhile.
+    std::optional<std::string> read_ranges(const Path& path);
+    /// Returns the surface that was read in ranges, or null.
+    const RangedSurface* ranges() const { return surface_ ? &*surface_ : nullptr; }
+    /// Frees it.
+    void forget_ranges() { surface_.reset(); }
+    /// Returns the corners of its faces, in ascending order: nine coordinates each.
+    std::vector<double> corners(const std::vector<std::uint32_t>& faces);
+
+    /// Samples by all processes.
     Result<SampleSet> sample(Runner& runner, const SurfaceTask& surface,
                              const ProgressCallback& progress) override;
     const std::vector<ProcessReport>& processes() const override { return processes_; }
@@ -36,10 +53,16 @@ class Session : public SurfaceSampler {
     void help(const SampleJob* job);
 
   private:
-    /// Tells the others whether there is more to do, or hears of it.
-    bool is_more(bool first_has_more);
+    /// What the others are to do.
+    enum class Task : std::uint8_t { nothing, read, sample_whole, sample_ranges, corners };
+
+    /// Tells the others what to do, or hears of it.
+    Task next(Task of_first);
+    void help_to_read(const Path& path);
+    void help_to_sample(RunDevice* device, bool has_ranges);
 
     std::unique_ptr<MpiExchange> exchange_;
+    std::optional<RangedSurface> surface_;
     std::vector<ProcessReport> processes_;
     bool has_ended_ = false;
 };

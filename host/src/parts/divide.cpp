@@ -28,6 +28,10 @@ Result<Done> check_params(const SampleParams& params) {
     return params.maximal ? Result<Done>(no("maximal set")) : Result<Done>(Done{});
 }
 
+double margin_of(const JobFrame& frame) {
+    return std::max(kLeastMargin, 2 * ErrorModel(frame).guard_for(frame.error_bound));
+}
+
 std::uint32_t stages_at_once(const Stages& stages, double most_candidates) {
     const double most = std::max(1.0, most_candidates / stages.expected(0));
     return static_cast<std::uint32_t>(std::min<double>(stages.most_at_once(), most));
@@ -38,23 +42,13 @@ class Division {
   public:
     Division(const PreparedMesh& mesh, const SampleParams& params, const JobFrame& frame,
              std::span<const std::uint32_t> owners, std::uint32_t processes, double most_candidates)
-        : mesh_(mesh), params_(params), owners_(owners), parts_(processes) {
-        const double margin =
-            std::max(kLeastMargin, 2 * ErrorModel(frame).guard_for(frame.error_bound));
-        for (Part& part : parts_) {
-            part.frame = frame;
-            part.reach = params.min_distance * (1 + margin);
-            part.seed = params.seed;
-            part.pool_ratio = params.pool_ratio;
-            part.throws = params.throws;
-            part.stop_count = params.stop_count;
-            part.all_given = static_cast<std::uint32_t>(params.given.size());
-            part.most_stages = stages_at_once(stages_in(frame, mesh, params), most_candidates);
-            part.has_keys = !params.face_keys.empty();
+        : mesh_(mesh), params_(params), owners_(owners) {
+        for (std::uint32_t process = 0; process < processes; ++process) {
+            parts_.push_back(part_for(mesh, params, frame, most_candidates));
         }
         widest_ = parts_.front().reach;
         for (const KeepOut& avoided : params.avoid) {
-            widest_ = std::max(widest_, avoided.radius * (1 + margin));
+            widest_ = std::max(widest_, avoided.radius * (1 + margin_of(frame)));
         }
     }
 
@@ -149,6 +143,21 @@ class Division {
 };
 
 } // namespace
+
+Part part_for(const PreparedMesh& whole, const SampleParams& params, const JobFrame& frame,
+              double most_candidates) {
+    Part part;
+    part.frame = frame;
+    part.reach = params.min_distance * (1 + margin_of(frame));
+    part.seed = params.seed;
+    part.pool_ratio = params.pool_ratio;
+    part.throws = params.throws;
+    part.stop_count = params.stop_count;
+    part.all_given = static_cast<std::uint32_t>(params.given.size());
+    part.most_stages = stages_at_once(stages_in(frame, whole, params), most_candidates);
+    part.has_keys = !params.face_keys.empty();
+    return part;
+}
 
 Result<std::vector<Bytes>> divide(const PreparedMesh& mesh, const SampleParams& params,
                                   std::span<const std::uint32_t> owners, std::uint32_t processes,

@@ -57,6 +57,17 @@ Result<std::vector<Bytes>> Exchange::gather(Bytes message) {
     return received;
 }
 
+Result<std::vector<Bytes>> Exchange::all_to_all(std::vector<Bytes> messages) {
+    const auto here = static_cast<std::ptrdiff_t>(rank());
+    Bytes own = std::move(messages[rank()]);
+    messages.erase(messages.begin() + here);
+    auto received = swap(all_others(), messages);
+    if (received) {
+        received->insert(received->begin() + here, std::move(own));
+    }
+    return received;
+}
+
 Result<Done> Exchange::check_all(const Error* error) {
     const auto failed = sum(error != nullptr ? 1 : 0);
     if (!failed) {

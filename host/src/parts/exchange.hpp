@@ -38,6 +38,8 @@ class GEODISK_API Exchange {
     Result<Bytes> scatter(std::vector<Bytes> messages);
     /// Returns the messages of all processes at the root, nothing elsewhere.
     Result<std::vector<Bytes>> gather(Bytes message);
+    /// Sends a message to each process, also to this one, and returns what each of them sent.
+    Result<std::vector<Bytes>> all_to_all(std::vector<Bytes> messages);
     /// Ends the work of all if that of one failed: returns its error, which names the process.
     /// `error` is null where the work went well.
     Result<Done> check_all(const Error* error);

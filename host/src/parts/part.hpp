@@ -61,9 +61,13 @@ struct Part {
     CandidateDraw draw() const;
 };
 
+/// Returns a part of a mesh without any faces yet, for a job in such a frame. At most so many
+/// candidates are expected to be drawn at a time, of all processes, unless one stage has more.
+Part part_for(const PreparedMesh& whole, const SampleParams& params, const JobFrame& frame,
+              double most_candidates);
+
 /// Returns the parts of all processes as messages, in their order. `owners` has the process of each
-/// face. At most so many candidates are expected to be drawn at a time, of all processes, unless
-/// one stage has more. Errors: `invalid_argument` for parameters that many processes do not take,
+/// face; see part_for(). Errors: `invalid_argument` for parameters that many processes do not take,
 /// and for more processes than faces; those of frame_of().
 Result<std::vector<Bytes>> divide(const PreparedMesh& mesh, const SampleParams& params,
                                   std::span<const std::uint32_t> owners, std::uint32_t processes,

@@ -105,25 +105,13 @@ Result<std::uint64_t> candidates_up_to(Exchange& exchange, const PartRun& run,
     return exchange.sum(run.own_up_to(end.stage, end.priority));
 }
 
-} // namespace
-
-Result<PartsResult> sample_parts(Exchange& exchange, Runner& runner, const WholeSurface* whole,
-                                 const ProgressCallback& progress) {
-    Result<std::vector<Bytes>> parts = std::vector<Bytes>();
-    if (whole != nullptr) {
-        parts = parts_of(*whole, exchange.size());
-    }
-    if (auto well = exchange.check_all(error_of(parts)); !well) {
-        return well.error();
-    }
-    auto message = exchange.scatter(std::move(*parts));
-    if (!message) {
-        return message.error();
-    }
-    const auto part = part_of(*message);
+/// Samples the parts of all processes. `params` are those of the whole, null on all but the first
+/// process.
+Result<PartsResult> sample_all(Exchange& exchange, Runner& runner,
+                               const Result<std::unique_ptr<Part>>& part, std::uint64_t part_bytes,
+                               const SampleParams* params, const ProgressCallback& progress) {
     Summary summary;
-    summary.process.part_bytes = message->size();
-    *message = {};
+    summary.process.part_bytes = part_bytes;
     std::optional<PartRun> run;
     const auto begun = guarded([&]() -> Result<Done> {
         if (!part) {
@@ -163,8 +151,8 @@ Result<PartsResult> sample_parts(Exchange& exchange, Runner& runner, const Whole
     }
     PartsResult result;
     Darts darts;
-    if (whole != nullptr) {
-        result = put_together(whole->params, *all, darts);
+    if (params != nullptr) {
+        result = put_together(*params, *all, darts);
     }
     std::uint64_t candidates = stages->candidates;
     if (stages->is_stopped) {
@@ -177,6 +165,40 @@ Result<PartsResult> sample_parts(Exchange& exchange, Runner& runner, const Whole
     }
     result.set.report.candidates = static_cast<std::uint32_t>(candidates);
     return result;
+}
+
+} // namespace
+
+Result<PartsResult> sample_parts(Exchange& exchange, Runner& runner, const WholeSurface* whole,
+                                 const ProgressCallback& progress) {
+    Result<std::vector<Bytes>> parts = std::vector<Bytes>();
+    if (whole != nullptr) {
+        parts = parts_of(*whole, exchange.size());
+    }
+    if (auto well = exchange.check_all(error_of(parts)); !well) {
+        return well.error();
+    }
+    auto message = exchange.scatter(std::move(*parts));
+    if (!message) {
+        return message.error();
+    }
+    const auto part = part_of(*message);
+    const std::uint64_t bytes = message->size();
+    *message = {};
+    return sample_all(exchange, runner, part, bytes, whole != nullptr ? &whole->params : nullptr,
+                      progress);
+}
+
+Result<PartsResult> sample_ranges(Exchange& exchange, Runner& runner, const RangedSurface& surface,
+                                  const SampleParams& params, const ProgressCallback& progress,
+                                  double most_candidates) {
+    const auto frame = surface.frame(params);
+    if (!frame) {
+        return frame.error();
+    }
+    const auto part = surface.part(exchange, params, *frame, most_candidates);
+    return sample_all(exchange, runner, part, 0, exchange.rank() == 0 ? &params : nullptr,
+                      progress);
 }
 
 } // namespace geodisk

@@ -12,6 +12,7 @@
 #include <geodisk/status.hpp>
 
 #include "parts/exchange.hpp"
+#include "parts/ranges/ranged_surface.hpp"
 
 namespace geodisk {
 
@@ -19,13 +20,15 @@ namespace geodisk {
 using Cut = std::function<Result<std::vector<std::uint32_t>>(
     const PreparedMesh& mesh, const SampleParams& params, std::uint32_t processes)>;
 
+/// Candidates that all processes draw at a time, about; a stage at least.
+inline constexpr double kMostAtOnce = 0x1p26;
+
 /// A surface to sample, of the first process alone.
 struct WholeSurface {
     const PreparedMesh& mesh;
     const SampleParams& params;
     const Cut& cut;
-    /// Candidates that all processes draw at a time, about; a stage at least.
-    double most_candidates = 0x1p26;
+    double most_candidates = kMostAtOnce;
 };
 
 /// What came of it, at the first process alone.
@@ -41,5 +44,14 @@ struct PartsResult {
 GEODISK_API Result<PartsResult> sample_parts(Exchange& exchange, Runner& runner,
                                              const WholeSurface* whole,
                                              const ProgressCallback& progress = {});
+
+/// Samples a surface that no process holds whole; all call it with the same parameters, of seed,
+/// distance and candidates alone. Errors, the same on all: `mesh_rejected` for a job that needs the
+/// whole; those of sample_parts(). Throws std::bad_alloc.
+GEODISK_API Result<PartsResult> sample_ranges(Exchange& exchange, Runner& runner,
+                                              const RangedSurface& surface,
+                                              const SampleParams& params,
+                                              const ProgressCallback& progress = {},
+                                              double most_candidates = kMostAtOnce);
 
 } // namespace geodisk

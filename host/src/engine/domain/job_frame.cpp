@@ -35,7 +35,8 @@ Result<JobFrame> frame_of(const PreparedMesh& mesh, const SampleParams& params) 
         frame.longest_edge = statistics.longest_edge / frame.unit;
         frame.radii_vary = params.radii != nullptr;
         // No disk covers more than all faces.
-        frame.nearest_first = 2.0 * mesh.face_count() / std::max(2.0, full) >= kHeapFaces;
+        frame.nearest_first =
+            2.0 * static_cast<double>(statistics.triangles) / std::max(2.0, full) >= kHeapFaces;
         frame.splits_once = statistics.nonmanifold_edges == 0;
         frame.straight_faces = statistics.diagonal > 0;
         frame.error_bound = ErrorModel(frame).error_of(guessed_chain(mesh, params.min_distance));

@@ -74,7 +74,7 @@ Tolerances ErrorModel::tolerances(double error_bound) const noexcept {
 
 // A straight path crosses about the square root of the faces of a disk, which are 2 F / N.
 std::uint32_t guessed_chain(const PreparedMesh& mesh, double min_distance) {
-    const double faces = 2.0 * mesh.face_count() /
+    const double faces = 2.0 * static_cast<double>(mesh.statistics().triangles) /
                          std::max(1.0, expected_count(mesh.statistics().area, min_distance));
     return static_cast<std::uint32_t>(
         std::clamp(8 + 4 * std::sqrt(faces), kLeastChain, kMostChain));

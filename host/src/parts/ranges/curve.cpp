@@ -1,0 +1,186 @@
+#include "parts/ranges/curve.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <numeric>
+#include <utility>
+
+namespace geodisk {
+namespace {
+
+constexpr std::uint32_t kBits = 21; ///< Of each axis.
+constexpr std::uint32_t kPlaceBits = 3 * kBits + 32;
+
+/// Returns the place of a cell along a Hilbert curve (Skilling 2004).
+std::uint64_t hilbert_place(std::array<std::uint32_t, 3> cell) {
+    for (std::uint32_t bit = 1u << (kBits - 1); bit > 1; bit >>= 1) {
+        const std::uint32_t below = bit - 1;
+        for (std::uint32_t& axis : cell) {
+            if ((axis & bit) != 0) {
+                cell[0] ^= below;
+            } else {
+                const std::uint32_t swapped = (cell[0] ^ axis) & below;
+                cell[0] ^= swapped;
+                axis ^= swapped;
+            }
+        }
+    }
+    cell[1] ^= cell[0];
+    cell[2] ^= cell[1];
+    std::uint32_t gray = 0;
+    for (std::uint32_t bit = 1u << (kBits - 1); bit > 1; bit >>= 1) {
+        if ((cell[2] & bit) != 0) {
+            gray ^= bit - 1;
+        }
+    }
+    std::uint64_t place = 0;
+    for (std::uint32_t bit = kBits; bit-- > 0;) {
+        for (const std::uint32_t axis : cell) {
+            place = place << 1 | ((axis ^ gray) >> bit & 1u);
+        }
+    }
+    return place;
+}
+
+/// Place of a face in the order of the curve. No two faces have the same.
+struct Place {
+    std::uint64_t on_curve = 0;
+    std::uint32_t face = 0; ///< In the whole.
+
+    auto operator<=>(const Place&) const = default;
+
+    /// Returns the place with a bit set, of kPlaceBits.
+    Place with(std::uint32_t bit) const {
+        Place place = *this;
+        if (bit < 32) {
+            place.face |= std::uint32_t{1} << bit;
+        } else {
+            place.on_curve |= std::uint64_t{1} << (bit - 32);
+        }
+        return place;
+    }
+};
+
+/// The faces of one process in order, and their work.
+struct Sorted {
+    std::vector<Place> places;
+    std::vector<std::uint64_t> work; ///< Of all faces before, one more than faces.
+
+    std::size_t before(const Place& place) const {
+        return static_cast<std::size_t>(std::ranges::lower_bound(places, place) - places.begin());
+    }
+};
+
+/// What lies before a place, of all processes.
+struct Before {
+    std::uint64_t faces = 0, work = 0;
+};
+
+std::vector<Before> before_all(Talk& talk, const Sorted& own, const std::vector<Place>& ends) {
+    std::vector<Before> counts;
+    for (const Place& end : ends) {
+        const std::size_t faces = own.before(end);
+        counts.push_back({faces, own.work[faces]});
+    }
+    std::vector<Before> all(ends.size());
+    for (const auto& some : talk.swap(ByProcess<Before>(talk.size(), counts))) {
+        for (std::size_t i = 0; i < some.size(); ++i) {
+            all[i].faces += some[i].faces;
+            all[i].work += some[i].work;
+        }
+    }
+    return all;
+}
+
+/// Returns for each part but the last the highest place before which no more lies than `is_within`
+/// allows, by the part's number.
+template <class Within>
+std::vector<Place> find_ends(Talk& talk, const Sorted& own, const Within& is_within) {
+    std::vector<Place> ends(talk.size() - 1);
+    for (std::uint32_t bit = kPlaceBits; bit-- > 0;) {
+        std::vector<Place> tried;
+        for (const Place& end : ends) {
+            tried.push_back(end.with(bit));
+        }
+        const std::vector<Before> before = before_all(talk, own, tried);
+        for (std::size_t i = 0; i < ends.size(); ++i) {
+            ends[i] = is_within(i, before[i]) ? tried[i] : ends[i];
+        }
+    }
+    return ends;
+}
+
+/// Returns the ends of all parts but the last: a part has the faces before its end.
+std::vector<Place> ends_of_parts(Talk& talk, const Sorted& own, std::uint64_t faces) {
+    const std::uint64_t parts = talk.size();
+    const std::uint64_t work = talk.sum(own.work.back());
+    std::vector<Place> ends = find_ends(talk, own, [&](std::size_t part, const Before& before) {
+        return before.work <= work / parts * (part + 1);
+    });
+    // Each part has a face, also where a few have all the work.
+    const std::vector<Before> before = before_all(talk, own, ends);
+    std::vector<std::uint64_t> counts;
+    for (std::size_t part = 0; part < ends.size(); ++part) {
+        const std::uint64_t least = counts.empty() ? 1 : counts.back() + 1;
+        counts.push_back(std::clamp(before[part].faces, least, faces - (parts - part - 1)));
+    }
+    return find_ends(talk, own, [&](std::size_t part, const Before& some) {
+        return some.faces <= counts[part];
+    });
+}
+
+/// Returns the work of a face, in integers, which add up alike in any order.
+std::uint64_t work_of(double area, const MeshStatistics& whole) {
+    constexpr double kUnit = 0x1p16;
+    const double by_area = area / whole.area * static_cast<double>(whole.triangles);
+    return static_cast<std::uint64_t>(kUnit * (1 + by_area));
+}
+
+Place place_of(const MeshRange& range, const RangeFaces& faces, const RangeFindings& findings,
+               std::uint32_t first, std::size_t face) {
+    std::array<std::uint32_t, 3> cell{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        double sum = 0;
+        for (std::size_t k = 0; k < 3; ++k) {
+            sum += faces.positions[std::size_t{3} * faces.numbers.of(range.triangles[3 * face + k]) +
+                                   axis];
+        }
+        const double size = findings.high[axis] - findings.low[axis];
+        const double part = size > 0 ? (sum / 3 - findings.low[axis]) / size : 0;
+        const double cells = double{1u << kBits};
+        cell[axis] = static_cast<std::uint32_t>(std::clamp(part * cells, 0.0, cells - 1));
+    }
+    return {hilbert_place(cell), first + static_cast<std::uint32_t>(face)};
+}
+
+} // namespace
+
+std::vector<std::uint32_t> divide_by_curve(Talk& talk, const MeshRange& range,
+                                           const RangeFaces& faces, const RangeFindings& findings) {
+    const std::size_t count = faces.areas.size();
+    const auto first = static_cast<std::uint32_t>(range.faces.first(talk.rank()));
+    Sorted own;
+    for (std::size_t face = 0; face < count; ++face) {
+        own.places.push_back(place_of(range, faces, findings, first, face));
+    }
+    std::sort(own.places.begin(), own.places.end());
+    own.work.assign(1, 0);
+    for (const Place& place : own.places) {
+        own.work.push_back(own.work.back() +
+                           work_of(faces.areas[place.face - first], findings.statistics));
+    }
+    std::vector<std::uint32_t> owners(count);
+    const std::vector<Place> ends = ends_of_parts(talk, own, range.faces.count);
+    std::uint32_t part = 0;
+    for (const Place& place : own.places) {
+        while (part < ends.size() && !(place < ends[part])) {
+            ++part;
+        }
+        owners[place.face - first] = part;
+    }
+    return owners;
+}
+
+} // namespace geodisk

@@ -1,0 +1,33 @@
+// MeshRange: the share of a mesh file that one process reads.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+namespace geodisk {
+
+/// Numbers 0 to `count` in blocks of equal size, one for each process. The last may be smaller, or
+/// empty.
+struct Blocks {
+    std::uint64_t count = 0;
+    std::uint32_t processes = 1;
+
+    std::uint64_t each() const {
+        return std::max<std::uint64_t>(1, (count + processes - 1) / processes);
+    }
+    std::uint64_t first(std::uint32_t process) const { return std::min(count, each() * process); }
+    std::uint64_t size(std::uint32_t process) const { return first(process + 1) - first(process); }
+    std::uint32_t owner(std::uint64_t number) const {
+        return static_cast<std::uint32_t>(number / each());
+    }
+};
+
+/// The faces and the vertices of one process's blocks.
+struct MeshRange {
+    Blocks faces, vertices;               ///< Of the whole mesh.
+    std::vector<std::uint32_t> triangles; ///< Three vertices of the whole per face.
+    std::vector<double> positions;        ///< Three coordinates per vertex.
+};
+
+} // namespace geodisk

@@ -1,0 +1,256 @@
+#include "parts/ranges/ranged_halo.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <unordered_map>
+#include <unordered_set>
+#include <utility>
+
+#include "mesh/connectivity.hpp"
+#include "mesh/mesh_pieces.hpp"
+#include "parts/halo.hpp"
+#include "parts/ranges/homes.hpp"
+#include "parts/ranges/vertex_numbers.hpp"
+
+namespace geodisk {
+namespace {
+
+VertexNumbers numbers_of(std::span<const WholeFace> faces) {
+    std::vector<std::uint32_t> vertices;
+    vertices.reserve(3 * faces.size());
+    for (const WholeFace& face : faces) {
+        vertices.insert(vertices.end(), face.corners, face.corners + 3);
+    }
+    return VertexNumbers(std::move(vertices));
+}
+
+/// Own faces at each vertex.
+class FacesAtVertices {
+  public:
+    explicit FacesAtVertices(std::span<const WholeFace> faces)
+        : numbers_(numbers_of(faces)), starts_(numbers_.size() + 1, 0), faces_(3 * faces.size()) {
+        for_corners(faces, [&](std::uint32_t vertex, std::uint32_t) { ++starts_[vertex + 1]; });
+        for (std::size_t vertex = 1; vertex < starts_.size(); ++vertex) {
+            starts_[vertex] += starts_[vertex - 1];
+        }
+        std::vector<std::uint32_t> next(starts_.begin(), starts_.end() - 1);
+        for_corners(faces, [&](std::uint32_t vertex, std::uint32_t face) {
+            faces_[next[vertex]++] = face;
+        });
+    }
+
+    /// Returns the faces that take part, by their place among own ones.
+    std::span<const std::uint32_t> at(std::uint32_t vertex) const {
+        const std::uint32_t number = numbers_.of(vertex);
+        return std::span(faces_).subspan(starts_[number], starts_[number + 1] - starts_[number]);
+    }
+
+  private:
+    template <class Visit>
+    void for_corners(std::span<const WholeFace> faces, const Visit& visit) const {
+        for (std::uint32_t i = 0; i < faces.size(); ++i) {
+            const auto& corners = faces[i].corners;
+            if (takes_part({corners[0], corners[1], corners[2]})) {
+                for (const std::uint32_t vertex : corners) {
+                    visit(numbers_.of(vertex), i);
+                }
+            }
+        }
+    }
+
+    VertexNumbers numbers_;
+    std::vector<std::uint32_t> starts_, faces_;
+};
+
+/// A halo that grows.
+class Halo {
+  public:
+    Halo(Talk& talk, const KnownSurface& known, double reach)
+        : talk_(talk), known_(known), reach_(reach), own_(known.faces) {
+        const auto& shared = known.directory.shared();
+        const std::unordered_set<std::uint32_t> is_shared(shared.begin(), shared.end());
+        for (const WholeFace& face : known.faces) {
+            if (std::ranges::any_of(face.corners,
+                                    [&](std::uint32_t v) { return is_shared.contains(v); })) {
+                rim_.push_back(face);
+            }
+        }
+        for (const WholeFace& face : rim_) {
+            for (const std::uint32_t vertex : face.corners) {
+                // All faces at other own vertices are own ones.
+                ways_[vertex] = {0, !is_shared.contains(vertex)};
+            }
+        }
+    }
+
+    /// Adds rings until ways along edges are longer than the reach. Returns true if there was one.
+    bool grow() {
+        bool has_grown = false;
+        for (;;) {
+            std::vector<std::uint32_t> open;
+            for (auto& [vertex, way] : ways_) {
+                if (!way.is_complete && way.length <= reach_) {
+                    open.push_back(vertex);
+                    way.is_complete = true;
+                }
+            }
+            if (talk_.sum(open.size()) == 0) {
+                return has_grown;
+            }
+            has_grown = true;
+            std::sort(open.begin(), open.end());
+            add_ring(open);
+        }
+    }
+
+    /// Shortens ways to lower bounds on distances.
+    void measure() {
+        std::vector<WholeFace> faces = rim_;
+        for (const HaloFace& one : faces_) {
+            faces.push_back(one.face);
+        }
+        std::ranges::sort(faces, {}, &WholeFace::face);
+        const PreparedMesh mesh = piece_of(talk_, known_, faces);
+        std::vector<std::uint8_t> is_own(faces.size());
+        for (std::size_t i = 0; i < faces.size(); ++i) {
+            is_own[i] = seen_.contains(faces[i].face) ? 0 : 1;
+        }
+        const std::vector<double> distances = distances_from(mesh, is_own, reach_);
+        const VertexNumbers numbers = numbers_of(faces);
+        for (std::size_t i = 0; i < numbers.size(); ++i) {
+            ways_[numbers.vertices()[i]].length = distances[i];
+        }
+    }
+
+    std::vector<HaloFace> take() {
+        for (HaloFace& one : faces_) {
+            const auto length = [&](std::uint32_t v) { return ways_[v].length; };
+            const auto& [a, b, c] = one.face.corners;
+            one.distance = std::min({length(a), length(b), length(c)});
+        }
+        std::erase_if(faces_, [&](const HaloFace& one) { return one.distance > reach_; });
+        std::ranges::sort(faces_, {}, [](const HaloFace& one) { return one.face.face; });
+        return std::move(faces_);
+    }
+
+  private:
+    /// Length of a way from own faces, and whether all faces at its end are known.
+    struct Way {
+        double length = HUGE_VAL;
+        bool is_complete = false;
+    };
+
+    /// Asks for the faces at open vertices.
+    void add_ring(const std::vector<std::uint32_t>& open) {
+        const auto asked = talk_.swap(by_home(known_.vertices, open));
+        ByProcess<std::uint32_t> told(talk_.size());
+        for (std::uint32_t other = 0; other < talk_.size(); ++other) {
+            for (const std::uint32_t vertex : asked[other]) {
+                const auto holders = known_.directory.holders(vertex);
+                told[other].push_back(static_cast<std::uint32_t>(holders.size()));
+                told[other].insert(told[other].end(), holders.begin(), holders.end());
+            }
+        }
+        ByProcess<std::uint32_t> wanted(talk_.size());
+        auto vertex = open.begin();
+        for (const auto& heard : talk_.swap(std::move(told))) {
+            for (std::size_t at = 0; at < heard.size(); at += 1 + heard[at]) {
+                for (const std::uint32_t holder : std::span(heard).subspan(at + 1, heard[at])) {
+                    if (holder != talk_.rank()) {
+                        wanted[holder].push_back(*vertex);
+                    }
+                }
+                ++vertex;
+            }
+        }
+        const auto faces = talk_.swap(faces_at(talk_.swap(std::move(wanted))));
+        const std::size_t before = faces_.size();
+        for (std::uint32_t owner = 0; owner < talk_.size(); ++owner) {
+            for (const WholeFace& face : faces[owner]) {
+                if (seen_.insert(face.face).second) {
+                    faces_.push_back({face, owner, 0});
+                }
+            }
+        }
+        follow_edges(before);
+    }
+
+    /// Returns the own faces at vertices that others ask for.
+    ByProcess<WholeFace> faces_at(const ByProcess<std::uint32_t>& vertices) const {
+        ByProcess<WholeFace> faces(vertices.size());
+        for (std::size_t other = 0; other < vertices.size(); ++other) {
+            std::vector<std::uint32_t> some;
+            for (const std::uint32_t vertex : vertices[other]) {
+                const auto more = own_.at(vertex);
+                some.insert(some.end(), more.begin(), more.end());
+            }
+            std::sort(some.begin(), some.end());
+            some.erase(std::unique(some.begin(), some.end()), some.end());
+            for (const std::uint32_t i : some) {
+                faces[other].push_back(known_.faces[i]);
+            }
+        }
+        return faces;
+    }
+
+    /// Goes along the edges of the newest faces.
+    void follow_edges(std::size_t first) {
+        std::vector<WholeFace> newest;
+        for (const HaloFace& one : std::span(faces_).subspan(first)) {
+            newest.push_back(one.face);
+        }
+        const VertexNumbers numbers = numbers_of(newest);
+        const std::vector<double> positions =
+            fetch_positions(talk_, known_.vertices, known_.positions, numbers.vertices());
+        for (const WholeFace& face : newest) {
+            for (const std::uint32_t from : face.corners) {
+                for (const std::uint32_t to : face.corners) {
+                    const double* const a = &positions[std::size_t{3} * numbers.of(from)];
+                    const double* const b = &positions[std::size_t{3} * numbers.of(to)];
+                    const double length =
+                        std::hypot(b[0] - a[0], b[1] - a[1], b[2] - a[2]) + ways_[from].length;
+                    Way& way = ways_[to];
+                    way.length = std::min(way.length, length);
+                }
+            }
+        }
+    }
+
+    Talk& talk_;
+    const KnownSurface& known_;
+    double reach_;
+    FacesAtVertices own_;
+    std::vector<WholeFace> rim_; ///< Own faces at vertices that are shared.
+    std::unordered_map<std::uint32_t, Way> ways_;
+    std::unordered_set<std::uint32_t> seen_; ///< Faces of the halo.
+    std::vector<HaloFace> faces_;
+};
+
+} // namespace
+
+PreparedMesh piece_of(Talk& talk, const KnownSurface& known, std::span<const WholeFace> faces) {
+    const VertexNumbers numbers = numbers_of(faces);
+    const std::vector<double> positions =
+        fetch_positions(talk, known.vertices, known.positions, numbers.vertices());
+    std::vector<std::uint32_t> triangles;
+    triangles.reserve(3 * faces.size());
+    for (const WholeFace& face : faces) {
+        for (const std::uint32_t vertex : face.corners) {
+            triangles.push_back(numbers.of(vertex));
+        }
+    }
+    return MeshPieces::piece(MeshView{positions, triangles, 3}, known.statistics);
+}
+
+// Every path out of a piece leaves it at a vertex, or between two, whose faces are not all known.
+// Where the lower bounds there are beyond the reach, so is all that is outside.
+std::vector<HaloFace> find_halo(Talk& talk, const KnownSurface& known, double reach) {
+    Halo halo(talk, known, reach);
+    while (halo.grow()) {
+        halo.measure();
+    }
+    return halo.take();
+}
+
+} // namespace geodisk

@@ -1,0 +1,39 @@
+// The halo of a part of a surface that no process holds whole.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <geodisk/mesh.hpp>
+
+#include "parts/ranges/directory.hpp"
+#include "parts/ranges/mesh_range.hpp"
+#include "parts/ranges/talk.hpp"
+
+namespace geodisk {
+
+/// A face near own faces.
+struct HaloFace {
+    WholeFace face;
+    std::uint32_t owner;
+    double distance; ///< Lower bound on its geodesic distance from own faces.
+};
+
+/// What a process knows of the surface.
+struct KnownSurface {
+    const Blocks& vertices;
+    std::span<const double> positions;
+    std::span<const WholeFace> faces;
+    const Directory& directory;
+    const MeshStatistics& statistics;
+};
+
+/// Returns all faces of other processes within `reach` of own ones, and perhaps some beyond, in
+/// ascending order. All processes call it.
+std::vector<HaloFace> find_halo(Talk& talk, const KnownSurface& known, double reach);
+
+/// Returns the mesh of faces, in ascending order. All processes call it, perhaps with none.
+PreparedMesh piece_of(Talk& talk, const KnownSurface& known, std::span<const WholeFace> faces);
+
+} // namespace geodisk

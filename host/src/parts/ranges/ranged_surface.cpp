@@ -1,0 +1,177 @@
+#include "parts/ranges/ranged_surface.hpp"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "engine/domain/stages.hpp"
+#include "mesh/mesh_pieces.hpp"
+#include "parts/ranges/curve.hpp"
+#include "parts/ranges/examine.hpp"
+#include "parts/ranges/homes.hpp"
+#include "parts/ranges/ranged_halo.hpp"
+#include "parts/ranges/talk.hpp"
+
+namespace geodisk {
+namespace {
+
+/// Sends the faces of a range to their owners. Returns own ones, ascending.
+std::vector<WholeFace> own_faces_of(Talk& talk, const MeshRange& range,
+                                    const std::vector<std::uint32_t>& owners) {
+    const std::uint64_t turns = turns_for(range.faces.each() * sizeof(WholeFace));
+    const std::uint64_t first = range.faces.first(talk.rank());
+    std::vector<WholeFace> own;
+    for (std::uint64_t turn = 0; turn < turns; ++turn) {
+        ByProcess<WholeFace> sent(talk.size());
+        const std::size_t end = owners.size() * (turn + 1) / turns;
+        for (std::size_t face = owners.size() * turn / turns; face < end; ++face) {
+            const std::uint32_t* const corners = &range.triangles[3 * face];
+            sent[owners[face]].push_back({static_cast<std::uint32_t>(first + face),
+                                          {corners[0], corners[1], corners[2]}});
+        }
+        for (const auto& some : talk.swap(std::move(sent))) {
+            own.insert(own.end(), some.begin(), some.end());
+        }
+    }
+    own.shrink_to_fit();
+    std::ranges::sort(own, {}, &WholeFace::face);
+    return own;
+}
+
+Error needs_whole(std::string why) {
+    return Error{Status::mesh_rejected, std::move(why)};
+}
+
+std::uint32_t place_in(const std::vector<std::uint32_t>& faces, std::uint32_t face) {
+    return static_cast<std::uint32_t>(std::ranges::lower_bound(faces, face) - faces.begin());
+}
+
+/// Tells the owners of near faces, and hears who is near own ones.
+void link(Talk& talk, ByProcess<std::uint32_t> near, Part& part) {
+    std::vector<bool> is_asked;
+    for (const auto& faces : near) {
+        is_asked.push_back(!faces.empty());
+    }
+    const auto asked = talk.swap(std::move(near));
+    for (std::uint32_t other = 0; other < talk.size(); ++other) {
+        if (is_asked[other] || !asked[other].empty()) {
+            Neighbour& neighbour = part.neighbours.emplace_back();
+            neighbour.process = other;
+            for (const std::uint32_t face : asked[other]) {
+                neighbour.faces.push_back(place_in(part.faces, face));
+            }
+        }
+    }
+}
+
+} // namespace
+
+Result<RangedSurface> RangedSurface::create(Exchange& exchange, MeshRange range) {
+    return caught([&]() -> Result<RangedSurface> {
+        Talk talk(exchange);
+        if (range.faces.count < talk.size()) {
+            return needs_whole("it has fewer faces than there are processes");
+        }
+        RangedSurface surface;
+        {
+            RangeFaces faces = faces_of(talk, range);
+            const RangeFindings findings = examine(talk, range, faces);
+            surface.statistics_ = {findings.statistics, findings.largest_area, 0,
+                                   findings.turned_edges};
+            const auto owners = divide_by_curve(talk, range, faces, findings);
+            faces = {VertexNumbers({}), {}, {}};
+            surface.faces_ = own_faces_of(talk, range, owners);
+        }
+        range.triangles = {};
+        surface.vertices_ = range.vertices;
+        surface.positions_ = std::move(range.positions);
+        surface.directory_ = Directory::create(talk, surface.vertices_, surface.faces_);
+        surface.statistics_.mesh.components = surface.directory_.components().count;
+        surface.statistics_.mesh.vertices = surface.directory_.components().vertices;
+        surface.statistics_.unused_vertices =
+            surface.vertices_.count - surface.statistics_.mesh.vertices;
+        surface.outline_ = MeshPieces::outline(surface.statistics_.mesh);
+        return surface;
+    });
+}
+
+Result<JobFrame> RangedSurface::frame(const SampleParams& params) const {
+    if (params.min_distance > statistics_.mesh.diagonal) {
+        return needs_whole("the distance is larger than it");
+    }
+    const auto frame = frame_of(outline_, params);
+    if (frame) {
+        const Stages stages = stages_of(outline_, params);
+        const double most = std::max(stages.expected(0), stages.expected(kLastOtherStage));
+        if (!(statistics_.largest_area / statistics_.mesh.area * most <= kMostPerFace)) {
+            return needs_whole("a face alone expects too many candidates");
+        }
+    }
+    return frame;
+}
+
+Result<std::unique_ptr<Part>> RangedSurface::part(Exchange& exchange, const SampleParams& params,
+                                                  const JobFrame& frame,
+                                                  double most_candidates) const {
+    return caught([&]() -> Result<std::unique_ptr<Part>> {
+        Talk talk(exchange);
+        auto part = std::make_unique<Part>(part_for(outline_, params, frame, most_candidates));
+        const KnownSurface known{vertices_, positions_, faces_, directory_, statistics_.mesh};
+        const std::vector<HaloFace> halo = find_halo(talk, known, 2 * part->reach);
+        std::vector<WholeFace> faces;
+        faces.reserve(faces_.size() + halo.size());
+        ByProcess<std::uint32_t> near(talk.size());
+        const auto add = [&](const WholeFace& face, FaceRole role) {
+            faces.push_back(face);
+            part->faces.push_back(face.face);
+            part->roles.push_back(role);
+        };
+        auto own = faces_.begin();
+        for (const HaloFace& one : halo) {
+            for (; own != faces_.end() && own->face < one.face.face; ++own) {
+                add(*own, FaceRole::own);
+            }
+            const bool is_near = one.distance <= part->reach;
+            add(one.face, is_near ? FaceRole::near : FaceRole::surface);
+            if (is_near) {
+                near[one.owner].push_back(one.face.face);
+            }
+        }
+        for (; own != faces_.end(); ++own) {
+            add(*own, FaceRole::own);
+        }
+        part->keys = part->faces;
+        part->mesh = piece_of(talk, known, faces);
+        link(talk, std::move(near), *part);
+        return part;
+    });
+}
+
+Result<std::vector<double>> RangedSurface::corners(Exchange& exchange,
+                                                   std::span<const std::uint32_t> own) const {
+    return caught([&]() -> Result<std::vector<double>> {
+        Talk talk(exchange);
+        std::vector<std::uint32_t> vertices;
+        const auto face_of = [&](std::uint32_t face) -> const WholeFace& {
+            return *std::ranges::lower_bound(faces_, face, {}, &WholeFace::face);
+        };
+        for (const std::uint32_t face : own) {
+            const WholeFace& one = face_of(face);
+            vertices.insert(vertices.end(), one.corners, one.corners + 3);
+        }
+        const VertexNumbers numbers(std::move(vertices));
+        const std::vector<double> positions =
+            fetch_positions(talk, vertices_, positions_, numbers.vertices());
+        std::vector<double> corners;
+        corners.reserve(9 * own.size());
+        for (const std::uint32_t face : own) {
+            for (const std::uint32_t vertex : face_of(face).corners) {
+                const double* const at = &positions[std::size_t{3} * numbers.of(vertex)];
+                corners.insert(corners.end(), at, at + 3);
+            }
+        }
+        return corners;
+    });
+}
+
+} // namespace geodisk

@@ -1,0 +1,76 @@
+// RangedSurface: a surface of which no process ever holds the whole.
+//
+// Each process reads a range of the faces and vertices. Faces then move to processes along a curve,
+// so that each has those of a region. The coordinates of a vertex stay at its home, the process
+// that read it, which also knows the processes with faces there. A part gets its halo ring by ring:
+// homes name the holders of the vertices where it ends, and holders send their faces there.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include <geodisk/export.hpp>
+#include <geodisk/mesh.hpp>
+#include <geodisk/params.hpp>
+#include <geodisk/status.hpp>
+
+#include "parts/exchange.hpp"
+#include "parts/part.hpp"
+#include "parts/ranges/directory.hpp"
+#include "parts/ranges/mesh_range.hpp"
+
+namespace geodisk {
+
+/// What ranges tell of a mesh.
+struct RangedStatistics {
+    MeshStatistics mesh; ///< As those of PreparedMesh::prepare(), to the bit.
+    double largest_area = 0;
+    std::uint64_t unused_vertices = 0;
+    std::uint64_t turned_edges = 0; ///< Edges of two faces that are turned over against each other.
+};
+
+class GEODISK_API RangedSurface {
+  public:
+    /// Makes a surface of the ranges of all processes, which all call it. Errors, the same on all:
+    /// `mesh_rejected` for a mesh that has to be read as a whole, with the reason; those of the
+    /// exchange. Throws std::bad_alloc, as do the others.
+    static Result<RangedSurface> create(Exchange& exchange, MeshRange range);
+
+    const RangedStatistics& statistics() const { return statistics_; }
+    /// Returns a mesh without faces, with the statistics of the whole.
+    const PreparedMesh& outline() const { return outline_; }
+    /// Returns the number of own faces.
+    std::size_t own_faces() const { return faces_.size(); }
+
+    /// Returns the frame of a job on the surface. The parameters are of seed, distance and
+    /// candidates alone. Errors: `mesh_rejected` if it needs the whole; those of frame_of().
+    Result<JobFrame> frame(const SampleParams& params) const;
+
+    /// Returns the part of this process for a job in such a frame. All processes call it. At most
+    /// so many candidates are expected to be drawn at a time, of all. Errors: those of the
+    /// exchange.
+    Result<std::unique_ptr<Part>> part(Exchange& exchange, const SampleParams& params,
+                                       const JobFrame& frame, double most_candidates) const;
+
+    /// Returns the corners of faces, given with their process: nine coordinates each. Faces are
+    /// own ones of the process that gives them; all processes call it, each gets those that it
+    /// gives.
+    Result<std::vector<double>> corners(Exchange& exchange,
+                                        std::span<const std::uint32_t> own) const;
+
+    const Directory& directory() const { return directory_; }
+    /// Returns own faces, ascending.
+    std::span<const WholeFace> faces() const { return faces_; }
+
+  private:
+    RangedStatistics statistics_;
+    PreparedMesh outline_;
+    Blocks vertices_;
+    std::vector<double> positions_; ///< Of the vertices that are at home here.
+    std::vector<WholeFace> faces_;
+    Directory directory_;
+};
+
+} // namespace geodisk

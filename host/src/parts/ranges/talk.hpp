@@ -1,0 +1,134 @@
+// Talk: records that processes send each other in the midst of work.
+#pragma once
+
+#include <cstdint>
+#include <cstring>
+#include <span>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include <geodisk/status.hpp>
+
+#include "parts/exchange.hpp"
+
+namespace geodisk {
+
+/// Ends work of all processes by an error, which caught() returns.
+struct Stopped {
+    Error error;
+};
+
+/// Records for each process, or from each.
+template <class Record>
+using ByProcess = std::vector<std::vector<Record>>;
+
+/// An exchange of records. All processes make the same calls. Errors are thrown as Stopped.
+class Talk {
+  public:
+    explicit Talk(Exchange& exchange) : exchange_(exchange) {}
+
+    std::uint32_t rank() const { return exchange_.rank(); }
+    std::uint32_t size() const { return exchange_.size(); }
+
+    /// Sends its records to each process, and returns those from each.
+    template <class Record>
+    ByProcess<Record> swap(ByProcess<Record> records) {
+        static_assert(std::is_trivially_copyable_v<Record>);
+        std::vector<Bytes> messages(size());
+        for (std::uint32_t other = 0; other < size(); ++other) {
+            const auto bytes = std::as_bytes(std::span(records[other]));
+            messages[other].assign(bytes.begin(), bytes.end());
+            records[other] = {};
+        }
+        std::vector<Bytes> received = value(exchange_.all_to_all(std::move(messages)));
+        for (std::uint32_t other = 0; other < size(); ++other) {
+            records[other] = records_of<Record>(received[other]);
+            received[other] = {};
+        }
+        return records;
+    }
+
+    /// Returns what each process gives.
+    template <class Record>
+    std::vector<Record> all(const Record& own) {
+        std::vector<Record> of_all;
+        for (const auto& one : swap(ByProcess<Record>(size(), {own}))) {
+            of_all.push_back(one.front());
+        }
+        return of_all;
+    }
+
+    std::uint64_t sum(std::uint64_t own) { return value(exchange_.sum(own)); }
+
+    /// Hands a value from each process to the next one: returns what the one before gives, by
+    /// `next(before)`, from the first one's `start` on. The last one's goes nowhere.
+    template <class Record, class Next>
+    Record chain(Record start, const Next& next) {
+        Record before = start;
+        if (rank() > 0) {
+            before = swap_with(rank() - 1, Bytes(sizeof before), before);
+        }
+        const Record own = next(before);
+        if (rank() + 1 < size()) {
+            Bytes message(sizeof own);
+            std::memcpy(message.data(), &own, sizeof own);
+            swap_with(rank() + 1, std::move(message), own);
+        }
+        return own;
+    }
+
+    /// Stops all processes if one has an error: not null.
+    void check(const Error* error) {
+        if (auto well = exchange_.check_all(error); !well) {
+            throw Stopped{well.error()};
+        }
+    }
+
+    /// Returns the records that a message consists of.
+    template <class Record>
+    static std::vector<Record> records_of(std::span<const std::byte> bytes) {
+        std::vector<Record> records(bytes.size() / sizeof(Record));
+        if (!records.empty()) {
+            std::memcpy(records.data(), bytes.data(), records.size() * sizeof(Record));
+        }
+        return records;
+    }
+
+  private:
+    template <class T>
+    static T value(Result<T> result) {
+        if (!result) {
+            throw Stopped{result.error()};
+        }
+        return std::move(*result);
+    }
+    template <class Record>
+    Record swap_with(std::uint32_t other, Bytes message, Record otherwise) {
+        const auto received =
+            value(exchange_.swap(std::span(&other, 1), std::span(&message, 1)));
+        const auto records = records_of<Record>(received.front());
+        return records.empty() ? otherwise : records.front();
+    }
+
+    Exchange& exchange_;
+};
+
+/// Returns what `work` returns, or the error that stopped it.
+template <class Work>
+std::invoke_result_t<Work> caught(const Work& work) {
+    try {
+        return work();
+    } catch (const Stopped& stopped) {
+        return stopped.error;
+    }
+}
+
+/// Records are sent in so many turns of which none takes much memory. `bytes` are those of the
+/// process that has most.
+inline std::uint64_t turns_for(std::uint64_t bytes) {
+    constexpr std::uint64_t kAtOnce = std::uint64_t{1} << 26;
+    return bytes / kAtOnce + 1;
+}
+
+} // namespace geodisk

@@ -1,0 +1,223 @@
+"""geodisk_mpi on binary PLY files, which all processes read in ranges: the files of `geodisk sample`,
+and what has to be read as a whole."""
+
+import json
+import math
+import os
+import random
+import struct
+import threading
+
+import pytest
+from test_mpi import alone, run
+
+
+def write_ply(path, vertices, faces, order="<", real="d"):
+    """A binary PLY file; faces of any size."""
+    name = {"f": "float", "d": "double"}[real]
+    form = {"<": "binary_little_endian", ">": "binary_big_endian"}[order]
+    with open(path, "wb") as file:
+        file.write(f"ply\nformat {form} 1.0\nelement vertex {len(vertices)}\n".encode())
+        file.write("".join(f"property {name} {axis}\n" for axis in "xyz").encode())
+        file.write(f"element face {len(faces)}\n".encode())
+        file.write(b"property list uchar int vertex_indices\nend_header\n")
+        for vertex in vertices:
+            file.write(struct.pack(f"{order}3{real}", *vertex))
+        for face in faces:
+            file.write(struct.pack(f"{order}B{len(face)}i", len(face), *face))
+
+
+def grid(columns, rows, place=lambda u, v: (u, v, 0.3 * math.sin(3 * u) * math.cos(2 * v))):
+    """A sheet with a border."""
+    vertices = [place(i / columns, j / rows) for i in range(columns + 1) for j in range(rows + 1)]
+    faces = []
+    for i in range(columns):
+        for j in range(rows):
+            at = i * (rows + 1) + j
+            faces += [(at, at + rows + 1, at + rows + 2), (at, at + rows + 2, at + 1)]
+    return vertices, faces
+
+
+def torus(columns, rows):
+    """A closed surface."""
+    def place(i, j):
+        a, b = 2 * math.pi * i / columns, 2 * math.pi * j / rows
+        r = 0.4 * (1 + 0.2 * math.sin(5 * a) * math.cos(3 * b))
+        return ((1 + r * math.cos(b)) * math.cos(a), (1 + r * math.cos(b)) * math.sin(a),
+                r * math.sin(b))
+    vertices = [place(i, j) for i in range(columns) for j in range(rows)]
+    number = lambda i, j: i % columns * rows + j % rows
+    faces = []
+    for i in range(columns):
+        for j in range(rows):
+            a, b, c, d = number(i, j), number(i + 1, j), number(i + 1, j + 1), number(i, j + 1)
+            faces += [(a, b, c), (a, c, d)]
+    return vertices, faces
+
+
+def shuffled(vertices, faces, seed=1):
+    """The same surface with vertices and faces in an order that has nothing to do with their places,
+    some vertices in no face, and faces turned over."""
+    order = list(range(len(vertices) + 7))
+    chance = random.Random(seed)
+    chance.shuffle(order)
+    places = [(9.0, 9.0, 9.0)] * len(order)
+    for vertex, place in zip(order, vertices):
+        places[vertex] = place
+    turned = [tuple(order[v] for v in (face if chance.random() < 0.7 else face[::-1]))
+              for face in faces]
+    chance.shuffle(turned)
+    return places, turned
+
+
+def check_same(tmp_path, arguments, counts, name="samples.ply"):
+    """Any number of processes writes the file of one, and says nothing but what is odd."""
+    expected = tmp_path / f"alone-{name}"
+    alone(*arguments, "-o", str(expected))
+    for count in counts:
+        found = tmp_path / f"{count}-{name}"
+        code, _, errors = run(count, "sample", *arguments, "-o", str(found), "--quiet")
+        assert code == 0, errors
+        assert all(line.startswith("geodisk: warning: ") for line in errors.splitlines())
+        assert found.read_bytes() == expected.read_bytes(), count
+
+
+def is_read_in_ranges(tmp_path, mesh, *arguments, processes=2):
+    """Whether no process reads the whole."""
+    code, _, errors = run(processes, "sample", str(mesh), "-o", str(tmp_path / "probe.ply"),
+                          *arguments)
+    assert code == 0, errors
+    return "process 0 reads all of" not in errors
+
+
+def test_same_file_for_any_number_of_processes(tmp_path):
+    mesh = tmp_path / "torus.ply"
+    write_ply(mesh, *shuffled(*torus(60, 24)))
+    assert is_read_in_ranges(tmp_path, mesh, "--min-distance", "5%")
+    check_same(tmp_path, [str(mesh), "--min-distance", "3%", "--seed", "3"], [1, 2, 3, 4, 7])
+
+
+def test_same_file_of_other_runs(tmp_path):
+    mesh = tmp_path / "torus.ply"
+    write_ply(mesh, *torus(48, 20), order=">", real="f")
+    assert is_read_in_ranges(tmp_path, mesh, "--count", "60")
+    check_same(tmp_path, [str(mesh), "--count", "200"], [3], "count.csv")
+    check_same(tmp_path, [str(mesh), "--count", "100", "--exact"], [2], "exact.npz")
+    check_same(tmp_path, [str(mesh), "--count", "80", "--min-distance", "4%", "--method", "darts"],
+               [3], "darts.ply")
+    check_same(tmp_path, [str(mesh), "--min-distance", "60%"], [5], "large.ply")
+
+
+def test_same_file_of_odd_surfaces(tmp_path):
+    sheet, faces = grid(20, 12)
+    fins = [(at, at + 1, len(sheet) + at % 5) for at in range(0, 200, 17)]
+    fin_ends = [(0.2 * k, 0.5, 1.0) for k in range(5)]
+    ball = [(x + 5, y, z) for x, y, z in torus(16, 8)[0]]
+    first = len(sheet) + len(fin_ends)
+    ball_faces = [tuple(first + v for v in face) for face in torus(16, 8)[1]]
+    flat = [(0, 0, 5), (3, 3, 4)]
+    vertices = sheet + fin_ends + ball
+    mesh = tmp_path / "odd.ply"
+    write_ply(mesh, *shuffled(vertices, faces + fins + ball_faces + flat, seed=4))
+    assert is_read_in_ranges(tmp_path, mesh, "--min-distance", "0.2")
+    check_same(tmp_path, [str(mesh), "--min-distance", "0.1"], [2, 4])
+    few = tmp_path / "few.ply"
+    write_ply(few, *grid(2, 1))
+    check_same(tmp_path, [str(few), "--min-distance", "0.3"], [1, 4], "few.ply")
+
+
+def test_report_counts_what_the_ranges_have(tmp_path):
+    vertices, faces = grid(14, 9)
+    other, other_faces = torus(12, 6)
+    faces = faces + [tuple(v + len(vertices) for v in face) for face in other_faces]
+    mesh = tmp_path / "two.ply"
+    write_ply(mesh, *shuffled(vertices + [(x + 4, y, z) for x, y, z in other], faces))
+    told = []
+    for name in ["alone", "ranges"]:
+        report = tmp_path / f"{name}.json"
+        arguments = [str(mesh), "--count", "100", "-o", str(tmp_path / "s.ply"),
+                     "--json", str(report)]
+        if name == "alone":
+            alone(*arguments)
+        else:
+            assert run(3, "sample", *arguments, "--quiet")[0] == 0
+        told.append(json.loads(report.read_text()))
+    assert told[0]["mesh"] == told[1]["mesh"]
+    kinds = [{w["kind"]: w["count"] for w in one["warnings"]} for one in told]
+    for kind in ["components", "inconsistent_orientation", "unused_vertices"]:
+        assert kinds[0][kind] == kinds[1][kind]
+    processes = told[1]["processes"]
+    assert sum(p["own_faces"] for p in processes) == len(faces)
+    assert max(p["own_faces"] for p in processes) < 0.7 * len(faces)
+
+
+def doubled(vertices, faces):
+    """Every face with vertices of its own, which joins faces by place alone."""
+    return ([vertices[v] for face in faces for v in face],
+            [(3 * i, 3 * i + 1, 3 * i + 2) for i in range(len(faces))])
+
+
+@pytest.mark.parametrize("name, mesh", [
+    ("seams", doubled(*grid(8, 5))),
+    ("copies", (grid(8, 5)[0], grid(8, 5)[1] + [grid(8, 5)[1][3][::-1]])),
+    ("quads", (grid(8, 5)[0], grid(8, 5)[1] + [(0, 6, 13, 20)])),
+])
+def test_what_needs_the_whole_is_read_as_a_whole(tmp_path, name, mesh):
+    path = tmp_path / f"{name}.ply"
+    write_ply(path, *mesh)
+    assert not is_read_in_ranges(tmp_path, path, "--min-distance", "0.2")
+    check_same(tmp_path, [str(path), "--min-distance", "0.15"], [3])
+
+
+def test_distance_beyond_the_surface_needs_the_whole(tmp_path):
+    mesh = tmp_path / "sheet.ply"
+    write_ply(mesh, *grid(8, 5))
+    assert not is_read_in_ranges(tmp_path, mesh, "--min-distance", "300%")
+    check_same(tmp_path, [str(mesh), "--min-distance", "300%"], [2])
+
+
+@pytest.mark.parametrize("spoil, message", [
+    (lambda data: data[:-5], "the file ends inside element face"),
+    (lambda data: data[:-4] + struct.pack("<i", 999), "vertex index 999 is out of range"),
+    (lambda data: data[:-4] + struct.pack("<i", -1), "vertex index -1 is out of range"),
+    (lambda data: data.replace(b"end_header", b"end_head"), "inside the header"),
+])
+def test_bad_files_are_told_once(tmp_path, spoil, message):
+    mesh = tmp_path / "bad.ply"
+    write_ply(mesh, *grid(8, 5))
+    mesh.write_bytes(spoil(mesh.read_bytes()))
+    out = tmp_path / "s.ply"
+    code, _, errors = run(3, "sample", str(mesh), "--count", "20", "-o", str(out), "--quiet")
+    assert code == 3 and message in errors and not out.exists()
+    assert errors.count("\n") == 1, errors
+
+
+def test_more_processes_than_faces(tmp_path):
+    mesh = tmp_path / "one.ply"
+    write_ply(mesh, *grid(1, 1))
+    out = tmp_path / "s.ply"
+    code, _, errors = run(3, "sample", str(mesh), "--min-distance", "0.2", "-o", str(out),
+                          "--quiet")
+    assert code == 2 and errors.count("\n") == 1 and not out.exists()
+    assert "there are 3 processes, but the mesh has 2 faces" in errors
+
+
+def test_file_that_changes_while_it_is_read(tmp_path):
+    mesh = tmp_path / "torus.ply"
+    write_ply(mesh, *torus(300, 100))
+    out = tmp_path / "s.ply"
+    ends = threading.Event()
+
+    def touch():
+        while not ends.is_set():
+            os.utime(mesh)
+
+    thread = threading.Thread(target=touch)
+    thread.start()
+    try:
+        code, _, errors = run(3, "sample", str(mesh), "--count", "20", "-o", str(out), "--quiet")
+    finally:
+        ends.set()
+        thread.join()
+    assert code == 3 and not out.exists()
+    assert errors.count("\n") == 1 and f"{mesh}: changed while it was read" in errors

@@ -1,0 +1,254 @@
+#include "ply_range.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "files/ply_file.hpp"
+#include "parts/ranges/talk.hpp"
+#include "program/failure.hpp"
+
+namespace geodisk::tools {
+namespace {
+
+constexpr std::size_t kMostHeader = 1u << 16;
+constexpr std::size_t kReadAtOnce = 1u << 22;
+// As PreparedMesh::prepare() can number them.
+constexpr std::uint64_t kMostFaces = (std::uint64_t{1} << 30) / 3;
+constexpr std::uint64_t kMostVertices = std::uint64_t{1} << 30;
+
+/// Thrown where the file has to be read as a whole.
+struct NeedsWhole {
+    std::string why;
+};
+
+/// Where a value stands in a record.
+struct ValuePlace {
+    std::size_t offset;
+    PlyType type;
+};
+
+/// Records of one size, one after another.
+struct Records {
+    std::uint64_t count = 0, offset = 0;
+    std::size_t size = 0;
+
+    std::uint64_t end() const { return offset + count * size; }
+};
+
+/// Where vertices and faces stand in the file.
+struct PlyLayout {
+    bool is_little_endian = true;
+    Records vertices, faces;
+    std::array<ValuePlace, 3> coordinates;
+    ValuePlace corner_count; ///< Corners follow it.
+    PlyType corner_type;
+};
+
+/// Tells a file from what it becomes when it is written to.
+struct FileState {
+    std::uint64_t size;
+    std::int64_t time;
+
+    bool operator==(const FileState&) const = default;
+};
+
+FileState state_of(const Path& path) {
+    std::error_code error;
+    FileState state{};
+    state.size = std::filesystem::file_size(path, error);
+    state.time = static_cast<std::int64_t>(
+        std::filesystem::last_write_time(path, error).time_since_epoch().count());
+    return state;
+}
+
+PlyFile read_header(const Path& path) {
+    std::error_code error;
+    std::ifstream file(path, std::ios::binary);
+    if (!std::filesystem::is_regular_file(path, error) || !file) {
+        throw NeedsWhole{"it is no file that can be read in parts"};
+    }
+    std::string head(kMostHeader, '\0');
+    file.read(head.data(), static_cast<std::streamsize>(head.size()));
+    head.resize(static_cast<std::size_t>(file.gcount()));
+    try {
+        return PlyFile(path, std::move(head));
+    } catch (const UserError&) { // Who reads the whole tells of it.
+        throw NeedsWhole{"its header is not that of a PLY file of triangles"};
+    }
+}
+
+/// Returns the vertices behind `offset`, and notes where coordinates stand.
+Records vertex_records(const PlyElement& element, std::uint64_t offset, PlyLayout& layout) {
+    Records records{element.count, offset, 0};
+    std::array<bool, 3> is_found{};
+    for (const PlyProperty& property : element.properties) {
+        if (property.count_type || property.name == "x0") {
+            throw NeedsWhole{"its vertices have more than numbers, or other coordinates than x y z"};
+        }
+        const std::size_t axis = std::string("xyz").find(property.name);
+        if (property.name.size() == 1 && axis < 3) {
+            if (std::exchange(is_found[axis], true)) {
+                throw NeedsWhole{"a property is declared twice"};
+            }
+            layout.coordinates[axis] = {records.size, property.type};
+        }
+        records.size += size_of(property.type);
+    }
+    if (is_found != std::array{true, true, true}) {
+        throw NeedsWhole{"its vertices have no coordinates x y z"};
+    }
+    return records;
+}
+
+/// Returns the faces behind `offset` if all are triangles, and notes where corners stand.
+Records face_records(const PlyElement& element, std::uint64_t offset, PlyLayout& layout) {
+    Records records{element.count, offset, 0};
+    bool is_found = false;
+    for (const PlyProperty& property : element.properties) {
+        if (!property.count_type) {
+            records.size += size_of(property.type);
+            continue;
+        }
+        if (is_found || (property.name != "vertex_indices" && property.name != "vertex_index")) {
+            throw NeedsWhole{"its faces have other lists than that of vertices"};
+        }
+        is_found = true;
+        layout.corner_count = {records.size, *property.count_type};
+        layout.corner_type = property.type;
+        records.size += size_of(*property.count_type) + 3 * size_of(property.type);
+    }
+    if (!is_found) {
+        throw NeedsWhole{"its faces have no list of vertices"};
+    }
+    return records;
+}
+
+PlyLayout layout_of(const Path& path, std::uint64_t file_size) {
+    const PlyFile file = read_header(path);
+    if (!file.is_binary()) {
+        throw NeedsWhole{"it is text"};
+    }
+    if (file.unknown_lines().count > 0) {
+        throw NeedsWhole{"its header has unknown lines"};
+    }
+    PlyLayout layout;
+    layout.is_little_endian = file.is_little_endian();
+    std::uint64_t offset = file.position();
+    bool has_vertices = false, has_faces = false;
+    for (const PlyElement& element : file.elements()) {
+        if (element.name == "vertex" && !std::exchange(has_vertices, true)) {
+            layout.vertices = vertex_records(element, offset, layout);
+            offset = layout.vertices.end();
+        } else if (element.name == "face" && !std::exchange(has_faces, true)) {
+            layout.faces = face_records(element, offset, layout);
+            offset = layout.faces.end();
+        } else {
+            throw NeedsWhole{"it has more than vertices and faces"};
+        }
+        if (element.count > file_size) {
+            throw NeedsWhole{"it is not as long as its header says"};
+        }
+    }
+    if (!has_vertices || !has_faces || layout.faces.count == 0) {
+        throw NeedsWhole{"it has no vertices or no faces"};
+    }
+    if (offset != file_size) {
+        throw NeedsWhole{"it is not as long as if all its faces were triangles"};
+    }
+    if (layout.faces.count > kMostFaces || layout.vertices.count > kMostVertices) {
+        throw NeedsWhole{"it has more faces or vertices than can be numbered"};
+    }
+    return layout;
+}
+
+/// Calls `take(record)` for each of some records.
+template <class Take>
+void for_records(std::ifstream& file, const Records& records, std::uint64_t first,
+                 std::uint64_t count, const Take& take) {
+    std::vector<char> bytes;
+    const std::uint64_t at_once = std::max<std::uint64_t>(1, kReadAtOnce / records.size);
+    file.seekg(static_cast<std::streamoff>(records.offset + first * records.size));
+    for (std::uint64_t done = 0; done < count; done += at_once) {
+        const std::uint64_t some = std::min(at_once, count - done);
+        bytes.resize(some * records.size);
+        if (!file.read(bytes.data(), static_cast<std::streamsize>(bytes.size()))) {
+            throw NeedsWhole{"it ends before its last face"};
+        }
+        for (std::uint64_t i = 0; i < some; ++i) {
+            take(bytes.data() + i * records.size);
+        }
+    }
+}
+
+MeshRange read_range(const Path& path, const PlyLayout& layout, std::uint32_t process,
+                     std::uint32_t processes) {
+    const bool is_little = layout.is_little_endian;
+    std::ifstream file(path, std::ios::binary);
+    MeshRange range{{layout.faces.count, processes}, {layout.vertices.count, processes}, {}, {}};
+    range.positions.reserve(3 * range.vertices.size(process));
+    for_records(file, layout.vertices, range.vertices.first(process), range.vertices.size(process),
+                [&](const char* record) {
+                    for (const ValuePlace& place : layout.coordinates) {
+                        range.positions.push_back(
+                            value_of(place.type, record + place.offset, is_little));
+                    }
+                });
+    range.triangles.reserve(3 * range.faces.size(process));
+    const ValuePlace& count = layout.corner_count;
+    const std::size_t corner_size = size_of(layout.corner_type);
+    for_records(file, layout.faces, range.faces.first(process), range.faces.size(process),
+                [&](const char* record) {
+                    if (value_of(count.type, record + count.offset, is_little) != 3) {
+                        throw NeedsWhole{"a face is no triangle"};
+                    }
+                    const char* corner = record + count.offset + size_of(count.type);
+                    for (int k = 0; k < 3; ++k, corner += corner_size) {
+                        const double value = value_of(layout.corner_type, corner, is_little);
+                        if (!(value >= 0 && value < static_cast<double>(kMostVertices)) ||
+                            static_cast<std::uint32_t>(value) != value) {
+                            throw NeedsWhole{"a face names a vertex that there is not"};
+                        }
+                        range.triangles.push_back(static_cast<std::uint32_t>(value));
+                    }
+                });
+    return range;
+}
+
+} // namespace
+
+Result<MeshRange> read_ply_range(Exchange& exchange, const Path& path) {
+    return caught([&]() -> Result<MeshRange> {
+        Talk talk(exchange);
+        std::optional<Error> error;
+        const FileState before = state_of(path);
+        MeshRange range;
+        try {
+            range = read_range(path, layout_of(path, before.size), talk.rank(), talk.size());
+        } catch (const NeedsWhole& needs) {
+            error = Error{Status::mesh_rejected, needs.why};
+        }
+        const std::array states{before, state_of(path)};
+        for (const auto& [first, last] : talk.all(states)) {
+            if (first != states[0] || last != states[0]) {
+                error = Error{Status::invalid_argument,
+                              "changed while it was read; sample it when nothing writes to it"};
+            }
+        }
+        // All know of a change, but not of another's error.
+        if (error && error->status == Status::invalid_argument) {
+            return *error;
+        }
+        talk.check(error ? &*error : nullptr);
+        return range;
+    });
+}
+
+} // namespace geodisk::tools

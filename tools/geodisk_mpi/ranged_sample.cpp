@@ -1,0 +1,185 @@
+#include "ranged_sample.hpp"
+
+#include <algorithm>
+#include <iostream>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "files/block_writer.hpp"
+#include "files/input_file.hpp"
+#include "geodisk/checks/run_warnings.hpp"
+#include "geodisk/inputs/mesh_input.hpp"
+#include "geodisk/outputs/outputs.hpp"
+#include "geodisk/reports/sample_report.hpp"
+#include "geodisk/sample_run.hpp"
+#include "program/failure.hpp"
+#include "program/safe_text.hpp"
+#include "program/stopwatch.hpp"
+#include "session.hpp"
+
+namespace geodisk::tools {
+namespace {
+
+/// Thrown for a job that needs the whole surface.
+struct NeedsWhole {
+    std::string why;
+};
+
+/// Returns true for a job that needs no more of a mesh than its faces, and a file that may be read
+/// in ranges.
+bool takes_ranges(const SampleJob& job) {
+    const bool is_plain = job.additions().empty() && job.out.record.entries().empty() &&
+                          job.mesh.texture.empty() && !job.constraints.is_given();
+    const bool has_more = job.features || job.method.has_levels || job.method.is_farthest ||
+                          !job.picture.empty() || !job.columns.empty();
+    return is_plain && !has_more && lower_extension(job.mesh.mesh) == ".ply";
+}
+
+/// Returns a mesh of the statistics of all, whose file has no faces yet.
+MeshInput outline_of(const RangedSurface& surface, const std::string& path, double load_seconds) {
+    const RangedStatistics& statistics = surface.statistics();
+    MeshInput mesh{{}, surface.outline(), std::nullopt, {}, 1, {}, load_seconds, 0};
+    mesh.file.positions.assign(3, 0); // There are coordinates.
+    const auto warn = [&](const char* kind, std::uint64_t count, const char* one,
+                          const char* many) {
+        add_warning(mesh.warnings, kind, count, "", one, many);
+    };
+    warn("unused_vertices", statistics.unused_vertices, "vertex is in no face",
+         "vertices are in no face");
+    warn_of_repeated_vertices(mesh.warnings, statistics.mesh.repeated_index_faces, "");
+    warn("zero_area_faces", statistics.mesh.zero_area_faces,
+         "triangle without area kept: paths may lead through it",
+         "triangles without area kept: paths may lead through them");
+    warn("nonmanifold_edges", statistics.mesh.nonmanifold_edges,
+         "edge joins three or more faces; distances count paths across all of them",
+         "edges join three or more faces; distances count paths across all of them");
+    warn("inconsistent_orientation", statistics.turned_edges,
+         "edge has faces turned over against each other; distances do not depend on that",
+         "edges have faces turned over against each other; distances do not depend on that");
+    if (statistics.mesh.components > 1) {
+        warn("components", statistics.mesh.components, "",
+             "components: no path leads from one to another");
+    }
+    for (MeshWarning& warning : mesh.warnings) {
+        warning.file = path;
+    }
+    return mesh;
+}
+
+/// Returns a triangle that the frame of the job fits, for kernels to be compiled for.
+PreparedMesh stand_in(const RangedSurface& surface, double min_distance) {
+    const double edge = std::min(min_distance, surface.statistics().mesh.longest_edge) / 2;
+    const std::vector<double> positions{0, 0, 0, edge, 0, 0, 0, edge, 0};
+    const std::vector<std::uint32_t> triangles{0, 1, 2};
+    return take(PreparedMesh::prepare(MeshView{positions, triangles, 3}));
+}
+
+/// Returns the rows of samples. The file of the mesh then has the faces that have samples.
+std::vector<SampleRow> rows_of(const std::vector<Sample>& samples, Session& session,
+                               MeshInput& mesh) {
+    std::vector<std::uint32_t> faces;
+    for (const Sample& sample : samples) {
+        faces.push_back(sample.face);
+    }
+    std::sort(faces.begin(), faces.end());
+    faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+    mesh.file.positions = session.corners(faces);
+    mesh.file.triangles.clear();
+    for (std::uint32_t corner = 0; corner < 3 * faces.size(); ++corner) {
+        mesh.file.triangles.push_back(corner);
+    }
+    std::vector<SampleRow> rows(samples.size());
+    for_rows(rows.size(), [&](std::size_t i) {
+        SampleRow& row = rows[i];
+        row.face = static_cast<std::uint32_t>(std::ranges::lower_bound(faces, samples[i].face) -
+                                              faces.begin());
+        std::copy_n(samples[i].weights, 3, row.bary);
+        mesh.place(row);
+        row.face = samples[i].face;
+    });
+    return rows;
+}
+
+SampleResult sample_ranged(const SampleJob& job, MeshInput& mesh, Session& session,
+                           ProgressLine& progress) {
+    const RangedSurface& surface = *session.ranges();
+    SampleParams params = params_on(mesh, job);
+    std::optional<PreparedMesh> triangle;
+    const auto task_at = [&](double min_distance) {
+        params.min_distance = min_distance;
+        const auto frame = surface.frame(params);
+        if (!frame && frame.error().status == Status::mesh_rejected) {
+            throw NeedsWhole{frame.error().message};
+        }
+        triangle = stand_in(surface, min_distance);
+        const double room = expected_count(effective_area(mesh.prepared, params), min_distance);
+        Task task{take(Domain::surface(*triangle, params, take(Result<JobFrame>(frame)))),
+                  job.method.expected(room)};
+        task.surface = SurfaceTask{&mesh.prepared, params};
+        return task;
+    };
+    RunDevice device = device_for(job);
+    device.sample_by(&session);
+    auto [set, done] = device.run(task_at, params.min_distance, job.wanted_count, progress);
+    params.min_distance = done.min_distance;
+    job.method.check_count(set.samples.size(), params.min_distance, done.run.candidates);
+    SampleResult result;
+    result.params = params;
+    result.done = std::move(done);
+    result.rows = rows_of(set.samples, session, mesh);
+    result.classes.resize(result.rows.size());
+    result.features.resize(result.rows.size());
+    result.warnings = run_warnings(job, mesh, result);
+    return result;
+}
+
+/// Tells why the first process reads the whole, unless it is to be quiet.
+void print_note(const SampleJob& job, const std::string& why) {
+    if (!job.out.quiet) {
+        std::cerr << "geodisk_mpi: note: process 0 reads all of " << one_line(job.mesh.mesh) << ": "
+                  << one_line(why) << '\n';
+    }
+}
+
+} // namespace
+
+bool sample_ranges_to_files(const SampleOptions& options, Session& session) {
+    check_output_or_dry_run(options.out);
+    const SampleJob job = parse_job(options);
+    if (!takes_ranges(job)) {
+        return false;
+    }
+    const std::string& path = job.mesh.mesh;
+    check_outputs(job.out, "the samples", files_read(job));
+    ProgressLine progress(job.out.quiet);
+    progress.begin_stage("reading the mesh");
+    const Stopwatch watch;
+    const auto why = session.read_ranges(path);
+    progress.clear();
+    if (why) {
+        print_note(job, *why);
+        return false;
+    }
+    MeshInput mesh = outline_of(*session.ranges(), path, watch.seconds());
+    check_target(job, mesh);
+    try {
+        const SampleResult result = sample_ranged(job, mesh, session, progress);
+        print_warnings(mesh.warnings);
+        print_warnings(result.warnings);
+        progress.clear();
+        print_precision_note(job.out, result.rows, mesh.dimension());
+        const SampleReport report(job, mesh, result);
+        write_outputs(job.out, "the samples", progress, report, [&](AtomicFile& file) {
+            write_sample_file(file, job, mesh, result, report);
+        });
+    } catch (const NeedsWhole& needs) {
+        session.forget_ranges();
+        print_note(job, needs.why);
+        return false;
+    }
+    return true;
+}
+
+} // namespace geodisk::tools

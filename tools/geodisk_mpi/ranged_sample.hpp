@@ -1,0 +1,15 @@
+// `geodisk_mpi sample` of a mesh file that no process reads as a whole.
+#pragma once
+
+#include "geodisk/options/sample_options.hpp"
+
+namespace geodisk::tools {
+
+class Session;
+
+/// Samples a mesh that all processes read in ranges, on the first process, as sample_to_files()
+/// does. Returns false, and has done nothing, if the options or the mesh need the first process to
+/// read the whole. Throws UserError.
+bool sample_ranges_to_files(const SampleOptions& options, Session& session);
+
+} // namespace geodisk::tools
