@@ -11,6 +11,7 @@
 #include <vector>
 
 #include <geodisk/cells.hpp>
+#include <geodisk/nearest.hpp>
 
 #include "device_run.hpp"
 #include "support/geodesic_query.hpp"
@@ -54,23 +55,57 @@ SurfaceCells cells_of(const PreparedMesh& mesh, std::span<const Sample> samples)
     return cells;
 }
 
-/// Returns the sample that is nearest to each point, by the twin in double precision.
-std::vector<std::uint32_t> nearest_by_twin(const PreparedMesh& mesh,
-                                           const std::vector<Point>& samples,
-                                           const std::vector<Point>& points, double reach) {
+/// Returns the distances of all points from each sample, by the twin in double precision.
+std::vector<std::vector<double>> twin_distances(const PreparedMesh& mesh,
+                                                const std::vector<Point>& samples,
+                                                const std::vector<Point>& points, double reach) {
     GeodesicQuery<double> twin(mesh, reach, points, tight_tolerances());
-    std::vector<double> least(points.size(), kUnreachable);
-    std::vector<std::uint32_t> nearest(points.size(), ~0u);
-    for (std::uint32_t i = 0; i < samples.size(); ++i) {
-        const std::vector<double> distances = twin.from(samples[i]);
-        for (std::size_t p = 0; p < points.size(); ++p) {
-            if (distances[p] < least[p]) {
-                least[p] = distances[p];
+    std::vector<std::vector<double>> distances;
+    for (const Point& sample : samples) {
+        distances.push_back(twin.from(sample));
+    }
+    return distances;
+}
+
+/// Returns the sample that is nearest to each point.
+std::vector<std::uint32_t> nearest_of(const std::vector<std::vector<double>>& distances) {
+    std::vector<std::uint32_t> nearest(distances.front().size(), ~0u);
+    for (std::size_t p = 0; p < nearest.size(); ++p) {
+        double least = kUnreachable;
+        for (std::uint32_t i = 0; i < distances.size(); ++i) {
+            if (distances[i][p] < least) {
+                least = distances[i][p];
                 nearest[p] = i;
             }
         }
     }
     return nearest;
+}
+
+/// Checks the nearest samples of random points against the twin.
+void check_nearest(const PreparedMesh& mesh, std::uint32_t count, std::uint32_t points_per_sample) {
+    const std::vector<Point> samples = random_points(mesh, 4, count);
+    const std::vector<Point> points = random_points(mesh, 12, points_per_sample * count);
+    const auto found = expect(NearestSamples::create(shared_runner(), mesh, samples_at(samples)));
+    const auto nearest = expect(found.of(samples_at(points)));
+    const double scale = std::sqrt(mesh.statistics().area / count);
+    const auto distances = twin_distances(mesh, samples, points, 2.5 * scale);
+    const auto by_twin = nearest_of(distances);
+    REQUIRE(nearest.size() == points.size());
+    CHECK(found.error() < 1e-3 * scale);
+    std::size_t others = 0;
+    double worst = 0;
+    for (std::size_t p = 0; p < points.size(); ++p) {
+        REQUIRE(by_twin[p] != ~0u);
+        REQUIRE(nearest[p].sample < count);
+        const double least = distances[by_twin[p]][p];
+        worst = std::max({worst, std::abs(double{nearest[p].distance} - least),
+                          distances[nearest[p].sample][p] - least});
+        others += std::size_t{nearest[p].sample != by_twin[p]};
+    }
+    // Floats round both distances and the weights of points.
+    CHECK(worst < 2e-5 * scale);
+    CHECK(others <= points.size() / 200);
 }
 
 /// Checks areas against the part of random points that are nearest to each sample.
@@ -80,7 +115,7 @@ void check_areas(const PreparedMesh& mesh, std::uint32_t count) {
     const SurfaceCells cells = cells_of(mesh, samples_at(samples));
     CHECK(cells.unreached == 0);
     const double reach = 2.5 * std::sqrt(mesh.statistics().area / count);
-    const auto nearest = nearest_by_twin(mesh, samples, points, reach);
+    const auto nearest = nearest_of(twin_distances(mesh, samples, points, reach));
     std::vector<double> counts(count, 0);
     for (const std::uint32_t sample : nearest) {
         REQUIRE(sample != ~0u);
@@ -344,6 +379,68 @@ TEST_SUITE("cells") {
         const SurfaceCells less = expect(find_cells(runner, knot, samples, areas_alone));
         CHECK(less.areas == cells.areas);
         CHECK(less.edges.empty());
+    }
+
+    TEST_CASE("know the nearest sample of points") {
+        check_nearest(prepared(builtin("torus-knot", 8)), 60, 100);
+        check_nearest(prepared(builtin("cube", 1)), 200, 50); // Many in each face.
+        check_nearest(prepared(builtin("plate", 4)), 30, 100);
+        check_nearest(prepared(builtin("moebius", 4)), 20, 100);
+        check_nearest(prepared(tetrahedra(2, 0.2)), 50, 40);
+        check_nearest(prepared(builtin("icosphere", 3)), 2, 500);
+    }
+
+    TEST_CASE("know of nearest samples at ties and where there are none") {
+        const TestMesh solid = octahedron();
+        TestMesh pair = solid;
+        for (std::uint32_t v = 0; v < 6; ++v) {
+            const Vec3 p = solid.vertex(v);
+            pair.add_vertex({p.x + 9, p.y, p.z});
+        }
+        for (std::uint32_t f = 0; f < 8; ++f) {
+            const std::size_t at = std::size_t{3} * f;
+            pair.add_triangle(solid.triangles[at] + 6, solid.triangles[at + 1] + 6,
+                              solid.triangles[at + 2] + 6);
+        }
+        const PreparedMesh mesh = prepared(pair);
+        const std::vector<Sample> corners = vertices_of(solid);
+        const std::vector<Sample> samples{corners[4], corners[0], corners[4], corners[1]};
+        Runner& runner = shared_runner();
+        const auto found = expect(NearestSamples::create(runner, mesh, samples));
+        // Vertex 2 is as far from all of them, face 8 is one of the other solid.
+        const auto nearest = expect(
+            found.of(std::vector<Sample>{corners[4], corners[2], corners[0], {8, {1, 0, 0}}}));
+        CHECK(nearest[0].sample == 0);
+        CHECK(nearest[0].distance <= found.error());
+        CHECK(nearest[1].sample == 0);
+        CHECK(nearest[1].distance == doctest::Approx(std::sqrt(2.0)));
+        CHECK(nearest[2].sample == 1);
+        CHECK(nearest[3].sample == NearestSample::kNone);
+        CHECK(std::isinf(nearest[3].distance));
+        CHECK(expect(found.of({})).empty());
+        // Inside of a face without area, which is the diagonal of a square.
+        TestMesh square;
+        for (const Vec3& p :
+             {Vec3{0, 0, 0}, Vec3{1, 0, 0}, Vec3{0.5, 0.5, 0}, Vec3{0, 1, 0}, Vec3{1, 1, 0}}) {
+            square.add_vertex(p);
+        }
+        square.add_triangle(0, 1, 3);
+        square.add_triangle(1, 2, 3);
+        square.add_triangle(1, 4, 2);
+        square.add_triangle(2, 4, 3);
+        const PreparedMesh flat = prepared(square);
+        const std::vector<Sample> corner{{0, {1, 0, 0}}};
+        const auto beside = expect(NearestSamples::create(runner, flat, corner));
+        const auto inside = expect(beside.of(std::vector<Sample>{{1, {0.25f, 0.5f, 0.25f}}}));
+        CHECK(inside[0].sample == 0);
+        CHECK(inside[0].distance == doctest::Approx(std::sqrt(0.5)));
+        CHECK(found.of(std::vector<Sample>{{99, {1, 0, 0}}}).error().message ==
+              "point 0 is in face 99, but there are 16");
+        CHECK(NearestSamples::create(runner, mesh, {}).error().message == "there is no sample");
+        const auto stopped = NearestSamples::create(runner, mesh, samples, 1 << 20,
+                                                    [](const Progress&) { return false; });
+        REQUIRE_FALSE(stopped);
+        CHECK(stopped.error().status == Status::cancelled);
     }
 
     TEST_CASE("that cannot be found are refused") {

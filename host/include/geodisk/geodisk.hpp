@@ -14,6 +14,7 @@
 #include <geodisk/kernel_report.hpp>
 #include <geodisk/levels.hpp>
 #include <geodisk/mesh.hpp>
+#include <geodisk/nearest.hpp>
 #include <geodisk/neighbours.hpp>
 #include <geodisk/params.hpp>
 #include <geodisk/placement.hpp>

@@ -1,7 +1,6 @@
 #include "engine/cells/cell_splitter.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 
 #include <geodisk/vertex_sets.hpp>
@@ -134,20 +133,7 @@ void CellSplitter::note_pair() {
 
 std::uint32_t CellSplitter::nearest_at(const FacePlace& place,
                                        std::span<const std::uint32_t> lights) const {
-    const LitFaces::Target target = lit_.target(place.face, place.weights);
-    double least = std::numeric_limits<double>::infinity();
-    for (const std::uint32_t light : lights) {
-        const auto [distance, outside] = lit_.sight(light, target);
-        least = outside == 0 ? std::min(least, distance) : least;
-    }
-    std::uint32_t nearest = ~0u;
-    for (const std::uint32_t light : lights) {
-        const auto [distance, outside] = lit_.sight(light, target);
-        if (outside == 0 && distance <= least + tie_) {
-            nearest = std::min(nearest, near_.sample_of(light));
-        }
-    }
-    return nearest;
+    return near_.nearest_at(lit_.target(place.face, place.weights), lights).sample;
 }
 
 void CellSplitter::note_meeting(const GapCell& cell, std::span<const std::uint32_t> lights) {

@@ -48,7 +48,7 @@ class CellSplitter {
   public:
     CellSplitter(const LitFaces& lit, const GridPoints& grid, const Closeness& closeness,
                  bool has_dual)
-        : lit_(lit), grid_(grid), tie_(closeness.tie), has_dual_(has_dual), near_(lit, closeness),
+        : lit_(lit), grid_(grid), has_dual_(has_dual), near_(lit, closeness),
           flat_(lit, closeness) {}
 
     /// Finds the cells in a face with area.
@@ -77,7 +77,6 @@ class CellSplitter {
 
     const LitFaces& lit_;
     const GridPoints& grid_;
-    double tie_;
     bool has_dual_;
     NearLights near_;
     FlatPieces flat_;

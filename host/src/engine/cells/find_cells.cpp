@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -9,21 +8,14 @@
 
 #include "engine/cells/cell_splitter.hpp"
 #include "engine/cells/dual_graph.hpp"
-#include "engine/cells/lit_cells.hpp"
-#include "engine/domain/given.hpp"
+#include "engine/cells/lit_samples.hpp"
 #include "mesh/face_area.hpp"
 #include "support/blocks.hpp"
 #include "support/guard.hpp"
-#include "support/invalid.hpp"
 
 namespace geodisk {
 namespace {
 
-// Disks of even samples cover the surface, with this radius in parts of the square root of the area
-// per sample.
-constexpr double kFirstRadius = 0.85;
-// No edge may be too long for it.
-constexpr double kLongestEdge = 1000;
 // The longest edge of the grid, in parts of the smallest disk, but not too small for the largest.
 constexpr double kSmallestCell = 0x1p-14;
 constexpr double kSmallestOfAll = 0x1p-20;
@@ -39,12 +31,11 @@ std::uint32_t grid_level(const JobFrame& frame, const LitCells& lit) {
 
 class CellSearch {
   public:
-    CellSearch(Runner& runner, const PreparedMesh& mesh, std::size_t samples, const LitCells& lit,
-               const JobFrame& frame, const CellParams& params, const ProgressCallback& progress)
-        : impl_(Runner::Impl::of(runner)), mesh_(mesh), lit_(lit), frame_(frame), params_(params),
-          progress_(progress), grid_(mesh, grid_level(frame, lit)) {
-        cells_.areas.resize(samples, 0);
-        doubts_.resize(samples, 0);
+    CellSearch(Runner& runner, const PreparedMesh& mesh, const LitSamples& samples)
+        : impl_(Runner::Impl::of(runner)), mesh_(mesh), samples_(samples), lit_(*samples.lit),
+          grid_(mesh, grid_level(samples.frame, lit_)) {
+        cells_.areas.resize(samples.samples.size(), 0);
+        doubts_.resize(samples.samples.size(), 0);
     }
 
     Result<SurfaceCells> go();
@@ -56,10 +47,8 @@ class CellSearch {
 
     Runner::Impl& impl_;
     const PreparedMesh& mesh_;
+    const LitSamples& samples_;
     const LitCells& lit_;
-    const JobFrame& frame_;
-    const CellParams& params_;
-    const ProgressCallback& progress_;
     GridPoints grid_;
     SurfaceCells cells_;
     std::vector<double> doubts_;
@@ -70,7 +59,7 @@ class CellSearch {
 };
 
 void CellSearch::split(std::uint32_t part, FoundCells& found) const {
-    CellSplitter splitter(lit_.faces(), grid_, lit_.closeness(), params_.has_dual);
+    CellSplitter splitter(lit_.faces(), grid_, lit_.closeness(), samples_.params.has_dual);
     const std::uint32_t first = part * kFacesPerPart;
     const std::uint32_t end = std::min(first + kFacesPerPart, mesh_.face_count());
     for (std::uint32_t face = first; face < end; ++face) {
@@ -101,8 +90,9 @@ void CellSearch::add(const FoundCells& found) {
 
 bool CellSearch::report(double part) const {
     const auto all = static_cast<std::uint32_t>(cells_.areas.size());
-    return !progress_ || progress_({all + static_cast<std::uint32_t>(part * all), 2 * all, all,
-                                    lit_.report().disks, lit_.report().windows});
+    return !samples_.progress ||
+           samples_.progress({all + static_cast<std::uint32_t>(part * all), 2 * all, all,
+                              lit_.report().disks, lit_.report().windows});
 }
 
 Result<SurfaceCells> CellSearch::go() {
@@ -120,15 +110,14 @@ Result<SurfaceCells> CellSearch::go() {
             return Error{Status::cancelled, "cancelled"};
         }
     }
-    const double square = frame_.unit * frame_.unit;
+    const double square = samples_.frame.unit * samples_.frame.unit;
     for (double& area : cells_.areas) {
         area *= square;
     }
     cells_.unreached *= square;
     cells_.area_error = *std::ranges::max_element(doubts_) * square;
-    cells_.distance_error =
-        lit_.closeness().error * std::max(1.0, 2 * lit_.largest_radius()) * frame_.unit;
-    if (params_.has_dual) {
+    cells_.distance_error = samples_.distance_error();
+    if (samples_.params.has_dual) {
         cells_.triangles = dual_triangles(std::move(meetings_), std::move(ends_), knots_);
         cells_.edges = dual_edges(std::move(pairs_), cells_.triangles);
         cells_.dual = dual_report(mesh_, cells_);
@@ -136,41 +125,6 @@ Result<SurfaceCells> CellSearch::go() {
     cells_.report = lit_.report();
     cells_.report.seconds.sample += impl_.now() - start;
     return std::move(cells_);
-}
-
-Result<Done> check_samples(const PreparedMesh& mesh, std::span<const Sample> samples) {
-    if (samples.empty()) {
-        return invalid("there is no sample");
-    }
-    for (std::size_t i = 0; i < samples.size(); ++i) {
-        if (const std::string fault = fault_of(samples[i], mesh); !fault.empty()) {
-            return invalid("sample " + std::to_string(i) + " " + fault);
-        }
-    }
-    return Done{};
-}
-
-/// Returns the first of all samples at each place.
-std::vector<std::uint32_t> unlike_samples(const PreparedMesh& mesh,
-                                          std::span<const Sample> samples) {
-    const GridPoints grid(mesh, 24);
-    std::vector<std::pair<GridPoint, std::uint32_t>> places;
-    for (std::uint32_t i = 0; i < samples.size(); ++i) {
-        const auto [second, third] = rounded_weights(samples[i].weights);
-        places.emplace_back(grid.point(samples[i].face,
-                                       static_cast<std::uint32_t>(second * 0x1p24f),
-                                       static_cast<std::uint32_t>(third * 0x1p24f)),
-                            i);
-    }
-    std::ranges::sort(places);
-    std::vector<std::uint32_t> first;
-    for (std::size_t i = 0; i < places.size(); ++i) {
-        if (i == 0 || places[i].first != places[i - 1].first) {
-            first.push_back(places[i].second);
-        }
-    }
-    std::ranges::sort(first);
-    return first;
 }
 
 /// Names samples by their numbers among all.
@@ -197,33 +151,14 @@ Result<SurfaceCells> find_cells(Runner& runner, const PreparedMesh& mesh,
                                 std::span<const Sample> samples, const CellParams& params,
                                 const ProgressCallback& progress) noexcept {
     return guarded([&]() -> Result<SurfaceCells> {
-        if (auto checked = check_samples(mesh, samples); !checked) {
-            return checked.error();
+        const auto lit = LitSamples::make(runner, mesh, samples, params, progress);
+        if (!lit) {
+            return lit.error();
         }
-        const std::vector<std::uint32_t> unlike = unlike_samples(mesh, samples);
-        std::vector<Sample> different;
-        for (const std::uint32_t sample : unlike) {
-            different.push_back(samples[sample]);
-        }
-        const MeshStatistics& statistics = mesh.statistics();
-        const double each = statistics.area / static_cast<double>(unlike.size());
-        SampleParams job;
-        job.min_distance =
-            std::max(kFirstRadius * std::sqrt(each), statistics.longest_edge / kLongestEdge);
-        job.throws = 1; // A pool might be too large, and none is drawn.
-        const auto frame = frame_of(mesh, job);
-        job.throws = 0;
-        if (!frame) {
-            return frame.error();
-        }
-        LitCells lit(runner, mesh, different, job, *frame, params, progress);
-        if (auto done = lit.light(); !done) {
-            return done.error();
-        }
-        CellSearch search(runner, mesh, unlike.size(), lit, *frame, params, progress);
+        CellSearch search(runner, mesh, **lit);
         auto cells = search.go();
         if (cells) {
-            renumber(*cells, unlike, samples.size());
+            renumber(*cells, (*lit)->numbers, samples.size());
         }
         return cells;
     });

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <tuple>
 
+#include "engine/domain/given.hpp"
 #include "mesh/face_area.hpp"
 
 namespace geodisk {
@@ -46,6 +47,12 @@ GridPoint GridPoints::point(std::uint32_t face, std::uint32_t column, std::uint3
         return on_edge(3 * face + 2, first);
     }
     return {GridPoint::Kind::face, face, column, row};
+}
+
+GridPoint GridPoints::point(const Sample& sample) const {
+    const auto [second, third] = rounded_weights(sample.weights);
+    return point(sample.face, static_cast<std::uint32_t>(second * 0x1p24f),
+                 static_cast<std::uint32_t>(third * 0x1p24f));
 }
 
 std::array<GridPoint, 3> GridPoints::corners(const GapCell& cell) const {

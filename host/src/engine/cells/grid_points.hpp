@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <geodisk/mesh.hpp>
+#include <geodisk/sample.hpp>
 
 #include "engine/maximal/gap_cell.hpp"
 
@@ -43,6 +44,8 @@ class GridPoints {
 
     /// Returns the point of a face with these weights of its second and third corner, in steps.
     GridPoint point(std::uint32_t face, std::uint32_t column, std::uint32_t row) const;
+    /// Returns the point of the grid of 2^24 steps that a point of the surface is rounded to.
+    GridPoint point(const Sample& sample) const;
 
   private:
     GridPoint on_edge(std::uint32_t half_edge, std::uint32_t steps) const;

@@ -100,6 +100,22 @@ void NearLights::drop_beaten(const GapCell& cell, const LitFaces::Target& target
     view.lights.end = kept;
 }
 
+NearLights::Nearest NearLights::nearest_at(const LitFaces::Target& point,
+                                           std::span<const std::uint32_t> lights) const {
+    Nearest nearest{~0u, std::numeric_limits<double>::infinity()};
+    for (const std::uint32_t light : lights) {
+        const auto [distance, outside] = lit_.sight(light, point);
+        nearest.distance = outside == 0 ? std::min(nearest.distance, distance) : nearest.distance;
+    }
+    for (const std::uint32_t light : lights) {
+        const auto [distance, outside] = lit_.sight(light, point);
+        if (outside == 0 && distance <= nearest.distance + closeness_.tie) {
+            nearest.sample = std::min(nearest.sample, sample_of(light));
+        }
+    }
+    return nearest;
+}
+
 bool NearLights::is_single(Range lights) const {
     const auto own = at(lights);
     return std::ranges::all_of(

@@ -48,6 +48,13 @@ class NearLights {
         return std::span(stack_).subspan(lights.first, lights.end - lights.first);
     }
     std::uint32_t sample_of(std::uint32_t light) const { return lit_.record(light).sample_index; }
+    /// Returns the nearest sample of a point by lights of its face: the first of those that tie.
+    /// Has the sample ~0 if none lights it.
+    struct Nearest {
+        std::uint32_t sample;
+        double distance;
+    };
+    Nearest nearest_at(const LitFaces::Target& point, std::span<const std::uint32_t> lights) const;
     /// Returns true if all lights of the range are those of one sample.
     bool is_single(Range lights) const;
 

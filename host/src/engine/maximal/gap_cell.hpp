@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 
 namespace geodisk {
@@ -35,6 +36,16 @@ struct GapCell {
         const double bottom = row * s, top = (row + 1.0) * s;
         return is_turned ? std::array<FaceWeights, 3>{{{high, bottom}, {low, top}, {high, top}}}
                          : std::array<FaceWeights, 3>{{{low, bottom}, {high, bottom}, {low, top}}};
+    }
+
+    /// Returns the index of a child that has this point, which must be one of the cell.
+    std::size_t child_with(const FaceWeights& point) const {
+        const double steps = 2 / step();
+        const double c = point.second * steps - 2.0 * column, r = point.third * steps - 2.0 * row;
+        if (is_turned) {
+            return r <= 1 ? 0 : c <= 1 ? 1 : c + r >= 3 ? 2 : 3;
+        }
+        return c >= 1 ? 1 : r >= 1 ? 2 : c + r <= 1 ? 0 : 3;
     }
 
     /// Returns the four cells that it splits into.

@@ -1,0 +1,65 @@
+// NearestSamples: which sample is nearest to points of a surface, and how far it is along the
+// surface.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include <geodisk/export.hpp>
+#include <geodisk/mesh.hpp>
+#include <geodisk/runner.hpp>
+#include <geodisk/sample.hpp>
+#include <geodisk/status.hpp>
+
+namespace geodisk {
+
+/// The sample nearest to a point, by exact geodesic distance.
+struct NearestSample {
+    static constexpr std::uint32_t kNone = ~std::uint32_t{0};
+
+    /// Index of the sample; kNone where no path leads to one.
+    std::uint32_t sample = kNone;
+    float distance = std::numeric_limits<float>::infinity(); ///< In mesh units.
+};
+
+/// The disks of samples, as large as their geodesic Voronoi cells. They tell the nearest sample of
+/// any number of points, on the processor.
+class GEODISK_API NearestSamples {
+  public:
+    /// Computes the disks on the device. `mesh` must outlive the result, and may not move. Takes 36
+    /// bytes on the host for each record of a path, see CellParams::most_records. Progress counts
+    /// samples as candidates; returns `cancelled` if it asks to stop.
+    ///
+    /// Errors: those of find_cells().
+    static Result<NearestSamples> create(Runner& runner, const PreparedMesh& mesh,
+                                         std::span<const Sample> samples,
+                                         std::uint64_t most_records = std::uint64_t{1} << 27,
+                                         const ProgressCallback& progress = {}) noexcept;
+    NearestSamples(NearestSamples&&) noexcept;
+    NearestSamples& operator=(NearestSamples&&) noexcept;
+    ~NearestSamples();
+
+    /// Returns the nearest sample of each point. Of samples that are equally near up to rounding it
+    /// is the first, as for find_cells(). Weights are rounded to multiples of 2^-24. The result is
+    /// the same on every device. Several threads may call it at a time.
+    ///
+    /// Errors: `invalid_argument` for a point, naming it, in a face that does not exist or repeats
+    /// a vertex or with weights that are negative or do not sum to 1; `out_of_host_memory`.
+    Result<std::vector<NearestSample>> of(std::span<const Sample> points) const noexcept;
+
+    /// Returns a bound on the error of distances, in mesh units.
+    double error() const noexcept;
+    /// Returns how the run went that computed the disks.
+    const RunReport& report() const noexcept;
+
+    struct Impl; ///< Internal.
+
+  private:
+    explicit NearestSamples(std::unique_ptr<Impl> impl) noexcept;
+    std::unique_ptr<Impl> impl_;
+};
+
+} // namespace geodisk

@@ -1,0 +1,37 @@
+// LitSamples: the disks of samples as the caller numbers them, as large as their cells.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include <geodisk/cells.hpp>
+#include <geodisk/job_frame.hpp>
+#include <geodisk/params.hpp>
+
+#include "engine/cells/lit_cells.hpp"
+
+namespace geodisk {
+
+/// Of several samples at a place, the first alone has a disk.
+struct LitSamples {
+    /// Checks samples and computes their disks. `mesh` must outlive the result.
+    static Result<std::unique_ptr<LitSamples>> make(Runner& runner, const PreparedMesh& mesh,
+                                                    std::span<const Sample> samples,
+                                                    const CellParams& params,
+                                                    const ProgressCallback& progress);
+
+    /// Returns a bound on the error of distances, in mesh units.
+    double distance_error() const;
+
+    std::vector<std::uint32_t> numbers; ///< Of the samples with a disk, among all. Ascending.
+    std::vector<Sample> samples;        ///< Those with a disk.
+    CellParams params;
+    ProgressCallback progress;
+    SampleParams job;
+    JobFrame frame{};
+    std::unique_ptr<LitCells> lit;
+};
+
+} // namespace geodisk
