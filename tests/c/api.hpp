@@ -30,6 +30,7 @@ struct Release {
     void operator()(geodisk_frame_sampler* object) const { geodisk_frame_sampler_release(object); }
     void operator()(geodisk_placement* object) const { geodisk_placement_release(object); }
     void operator()(geodisk_count_search* object) const { geodisk_count_search_release(object); }
+    void operator()(geodisk_updater* object) const { geodisk_updater_release(object); }
 };
 template <class Object>
 using Owned = std::unique_ptr<Object, Release>;

@@ -72,6 +72,8 @@ CHECK_FIELD(geodisk_cell_arrays, area_error, 56);
 CHECK_FIELD(geodisk_cell_arrays, manifold_triangles, 80);
 CHECK_FIELD(geodisk_farthest_info, cover, 8);
 CHECK_FIELD(geodisk_farthest_info, searches, 24);
+CHECK_FIELD(geodisk_update_info, uploaded, 16);
+CHECK_FIELD(geodisk_update_info, disks, 28);
 CHECK_FIELD(geodisk_box_params, min_distance, 24);
 CHECK_FIELD(geodisk_box_params, stop_count, 52);
 CHECK_FIELD(geodisk_sampler_options, stall_seconds, 24);

@@ -76,6 +76,69 @@ TEST_CASE("samples are updated to those of a whole run, and few disks are comput
     CHECK(disks_in(folder, "e.json") == 0);
 }
 
+TEST_CASE("files say what they were made from, and whether their samples were changed") {
+    const TemporaryFolder folder;
+    write_hills(folder, "old.ply", 0);
+    write_hills(folder, "new.ply", 1);
+    const Arguments job{"-d", "3"};
+    for (const char* const name : {"a.csv", "a.ply", "a.pcd", "a.npz"}) {
+        CAPTURE(name);
+        REQUIRE(run(folder, joined({"sample", "old.ply", "-o", name}, job)).status == 0);
+        const Outcome checked = run(folder, {"verify", "old.ply", name});
+        CHECK(checked.status == 0);
+        CHECK_FALSE(contains(checked.err, "digest"));
+        const Arguments update{"sample", "new.ply", "-o",       std::string("b-") + name,
+                               "--from", "old.ply", "--update", name};
+        CHECK(run(folder, joined(update, job)).status == 0);
+    }
+    CHECK(contains(bytes_of(folder / "b-a.csv"), "# from: old.ply\n# update: a.csv\n"));
+
+    // Without a row, with one twice, and with a row from elsewhere.
+    const std::string text = bytes_of(folder / "a.csv");
+    const std::size_t last = text.rfind('\n', text.size() - 2) + 1;
+    const std::string row = text.substr(last);
+    const auto count_is = [&](const std::string& whole, int more) {
+        const std::size_t at = whole.find("# samples: ") + 11;
+        const std::size_t end = whole.find('\n', at);
+        const int count = std::stoi(whole.substr(at, end - at));
+        return whole.substr(0, at) + std::to_string(count + more) + whole.substr(end);
+    };
+    REQUIRE(
+        run(folder, {"sample", "old.ply", "-o", "other.csv", "-d", "3", "--seed", "5"}).status ==
+        0);
+    const std::string other = bytes_of(folder / "other.csv");
+    const std::string foreign = other.substr(other.rfind('\n', other.size() - 2) + 1);
+    for (const std::string& changed : {count_is(text.substr(0, last), -1), count_is(text + row, 1),
+                                       text.substr(0, last) + foreign}) {
+        folder.write("changed.csv", changed);
+        check_fails(folder, 3,
+                    "changed.csv: has other samples than it was written with: some were removed, "
+                    "added or changed; give the file as geodisk wrote it",
+                    joined({"sample", "new.ply", "-o", "b.ply", "--from", "old.ply", "--update",
+                            "changed.csv"},
+                           job));
+        const Outcome checked =
+            run(folder, {"verify", "old.ply", "changed.csv", "--json", "v.json"});
+        CHECK(
+            contains(checked.err, "changed.csv: its samples do not fit the digest in its header"));
+        CHECK(json_in(folder, "v.json")["warnings"].back()["kind"] == "other_rows");
+    }
+    folder.write("changed.csv", count_is(text.substr(0, last), -1));
+    CHECK(run(folder, {"verify", "old.ply", "changed.csv"}).status == 0); // They keep the distance.
+    // Other orders are the same samples, and files without a digest are taken.
+    const std::size_t first = text.find('\n', text.find("\nx,") + 1) + 1;
+    folder.write("sorted.csv", text.substr(0, first) + row + text.substr(first, last - first));
+    const std::size_t digest = text.find("# digest: ");
+    folder.write("before.csv", text.substr(0, digest) + text.substr(text.find('\n', digest) + 1));
+    for (const char* const name : {"sorted.csv", "before.csv"}) {
+        REQUIRE(run(folder, joined({"sample", "new.ply", "-o", "c.ply", "--from", "old.ply",
+                                    "--update", name},
+                                   job))
+                    .status == 0);
+        CHECK(rows_of(folder, "c.ply") == rows_of(folder, "b-a.ply"));
+    }
+}
+
 TEST_CASE("updates of other samples, meshes and kinds are refused") {
     const TemporaryFolder folder;
     write_hills(folder, "old.ply", 0);
@@ -94,10 +157,13 @@ TEST_CASE("updates of other samples, meshes and kinds are refused") {
     refused(3, "a.ply: has as its pool_ratio none, not 10",
             joined(edit, {"-d", "3", "--pool-ratio", "10"}));
     refused(3, "a.ply: has as its mask none, not x<9", joined(edit, {"-d", "3", "--mask", "x<9"}));
-    for (const Arguments& kind : {Arguments{"--maximal"}, Arguments{"--classes", "2"},
-                                  Arguments{"--method", "darts", "--darts", "400"}}) {
-        const Arguments make{"sample", "old.ply", "-o", "other.ply", "-d", "3"};
-        const Outcome made = run(folder, joined(make, kind));
+    for (const Arguments& kind :
+         {Arguments{"--maximal"}, Arguments{"--classes", "2"},
+          Arguments{"--method", "darts", "--darts", "400"}, Arguments{"--exact", "-n", "100"}}) {
+        const Arguments make{"sample", "old.ply", "-o", "other.ply"};
+        const Arguments distance =
+            kind[0] == "--exact" ? Arguments{} : Arguments{"-d", "3"}; // It finds one.
+        const Outcome made = run(folder, joined(joined(make, distance), kind));
         INFO(made.err);
         REQUIRE(made.status == 0);
         refused(3, "has samples of --", {"-d", "3", "--from", "old.ply", "--update", "other.ply"});
@@ -108,6 +174,18 @@ TEST_CASE("updates of other samples, meshes and kinds are refused") {
     refused(2, "--from takes no --count; give --min-distance", joined(edit, {"-n", "50"}));
     refused(2, "--from takes no --maximal", joined(edit, {"-d", "3", "--maximal"}));
     refused(2, "--from takes no --avoid", joined(edit, {"-d", "3", "--avoid", "a.ply:1"}));
+    // Errors name the files that they are about.
+    std::string other_seed = bytes_of(folder / "a.ply");
+    other_seed.replace(other_seed.find("seed: 0"), 7, "seed: 9");
+    folder.write("seed.ply", other_seed);
+    refused(3, "seed.ply: sample ",
+            {"-d", "3", "--seed", "9", "--from", "old.ply", "--update", "seed.ply"});
+    write_hills(folder, "tall.ply", 90);
+    check_fails(folder, 3, "tall.ply: has an edge of length 90",
+                {"sample", "tall.ply", "-o", "b.ply", "-d", "3", "--from", "old.ply"});
+    write_hills(folder, "wide.ply", 0, 60);
+    refused(3, "a.ply: sample ", {"-d", "3", "--from", "wide.ply", "--update", "a.ply"});
+    refused(2, "--update: the minimum distance exceeds old.ply", joined(edit, {"-d", "900"}));
     refused(3, "has no faces and weights, so its samples cannot be updated",
             {"-d", "3", "--from", "old.ply", "--update", "points.xyz"});
 }

@@ -178,9 +178,21 @@ class Scene {
             return {};
         }
         const std::uint32_t face = below(mesh.face_count());
-        const std::uint32_t* const c = &mesh.triangles[3 * face];
-        if (c[0] != c[1] && c[1] != c[2] && c[2] != c[0]) {
+        if (takes_part(face)) {
             given.push_back({face, {0.5f, 0.25f, 0.25f}});
+        }
+        return {};
+    }
+
+    /// Adds or removes a point to avoid, with a radius of up to `most`.
+    std::vector<std::uint32_t> change_avoided(double most) {
+        if (avoid.size() > 3 || (!avoid.empty() && below(3) == 0)) {
+            avoid.erase(avoid.begin() + below(static_cast<std::uint32_t>(avoid.size())));
+            return {};
+        }
+        const std::uint32_t face = below(mesh.face_count());
+        if (takes_part(face)) {
+            avoid.push_back({{face, {0.5f, 0.25f, 0.25f}}, most * (0.01 + part())});
         }
         return {};
     }
@@ -191,6 +203,7 @@ class Scene {
     std::vector<std::uint8_t> mask;
     std::vector<std::uint32_t> keys;
     std::vector<Sample> given;
+    std::vector<KeepOut> avoid;
     bool by_density; ///< Densities are powers of the factors.
     SampleParams params;
     std::optional<RadiusField> radii;
@@ -207,16 +220,19 @@ class Scene {
         }
         params.face_mask = mask;
         params.face_keys = keys;
-        // A given sample goes with its face.
-        std::erase_if(given, [&](const Sample& sample) {
-            const std::uint32_t* const c = &mesh.triangles[3 * sample.face];
-            return c[0] == c[1] || c[1] == c[2] || c[2] == c[0];
-        });
+        // Given samples and points to avoid go with their faces.
+        std::erase_if(given, [this](const Sample& sample) { return !takes_part(sample.face); });
+        std::erase_if(avoid, [this](const KeepOut& one) { return !takes_part(one.center.face); });
         params.given = given;
+        params.avoid = avoid;
         return surface;
     }
 
   private:
+    bool takes_part(std::uint32_t face) const {
+        const std::uint32_t* const c = &mesh.triangles[3 * face];
+        return c[0] != c[1] && c[1] != c[2] && c[2] != c[0];
+    }
     std::vector<double> densities() const {
         std::vector<double> result;
         for (const double factor : factors) {

@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <numeric>
 #include <string>
@@ -24,7 +25,7 @@ void check_edits(Scene& scene, int edits) {
     const double width = (scene.by_density ? 0.3 : 1.5) * distance; // Of strokes.
     for (int i = 0; i < edits; ++i) {
         CAPTURE(i);
-        switch (scene.below(scene.radii ? 7 : 6)) {
+        switch (scene.below(scene.radii ? 8 : 7)) {
         case 0:
         case 1:
             scene.follow(scene.move_vertex(0.3 * distance));
@@ -40,6 +41,9 @@ void check_edits(Scene& scene, int edits) {
             break;
         case 5:
             scene.follow(scene.change_given());
+            break;
+        case 6:
+            scene.follow(scene.change_avoided(6 * distance));
             break;
         default:
             scene.follow(scene.radius_stroke(width));
@@ -186,15 +190,28 @@ TEST_SUITE("update") {
         const float factors[4] = {1, 0.5f, 0.5f, 1};
         CHECK(refused(with([&](SampleParams& p) { p.class_factors = factors; })) ==
               "samples of classes cannot be updated; sample the surface again");
-        const KeepOut avoided{samples[0], 1};
-        CHECK(refused(with([&](SampleParams& p) {
-                  p.avoid = {&avoided, 1};
-              })) == "samples with points to avoid cannot be updated; sample the surface again");
         CHECK(refused(with([&](SampleParams& p) { p.given = std::span(samples).subspan(1, 2); })) ==
               "the samples must begin with the 2 given ones");
         std::vector<Sample> bad = samples;
         bad[5] = {1280, {1, 0, 0}};
         CHECK(refusal_of(ball.params, bad) == "sample 5 is in face 1280, but there are 1280");
+        bad[5] = samples[5];
+        bad[7].weights[1] += 0x1p-10f;
+        bad[7].weights[0] -= 0x1p-10f;
+        CHECK(refusal_of(ball.params, bad) == "sample 7" + unknown);
+        // Of an edited surface, whose first samples may lie in faces that are gone.
+        TestMesh edited = ball.mesh;
+        for (std::uint32_t i = 0; i < 6; ++i) {
+            const std::uint32_t face = samples[i].face;
+            if (face != bad[7].face) {
+                edited.triangles[3 * face + 1] = edited.triangles[3 * face];
+            }
+        }
+        const auto of_edit = Updater::create({ball.mesh.view(), ball.params},
+                                             {edited.view(), ball.params}, frame, bad);
+        REQUIRE_FALSE(of_edit);
+        CHECK(of_edit.error().message == "sample 7" + unknown);
+        bad = samples;
         bad[5] = bad[3];
         CHECK(refusal_of(ball.params, bad).ends_with("are the same"));
         const SampleParams far = with([](SampleParams& p) { p.min_distance = 100; });
@@ -227,6 +244,12 @@ TEST_SUITE("update") {
         const TestMesh whole = ball.mesh;
         ball.mesh.triangles[3 * 3 + 1] = ball.mesh.triangles[3 * 3];
         CHECK(refusal_of(params, {3}) == "given sample 0 is in face 3, which there is not");
+        params.given = {};
+        KeepOut avoided{{1280, {1, 0, 0}}, 1};
+        params.avoid = {&avoided, 1};
+        CHECK(refusal_of(params) == "point to avoid 0 is in face 1280, which there is not");
+        avoided = {{5, {1, 0, 0}}, std::nan("")};
+        CHECK(refusal_of(params).starts_with("point to avoid 0 has the radius "));
         // A failed edit that is undone.
         ball.mesh = whole;
         ball.follow({});

@@ -225,6 +225,14 @@ elseif(CASE STREQUAL "engine")
         message(FATAL_ERROR "no samples are drawn in ${work}/engine.png")
     endif()
 
+elseif(CASE STREQUAL "paint")
+    # As installed, since users take it from there. It compares its samples with a whole run.
+    configure("${installed}/${doc_folder}/examples/paint" "${work}/paint"
+        "-DCMAKE_PREFIX_PATH=${installed}")
+    build("${work}/paint")
+    run("${work}/paint/paint" radii)
+    run("${work}/paint/paint" mask)
+
 elseif(CASE STREQUAL "record")
     # As installed, since users take it from there. Both have the samples of the example in C.
     configure("${installed}/${doc_folder}/examples/record" "${work}/record"

@@ -145,26 +145,6 @@ def test_boxes(sides):
         assert outside.misplaced == np.sum(shifted[:, 0] > 1)
 
 
-def test_update():
-    edited = VERTICES * 1.0
-    edited[0] *= 1.1
-    there = geodisk.update(SAMPLES, edited)
-    whole = geodisk.sample(edited, FACES, min_distance=SAMPLES.min_distance, seed=SAMPLES.seed)
-    assert np.array_equal(there.face_index, whole.face_index)
-    assert np.array_equal(there.points, whole.points)
-    same = geodisk.update(SAMPLES, VERTICES)
-    assert np.array_equal(same.points, SAMPLES.points)
-    with pytest.raises(geodisk.InvalidArgument, match="is no candidate of its face"):
-        geodisk.update(dataclasses.replace(SAMPLES, seed=SAMPLES.seed + 1), edited)
-    with pytest.raises(geodisk.InvalidArgument, match="do not know their seed"):
-        geodisk.update(dataclasses.replace(SAMPLES, seed=None), edited)
-    with pytest.raises(geodisk.InvalidArgument, match="of [0-9]+ samples; give all of them"):
-        geodisk.update(SAMPLES[::2], edited)
-    sparse = geodisk.sample(VERTICES, FACES, min_distance=0.5, pool_ratio=5)
-    with pytest.raises(geodisk.InvalidArgument, match="made with pool_ratio cannot be updated"):
-        geodisk.update(sparse, edited)
-
-
 def test_transfer():
     there = geodisk.transfer(SAMPLES, VERTICES * [1, 2, 3])
     assert same(there, SAMPLES) and np.array_equal(there.order, SAMPLES.order)

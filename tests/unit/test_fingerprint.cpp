@@ -37,7 +37,17 @@ TEST_CASE("a fingerprint hangs on every value and on the order") {
             other[1].bary[field - 1] += 0x1p-24f;
         }
         CHECK(fingerprint_of(rows) != fingerprint_of(other));
+        CHECK(digest_of(rows) != digest_of(other));
     }
+}
+
+TEST_CASE("a digest is the sum of fingerprints, in any order") {
+    CHECK(digest_of(std::vector<SampleRow>{}) == "0000000000000000");
+    const SampleRow a = row(1, 0.25f, 0.25f, 0.5f), b = row(2, 0.5f, 0.25f, 0.25f);
+    CHECK(digest_of(std::vector{a}) == fingerprint_of(std::vector{a}));
+    CHECK(digest_of(std::vector{a, b}) == digest_of(std::vector{b, a}));
+    CHECK(digest_of(std::vector{a, b}) != digest_of(std::vector{a}));
+    CHECK(digest_of(std::vector{a, a}) == "04e094bd6fdf6f12"); // Twice the above.
 }
 
 } // namespace geodisk::tools

@@ -13,29 +13,35 @@ class Fnv1a {
         }
     }
 
-    std::string text() const {
-        std::string digits;
-        for (int shift = 60; shift >= 0; shift -= 4) {
-            digits += "0123456789abcdef"[hash_ >> shift & 0xf];
+    void add(const SampleRow& row) {
+        add(row.face);
+        for (const float weight : row.bary) {
+            add(std::bit_cast<std::uint32_t>(weight));
         }
-        return digits;
     }
+
+    std::uint64_t value() const { return hash_; }
 
   private:
     std::uint64_t hash_ = 0xcbf29ce484222325;
 };
+
+std::string hexadecimal(std::uint64_t number) {
+    std::string digits;
+    for (int shift = 60; shift >= 0; shift -= 4) {
+        digits += "0123456789abcdef"[number >> shift & 0xf];
+    }
+    return digits;
+}
 
 } // namespace
 
 std::string fingerprint_of(std::span<const SampleRow> rows) {
     Fnv1a hash;
     for (const SampleRow& row : rows) {
-        hash.add(row.face);
-        for (const float weight : row.bary) {
-            hash.add(std::bit_cast<std::uint32_t>(weight));
-        }
+        hash.add(row);
     }
-    return hash.text();
+    return hexadecimal(hash.value());
 }
 
 std::string fingerprint_of(std::span<const double> coordinates) {
@@ -45,7 +51,17 @@ std::string fingerprint_of(std::span<const double> coordinates) {
         hash.add(static_cast<std::uint32_t>(bits));
         hash.add(static_cast<std::uint32_t>(bits >> 32));
     }
-    return hash.text();
+    return hexadecimal(hash.value());
+}
+
+std::string digest_of(std::span<const SampleRow> rows) {
+    std::uint64_t sum = 0;
+    for (const SampleRow& row : rows) {
+        Fnv1a hash;
+        hash.add(row);
+        sum += hash.value();
+    }
+    return hexadecimal(sum);
 }
 
 } // namespace geodisk::tools

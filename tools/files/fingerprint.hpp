@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "files/sample_file.hpp"
 
@@ -17,5 +18,12 @@ std::string fingerprint_of(std::span<const SampleRow> rows);
 /// The same of samples in a box, over their coordinates in order, every double as two words with
 /// the lower one first.
 std::string fingerprint_of(std::span<const double> coordinates);
+
+/// Key of the header entry with the digest.
+inline constexpr std::string_view kDigest = "digest";
+
+/// Returns the digest of samples on a surface: the sum of the fingerprints of each one by itself,
+/// modulo 2^64. It is the same in any order.
+std::string digest_of(std::span<const SampleRow> rows);
 
 } // namespace geodisk::tools

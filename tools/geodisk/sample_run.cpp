@@ -35,7 +35,7 @@ void check_space(const SampleJob& job, const MeshInput& mesh) {
 Domain domain_of(const SampleJob& job, const MeshInput& mesh, const SampleParams& params,
                  const JobFrame* frame = nullptr) {
     if (frame != nullptr) {
-        return take(Domain::surface(mesh.prepared, params, *frame));
+        return take(Domain::surface(mesh.prepared, params, *frame), edit_text(job));
     }
     if (job.is_geodesic()) {
         return take(Domain::surface(mesh.prepared, params));

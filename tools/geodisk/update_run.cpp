@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <span>
 #include <string>
 #include <string_view>
@@ -16,6 +17,7 @@
 #include "geodisk/sample_run.hpp"
 #include "program/exact_text.hpp"
 #include "program/failure.hpp"
+#include "program/human_text.hpp"
 
 namespace geodisk::tools {
 namespace {
@@ -30,6 +32,29 @@ MeshOptions options_of(const SampleJob& job) {
     return options;
 }
 
+/// Returns the error of a run, or throws UserError(bad_input) for one of input.
+Error checked(const Error& error, const std::string& what) {
+    if (error.status == Status::invalid_argument || error.status == Status::mesh_rejected) {
+        fail_input(what, error.message);
+    }
+    return error;
+}
+
+/// Tells `progress`, which expects all samples of the surface, of those of a region in proportion.
+ProgressCallback in_proportion(const ProgressCallback& progress, const JobFrame& frame) {
+    return [&progress, all = frame.samples * frame.pool_ratio](const Progress& state) {
+        const double scale = std::max(1.0, all / state.candidates);
+        const auto scaled = [scale](std::uint64_t count) {
+            return static_cast<std::uint64_t>(scale * static_cast<double>(count));
+        };
+        Progress shown = state;
+        shown.accepted = static_cast<std::uint32_t>(scaled(state.accepted));
+        shown.disks = static_cast<std::uint32_t>(scaled(state.disks));
+        shown.windows = scaled(state.windows);
+        return progress(shown);
+    };
+}
+
 /// Returns the values of a key, one after the other.
 std::string values_of(std::string_view key, const HeaderEntries& entries) {
     std::string text;
@@ -41,13 +66,41 @@ std::string values_of(std::string_view key, const HeaderEntries& entries) {
     return text;
 }
 
+/// Checks that the frame of the mesh before has room for the edited one.
+void check_edit(const SampleJob& job, const MeshInput& before, const MeshInput& mesh,
+                const JobFrame& frame) {
+    const auto fail = [&](const std::string& what) {
+        fail_input(job.mesh.mesh, what + "; sample it without --from");
+    };
+    if (mesh.dimension() != before.dimension()) {
+        fail("has " + std::to_string(mesh.dimension()) + " coordinates per vertex, but " +
+             job.from + " has " + std::to_string(before.dimension()));
+    }
+    if (before.radii && mesh.radii &&
+        (before.radii->largest_density() != mesh.radii->largest_density() ||
+         before.radii->least_density() != mesh.radii->least_density())) {
+        fail("has another largest or least density than " + job.from +
+             ", by which all radii go, so all of them change");
+    }
+    const MeshStatistics& statistics = mesh.prepared.statistics();
+    const double longest = frame.longest_edge * frame.unit;
+    if (statistics.longest_edge > longest) {
+        fail("has an edge of length " + rounded(statistics.longest_edge, 6) + ", and edits of " +
+             job.from + " may have edges up to " + rounded(longest, 6));
+    }
+    if (frame.splits_once && statistics.nonmanifold_edges != 0) {
+        fail("has edges of more than two faces, and " + job.from + " has none");
+    }
+}
+
 /// Checks that samples are of a kind that can be updated.
-void check_kind(const SampleHeader& header, const std::string& path) {
+void check_kind(const SampleFile& file, const std::string& path) {
+    const SampleHeader& header = file.header;
     const std::pair<std::string_view, const char*> kinds[] = {
         {"throws", "--method darts"}, {"classes", "--classes"},
         {"features", "--features"},   {kLevelDistances, "--order progressive"},
-        {"maximal", "--maximal"},     {"avoid", "--avoid"},
-        {"metric", "--metric"}};
+        {"maximal", "--maximal"},     {"exact", "--count --exact"},
+        {"avoid", "--avoid"},         {"metric", "--metric"}};
     for (const auto& [key, option] : kinds) {
         if (header.find(key) != nullptr) {
             fail_input(path, std::string("has samples of ") + option +
@@ -61,6 +114,10 @@ void check_kind(const SampleHeader& header, const std::string& path) {
     if (header.find("kept_of") != nullptr) {
         fail_input(path, "has just the first samples of --order farthest, so the others are "
                          "not known; give a file with all samples");
+    }
+    if (!fits_digest(file)) {
+        fail_input(path, "has other samples than it was written with: some were removed, added or "
+                         "changed; give the file as geodisk wrote it");
     }
 }
 
@@ -99,18 +156,21 @@ void check_job(const SampleFile& file, const SampleJob& job, double min_distance
 
 } // namespace
 
+std::string edit_text(const SampleJob& job) {
+    return job.mesh.mesh + " as an edit of " + job.from;
+}
+
 UpdateRun::UpdateRun(const SampleJob& job, const MeshInput& mesh, ProgressLine& progress)
-    : mesh_(mesh), before_(load_mesh(options_of(job), progress, job.density, job.mask)),
+    : job_(job), mesh_(mesh), before_(load_mesh(options_of(job), progress, job.density, job.mask)),
       params_(params_on(before_, job)),
       frame_(frame_for_edits(take(frame_of(before_.prepared, params_)))) {
-    if (before_.radii && mesh_.radii &&
-        before_.radii->largest_density() != mesh_.radii->largest_density()) {
-        fail_input(job.mesh.mesh, "has another largest density than " + job.from +
-                                      ", at which the distance applies, so all radii are others; "
-                                      "sample it without --from");
-    }
+    check_edit(job, before_, mesh_, frame_);
     if (job.update.empty()) {
         return;
+    }
+    if (frame_.unit < frame_.min_distance) {
+        fail_usage("--update: the minimum distance exceeds " + job.from +
+                   ", so an edit may change all samples; leave it out");
     }
     const HeaderEntries additions = job.additions();
     std::vector<MeshWarning> warnings;
@@ -120,7 +180,7 @@ UpdateRun::UpdateRun(const SampleJob& job, const MeshInput& mesh, ProgressLine& 
         fail_input(job.update, "has no faces and weights, so its samples cannot be updated; give "
                                "a file of geodisk with them");
     }
-    check_kind(file.header, job.update);
+    check_kind(file, job.update);
     check_job(file, job, distance_on_mesh(*job.min_distance, before_.prepared.statistics()));
     for (const MeshWarning& warning : warnings) {
         print_warning(job.update + ": " + warning.message);
@@ -134,15 +194,16 @@ UpdateRun::UpdateRun(const SampleJob& job, const MeshInput& mesh, ProgressLine& 
 }
 
 Result<SampleSet> UpdateRun::sample(Runner& runner, const SurfaceTask& surface,
-                                    const ProgressCallback&) {
+                                    const ProgressCallback& progress) {
     const SurfaceJob after{view_of(mesh_), surface.params};
     auto updater = Updater::create({view_of(before_), params_}, after, frame_, samples_);
     if (!updater) {
-        return updater.error();
+        return checked(updater.error(), job_.update);
     }
-    const auto report = updater->update(runner, after.mesh, after.params, {});
+    const auto report =
+        updater->update(runner, after.mesh, after.params, {}, in_proportion(progress, frame_));
     if (!report) {
-        return report.error();
+        return checked(report.error(), edit_text(job_));
     }
     SampleSet set;
     set.samples.assign(updater->samples().begin(), updater->samples().end());

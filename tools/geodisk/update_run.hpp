@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include <geodisk/job_frame.hpp>
@@ -14,11 +15,14 @@
 
 namespace geodisk::tools {
 
+/// Names the two meshes of an edit, for errors.
+std::string edit_text(const SampleJob& job);
+
 /// The mesh before the edit, and its samples. Samples the edited mesh.
 class UpdateRun : public SurfaceSampler {
   public:
     /// Reads the mesh of --from, and the samples of --update if there are any. `mesh` is the edited
-    /// mesh; both must outlive it. Throws UserError.
+    /// mesh; the job and it must outlive this. Throws UserError.
     UpdateRun(const SampleJob& job, const MeshInput& mesh, ProgressLine& progress);
 
     /// Returns the minimum distance on the mesh before.
@@ -32,6 +36,7 @@ class UpdateRun : public SurfaceSampler {
     const std::vector<ProcessReport>& processes() const override { return processes_; }
 
   private:
+    const SampleJob& job_;
     const MeshInput& mesh_;
     MeshInput before_;
     SampleParams params_; ///< On the mesh before.

@@ -729,6 +729,75 @@ GEODISK_C_API geodisk_status geodisk_farthest_order(geodisk_sampler *sampler,
                                                     geodisk_farthest_info *info,
                                                     geodisk_error *error);
 
+/* ---- Updates ----------------------------------------------------------------------------------- */
+
+/* The samples of a surface, kept up to date while it is edited. An update decides only what the
+ * edit can reach. The samples are always those of a whole run in the same frame, as
+ * geodisk_domain_surface_in_frame makes it. One call at a time. */
+typedef struct geodisk_updater geodisk_updater;
+
+/* Makes the updater of a surface and its samples: all of a run, the given ones first. Everything is
+ * copied. The metric is GEODISK_GEODESIC, and `params` has no throws, stop_count, classes and
+ * is_maximal; the mesh has coordinates. `frame` is that of the mesh that the job began with; NULL for
+ * the frame of this one, with room for edges that become longer by up to 8 minimum distances. Fails
+ * for a sample that is no candidate of these parameters, with its index in `error->element`. */
+GEODISK_C_API geodisk_status geodisk_updater_create(const geodisk_mesh *mesh,
+                                                    const geodisk_surface_params *params,
+                                                    const geodisk_job_frame *frame,
+                                                    const geodisk_surface_point *samples,
+                                                    size_t sample_count,
+                                                    geodisk_updater **updater,
+                                                    geodisk_error *error);
+
+/* The same from the samples of the surface before an edit, whose faces may have other indices. Finds
+ * out what has changed: call geodisk_update with `mesh`, `params` and no changed faces next. Faces
+ * correspond by their keys, or by their indices without. `frame` is that of the job before. */
+GEODISK_C_API geodisk_status geodisk_updater_create_edited(const geodisk_mesh *mesh_before,
+                                                           const geodisk_surface_params *params_before,
+                                                           const geodisk_mesh *mesh,
+                                                           const geodisk_surface_params *params,
+                                                           const geodisk_job_frame *frame,
+                                                           const geodisk_surface_point *samples,
+                                                           size_t sample_count,
+                                                           geodisk_updater **updater,
+                                                           geodisk_error *error);
+
+/* How an update went. */
+typedef struct geodisk_update_info {
+    size_t struct_size;
+    uint32_t rounds;   /* Times a region was decided. Each one is wider than the last. */
+    uint32_t faces;    /* Faces of the last region. */
+    uint32_t uploaded; /* Faces that were on the device for it. */
+    uint32_t removed;  /* Samples that are no longer there, given ones aside. */
+    uint32_t added;    /* Samples that are new. */
+    uint32_t disks;    /* Geodesic disks computed. */
+} geodisk_update_info;
+
+/* Brings the samples up to date with the edited surface. `changed` lists the faces of which anything
+ * differs: the position of a corner, its vertices, radii, key or mask; all others must be as before.
+ * Faces keep their indices: to remove one, let it name a vertex twice. New ones come last, and count
+ * as changed. Given samples and points to avoid are compared with those before. The seed, minimum distance and pool
+ * ratio must not change. A mesh of which only radii, mask or given samples change need not be made
+ * again. `info` may be NULL; `progress` may be NULL, and `user` is passed to it. After a failure the
+ * samples are as before, and the next update includes this edit. */
+GEODISK_C_API geodisk_status geodisk_update(geodisk_updater *updater, geodisk_sampler *sampler,
+                                            const geodisk_mesh *mesh,
+                                            const geodisk_surface_params *params,
+                                            const uint32_t *changed, size_t changed_count,
+                                            geodisk_progress_fn progress, void *user,
+                                            geodisk_update_info *info, geodisk_error *error);
+
+/* Makes a copy of the samples as they are, given ones first, then in dart order. */
+GEODISK_C_API geodisk_status geodisk_updater_samples(geodisk_updater *updater,
+                                                     geodisk_samples **samples,
+                                                     geodisk_error *error);
+
+/* Writes the frame in which all surfaces of the updater are sampled. */
+GEODISK_C_API geodisk_status geodisk_updater_frame(geodisk_updater *updater,
+                                                   geodisk_job_frame *frame, geodisk_error *error);
+
+GEODISK_C_API void geodisk_updater_release(geodisk_updater *updater);
+
 /* ---- Recording --------------------------------------------------------------------------------- */
 
 /* A run in the caller's command buffers and memory, on a borrowed device. It allocates no device

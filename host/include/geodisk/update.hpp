@@ -49,7 +49,7 @@ class GEODISK_API Updater {
     /// sampled in it.
     ///
     /// Errors: `invalid_argument` for parameters that cannot be updated: darts, a stop count,
-    /// classes, points to avoid or a maximal set; for a frame of another job; for a minimum
+    /// classes or a maximal set; for a frame of another job; for a minimum
     /// distance that exceeds the surface; for a sample that is not given and no candidate of this
     /// mesh, seed, distance and pool ratio, with its index in Error::element; `mesh_rejected` as
     /// PreparedMesh::prepare().
@@ -73,15 +73,16 @@ class GEODISK_API Updater {
     /// anything differs: the position of a corner, its vertices, radii, key or mask. All other
     /// faces must be as before; they are not looked at. Faces keep their numbers: to remove one,
     /// let it name a vertex twice. New ones have the numbers after the last, and count as changed.
-    /// Given samples are compared with those before.
+    /// Given samples and points to avoid are compared with those before.
     ///
     /// Errors: `invalid_argument` for another seed, distance or pool ratio, parameters that cannot
     /// be updated, fewer faces than before, a changed face that does not exist, and for a surface
     /// that the frame does not fit, as Domain::surface() with a frame; `mesh_rejected` as
-    /// PreparedMesh::prepare(); those of Runner::sample_and_wait(). The samples then stay as they
-    /// were, and the next update includes this edit.
+    /// PreparedMesh::prepare(); those of Runner::sample_and_wait(), to which `progress` goes. The
+    /// samples then stay as they were, and the next update includes this edit.
     Result<UpdateReport> update(Runner& runner, const MeshView& mesh, const SampleParams& params,
-                                std::span<const std::uint32_t> changed) noexcept;
+                                std::span<const std::uint32_t> changed,
+                                const ProgressCallback& progress = {}) noexcept;
 
     /// Returns the samples in dart order, the given ones first.
     std::span<const Sample> samples() const noexcept;

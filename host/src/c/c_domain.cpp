@@ -79,19 +79,6 @@ Result<Done> fill(const geodisk_mesh* mesh, const geodisk_surface_params& given,
     return Done{};
 }
 
-/// Fills in a part, and returns what it was given as `params`.
-Result<geodisk_surface_params> fill_part(const geodisk_mesh* mesh,
-                                         const geodisk_surface_params* params, Part& part) {
-    const auto given = taken(params, "params");
-    if (!given) {
-        return given.error();
-    }
-    if (const auto filled = fill(mesh, *given, part); !filled) {
-        return filled.error();
-    }
-    return *given;
-}
-
 /// The state of a domain of one surface, to fill in.
 std::shared_ptr<DomainState> state_of_one() {
     auto state = std::make_shared<DomainState>();
@@ -160,6 +147,19 @@ double factor_of(double factor) {
 }
 
 } // namespace
+
+Result<geodisk_surface_params> fill_part(const geodisk_mesh* mesh,
+                                         const geodisk_surface_params* params, Part& part) {
+    const auto given = taken(params, "params");
+    if (!given) {
+        return given.error();
+    }
+    if (const auto filled = fill(mesh, *given, part); !filled) {
+        return filled.error();
+    }
+    return *given;
+}
+
 } // namespace geodisk::c
 
 using namespace geodisk;

@@ -26,11 +26,16 @@ struct Part {
     SampleParams params;
 };
 
+/// Fills in a part, and returns what it was given as `params`. The part must not move afterwards:
+/// its parameters refer to its data.
+Result<geodisk_surface_params> fill_part(const geodisk_mesh* mesh,
+                                         const geodisk_surface_params* params, Part& part);
+
 /// A domain with its surfaces, or a box if there are none. Must not move.
 struct DomainState {
     std::vector<Part> parts;
-    double min_distance = 0; ///< Minimum distance of the first surface.
-    std::optional<Domain> domain;
+    double min_distance = 0;      ///< Minimum distance of the first surface.
+    std::optional<Domain> domain; ///< Empty for a surface whose samples were updated.
 
     bool is_box() const noexcept { return parts.empty(); }
 };

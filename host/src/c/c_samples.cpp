@@ -22,13 +22,17 @@ class Places {
 
     /// Returns the number of the sample's surface.
     std::uint32_t part(std::size_t i) const {
+        if (domain_.parts.size() == 1) {
+            return 0;
+        }
         const auto first = domain_.domain->first_faces();
         const auto after = std::upper_bound(first.begin(), first.end(), set_.samples[i].face);
         return static_cast<std::uint32_t>(after - first.begin() - 1);
     }
     /// Returns the sample's face in that surface.
     std::uint32_t face(std::size_t i) const {
-        return set_.samples[i].face - domain_.domain->first_faces()[part(i)];
+        const std::uint32_t face = set_.samples[i].face;
+        return domain_.parts.size() == 1 ? face : face - domain_.domain->first_faces()[part(i)];
     }
 
     Row position(std::size_t i) const {
@@ -116,7 +120,7 @@ std::uint32_t width_of(const DomainState& domain, geodisk_attribute attribute) n
     case GEODISK_PART:
         return 1;
     case GEODISK_CLASS:
-        return Domain::Impl::of(*domain.domain).kernels.classes ? 1 : 0;
+        return domain.domain && Domain::Impl::of(*domain.domain).kernels.classes ? 1 : 0;
     case GEODISK_BARYCENTRIC:
         return 3;
     case GEODISK_POSITION:
@@ -238,7 +242,8 @@ geodisk_report report_of(const geodisk_samples& samples) {
     report.upload_seconds = run.seconds.upload;
     report.sample_seconds = run.seconds.sample;
     report.readback_seconds = run.seconds.readback;
-    const std::uint64_t wanted = Domain::Impl::of(*samples.of->domain).stop_count;
+    const auto& domain = samples.of->domain;
+    const std::uint64_t wanted = domain ? Domain::Impl::of(*domain).stop_count : 0;
     report.missing = static_cast<std::uint32_t>(wanted - std::min(wanted, report.samples));
     report.given = static_cast<std::uint32_t>(samples.set.given);
     report.maximal_rounds = run.maximal.rounds;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "files/fingerprint.hpp"
 #include "files/sample_columns.hpp"
 #include "geodisk/checks/run_warnings.hpp"
 #include "geodisk/checks/spacing.hpp"
@@ -186,6 +187,11 @@ void warn_of_other_surface(const std::string& samples_path, const SampleFile& sa
         {"other_surface", 1, "",
          "made with" + used + ", but this command has other options; distances may differ",
          samples_path});
+}
+
+bool fits_digest(const SampleFile& samples) {
+    const std::string* const digest = samples.header.find(kDigest);
+    return digest == nullptr || !samples.has_faces || trimmed(*digest) == digest_of(samples.rows);
 }
 
 std::vector<SurfaceDisk> sample_disks(const std::string& samples_path, const SampleFile& samples,

@@ -47,6 +47,9 @@ std::vector<std::uint32_t> masked_samples(const SampleFile& samples, const MeshI
 void warn_of_other_surface(const std::string& samples_path, const SampleFile& samples,
                            const HeaderEntries& additions, std::vector<MeshWarning>& warnings);
 
+/// Returns true unless the rows differ from those that the digest in the header is of.
+bool fits_digest(const SampleFile& samples);
+
 /// The disk of each sample. Its radius is half of `min_distance` if that is given, else its own,
 /// else half of the header's distance, else half the distance of the closest pair, which is a
 /// warning. Throws UserError if no distance follows from that either, and as header_distance() and

@@ -8,6 +8,7 @@
 
 #include <geodisk/version.hpp>
 
+#include "files/fingerprint.hpp"
 #include "files/output_file.hpp"
 #include "files/sample_file.hpp"
 #include "geodisk/checks/sample_checks.hpp"
@@ -117,7 +118,8 @@ SampleHeader transferred_header(const TransferOptions& options, const Transfer& 
     if (done.closest) {
         add({{"min_distance", exact_text(done.closest->distance)}});
     }
-    add({{"transferred_from", options.samples}});
+    add({{"transferred_from", options.samples},
+         {std::string(kDigest), digest_of(done.samples.rows)}});
     add(options.out.record.entries());
     if (done.farthest) {
         add(farthest_entries(*done.farthest));

@@ -35,6 +35,19 @@ constexpr const char* kExamples[] = {
     "geodisk verify box.csv",
 };
 
+/// Filtered files are checked as any other.
+void warn_of_other_rows(const VerifyOptions& options, const SampleFile& samples,
+                        std::vector<MeshWarning>& warnings) {
+    if (fits_digest(samples)) {
+        return;
+    }
+    warnings.push_back({"other_rows", 1, "",
+                        "its samples do not fit the digest in its header: since geodisk wrote it, "
+                        "some were removed, added or changed",
+                        options.samples});
+    print_warning(options.samples + ": " + warnings.back().message);
+}
+
 /// Computes the distances of all pairs that may be too close, or finds the closest pair where
 /// nothing says what is too close.
 GivenSpacing measure_spacing(const MeshInput& mesh, const SampleFile& samples,
@@ -72,6 +85,7 @@ void run_verify(const VerifyOptions& options) {
     const HeaderEntries additions = options.mesh.additions();
     auto [samples, strays] = read_samples_on(options.samples, options.mesh.mesh, mesh, &additions,
                                              options.tolerance, warnings, progress);
+    warn_of_other_rows(options, samples, warnings);
     WantedSpacing spacing = wanted_spacing(options, samples, mesh);
     if (options.is_maximal && !spacing.is_known) {
         fail_usage("--maximal needs a minimum distance; give --min-distance");

@@ -6,6 +6,7 @@
 
 #include <geodisk/version.hpp>
 
+#include "files/fingerprint.hpp"
 #include "files/part_columns.hpp"
 #include "files/sample_columns.hpp"
 #include "geodisk/reports/farthest_report.hpp"
@@ -229,11 +230,20 @@ SampleHeader SampleReport::header() const {
                          {"radius", exact_text(distance / 2)},
                          {"seed", exact_text(result_.params.seed)},
                          candidates_entry(drawn()),
+                         {std::string(kDigest), digest_of(result_.rows)},
                          {"device", done.device.name},
                          {"driver", driver_text(done.device)}}};
     header.entries.insert(header.entries.begin() + 2, additions.begin(), additions.end());
+    for (const auto& [key, path] : {std::pair{"from", job_.from}, {"update", job_.update}}) {
+        if (!path.empty()) {
+            header.entries.emplace_back(key, path);
+        }
+    }
     if (job_.params.pool_ratio != kDefaultPoolRatio) {
         header.entries.emplace_back(kPoolRatio, exact_text(job_.params.pool_ratio));
+    }
+    if (done.cut > 0) {
+        header.entries.emplace_back("exact", std::to_string(result_.rows.size()));
     }
     if (!job_.is_geodesic()) {
         header.entries.emplace_back("metric", metric_text(job_));

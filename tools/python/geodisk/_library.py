@@ -34,6 +34,7 @@ from ._structs import (
     SourceParams,
     SurfaceParams,
     SurfacePart,
+    UpdateInfo,
 )
 from ._wording import in_python
 
@@ -94,6 +95,28 @@ _FALLIBLE: dict[str, list[Any]] = {
         c_void_p,
         POINTER(FarthestInfo),
     ],
+    "geodisk_updater_create_edited": [
+        c_void_p,
+        POINTER(SurfaceParams),
+        c_void_p,
+        POINTER(SurfaceParams),
+        c_void_p,
+        c_void_p,
+        c_size_t,
+        _HANDLE,
+    ],
+    "geodisk_update": [
+        c_void_p,
+        c_void_p,
+        c_void_p,
+        POINTER(SurfaceParams),
+        c_void_p,
+        c_size_t,
+        PROGRESS_FN,
+        c_void_p,
+        POINTER(UpdateInfo),
+    ],
+    "geodisk_updater_samples": [c_void_p, _HANDLE],
     "geodisk_neighbours_describe": [c_void_p, POINTER(NeighbourArrays)],
     "geodisk_find_cells": [
         c_void_p,
@@ -135,6 +158,7 @@ _RELEASES = [
     "cells",
     "count_search",
     "source",
+    "updater",
     "warnings",
 ]
 

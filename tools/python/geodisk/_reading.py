@@ -74,6 +74,26 @@ def read(path: str | os.PathLike[str]) -> Samples:
             raise e.invalid(f"{path}: {error or type(error).__name__}") from error
 
 
+#: Arguments of sample() that entries of the program's header tell of.
+_OPTIONS = {
+    "pool_ratio": "pool_ratio",
+    "throws": "throws",
+    "exact": "exact",
+    "density": "density",
+    "radius_factor": "radius_factor",
+    "mask": "face_mask",
+    "only": "face_mask",
+    "metric": "metric",
+    "classes": "classes",
+    "features": "features",
+    "level_distances": "order",
+    "kept_of": "order",
+    "maximal": "maximal",
+    "existing": "existing",
+    "avoid": "avoid",
+}
+
+
 def _samples(header: Header, **arrays: Any) -> Samples:
     """Samples of those arrays, and of what the header tells."""
     if "box" in header:
@@ -86,6 +106,11 @@ def _samples(header: Header, **arrays: Any) -> Samples:
         arrays["class_distances"] = _class_distances(header["classes"], arrays["min_distance"])
     if "level_distances" in header:
         arrays["level_distances"] = tuple(map(float, header["level_distances"].split()))
+    arrays["_digest"] = header.get("digest")
+    options = header.get("options", "").split()
+    options += [name for key, name in _OPTIONS.items() if key in header and name not in options]
+    if options:
+        arrays["report"] = {"options": options}
     arrays["seed"] = int(header["seed"]) if "seed" in header else None
     return Samples(**arrays)
 

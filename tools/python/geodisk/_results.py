@@ -92,7 +92,7 @@ def first_of(samples: Samples, count: float) -> Samples:
     }
     for level in report.get("levels", []):
         level["samples"] = min(level["samples"], len(kept))
-    return dataclasses.replace(kept, report=report)
+    return dataclasses.replace(kept, report=report, _digest=None)
 
 
 def samples_of_parts(

@@ -16,10 +16,19 @@ from . import _errors as e
 from ._arrays import indices, real
 from ._attributes import check_finite, interpolated, values_of
 from ._files import complete
+from ._job import Job
 from ._sample import Sample
 from ._surface import Surface
 from ._values import flag
-from ._writing import WHOLE_COLUMNS, columns_of, header_of, write_csv, write_npz, write_ply
+from ._writing import (
+    WHOLE_COLUMNS,
+    columns_of,
+    digest_of,
+    header_of,
+    write_csv,
+    write_npz,
+    write_ply,
+)
 
 if TYPE_CHECKING:
     import pandas
@@ -158,6 +167,8 @@ class Samples:
     class_distances: NDArray[np.float64] | None = None
     level_distances: tuple[float, ...] | None = None
     _surface: Surface | None = None
+    _digest: str | None = None  # Of the set that these are of, if these may be a part.
+    _job: Job | None = None  # What they were made with, for updates.
 
     def __post_init__(self) -> None:
         def keep(name: str, value: Any) -> None:
@@ -244,10 +255,23 @@ class Samples:
         }
         for name in ("columns", "attributes"):
             chosen[name] = {column: x[key] for column, x in getattr(self, name).items()}
-        return dataclasses.replace(self, **chosen)
+        return dataclasses.replace(self, **chosen, _digest=self._digest_of_set())
 
     def __iter__(self) -> Iterator[Sample]:
         return (self._sample(i) for i in range(len(self)))
+
+    def _digest_of_set(self) -> str | None:
+        """Digest of the set that these are of, all of it unless chosen by an index."""
+        if self._digest is None and self.face_index is not None and self.barycentric is not None:
+            object.__setattr__(self, "_digest", digest_of(self.face_index, self.barycentric))
+        return self._digest
+
+    def _is_whole(self) -> bool:
+        """Whether these are all of their set, in any order."""
+        faces, weights = self.face_index, self.barycentric
+        return self._digest is None or (
+            faces is not None and weights is not None and self._digest == digest_of(faces, weights)
+        )
 
     def _sample(self, i: int) -> Sample:
         def row(array: NDArray[Any] | None) -> Any:
@@ -269,14 +293,14 @@ class Samples:
         )
 
     def __getstate__(self) -> dict[str, Any]:
-        return {**self.__dict__, "_surface": None}  # Meshes are often much larger.
+        return {**self.__dict__, "_surface": None, "_job": None}  # Often much larger.
 
     def __copy__(self) -> Samples:
         return dataclasses.replace(self)
 
     def __deepcopy__(self, memo: dict[int, Any]) -> Samples:
         own = {name: copy.deepcopy(x, memo) for name, x in self.__getstate__().items()}
-        return dataclasses.replace(self, **{**own, "_surface": self._surface})
+        return dataclasses.replace(self, **{**own, "_surface": self._surface, "_job": self._job})
 
     def __repr__(self) -> str:
         seed = "" if self.seed is None else f", seed {self.seed}"

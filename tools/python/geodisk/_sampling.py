@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ctypes
+import dataclasses
 from ctypes import byref, c_double
 from typing import Sequence
 
@@ -17,12 +18,13 @@ from ._devices import DeviceLike
 from ._existing import AvoidLike, ExistingLike, avoided_of, existing_of
 from ._farthest import put_farthest_first
 from ._features import Features
+from ._job import Job
 from ._levels import levels_of, run_levels
 from ._mesh import keys_of, mask_of, mesh_of
 from ._oddities import oddities_of_set, warn
 from ._protocols import Faces, MeshLike
 from ._radii import radii_of
-from ._results import first_of, samples_of
+from ._results import first_of, report_of, samples_of
 from ._running import Made, ProgressCallback, Runs, sampled
 from ._samples import Samples
 from ._values import check_exact, check_pool, distance_of, flag, integer
@@ -262,6 +264,7 @@ def sample(
         )
         distance = found.value * part
     made = sampled(run_at, distance / part, count, exact, device, progress)
+    run_distance = report_of(made.samples)["min_distance"]
     samples = samples_of(made, seed, mesh._surface, given=given, distance_part=part, classes=kinds)
     if edges is not None:
         samples = edges.marked(samples, len(kept))
@@ -289,6 +292,10 @@ def sample(
         "avoid": avoid is not None,
     }
     samples.report["options"] = [name for name, is_chosen in chosen.items() if is_chosen]
+    job = Job(
+        run_distance, pool_ratio, density, radius_factor, face_keys, face_mask, existing, avoid
+    )
+    samples = dataclasses.replace(samples, _job=job)
     if order == "farthest":
         samples = put_farthest_first(mesh._handle, mesh._surface, samples, device, progress)
     return samples

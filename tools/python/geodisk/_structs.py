@@ -196,6 +196,18 @@ class Report(_Sized):
     ]
 
 
+class UpdateInfo(_Sized):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("rounds", c_uint32),
+        ("faces", c_uint32),
+        ("uploaded", c_uint32),
+        ("removed", c_uint32),
+        ("added", c_uint32),
+        ("disks", c_uint32),
+    ]
+
+
 class NeighbourParams(_Sized):
     _fields_ = [
         ("struct_size", c_size_t),

@@ -44,6 +44,8 @@ def header_of(samples: Samples) -> Header:
         header["classes"] = ";".join(rows) + (";" if len(rows) == 1 else "")
     if samples.seed is not None:
         header["seed"] = str(samples.seed)
+    if (digest := samples._digest_of_set()) is not None:
+        header["digest"] = digest
     if samples.report.get("options"):
         header["options"] = " ".join(samples.report["options"])
     if samples.level_distances is not None:
@@ -55,6 +57,17 @@ def header_of(samples: Samples) -> Header:
     elif samples.points is not None and samples.points.shape[1] < 3:
         header["dimension"] = str(samples.points.shape[1])  # Since x y z are there in any case.
     return header
+
+
+def digest_of(faces: NDArray[np.uint32], weights: NDArray[np.float64]) -> str:
+    """The sum of the FNV-1a hashes of samples, as the program has it."""
+    words = np.column_stack([faces, weights.astype(np.float32).view(np.uint32)])
+    hashes = np.full(len(words), 0xCBF29CE484222325, np.uint64)
+    for word in words.T.astype(np.uint64):
+        for shift in range(0, 32, 8):
+            hashes ^= word >> np.uint64(shift) & np.uint64(0xFF)
+            hashes *= np.uint64(0x100000001B3)
+    return f"{int(hashes.sum(dtype=np.uint64)):016x}"
 
 
 def has_own_radii(samples: Samples) -> bool:

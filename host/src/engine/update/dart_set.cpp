@@ -8,6 +8,7 @@
 
 #include "engine/domain/given.hpp"
 #include "engine/update/mesh_part.hpp"
+#include "engine/update/update_checks.hpp"
 #include "support/invalid.hpp"
 
 namespace geodisk {
@@ -26,12 +27,6 @@ auto by_weights(const ListedCandidate& point) {
     return std::tuple(point.weight1, point.weight2);
 }
 
-/// Samples of a face, by their index, with the point of each.
-struct Wanted {
-    ListedCandidate point;
-    std::size_t index;
-};
-
 Error unknown(std::size_t index) {
     return invalid("sample " + std::to_string(index) +
                        " is no candidate of its face: the samples are of another mesh, seed, "
@@ -42,34 +37,22 @@ Error unknown(std::size_t index) {
 } // namespace
 
 Result<DartSet> DartSet::find(const MeshView& mesh, const SampleParams& params,
-                              const JobFrame& frame, std::span<const Sample> samples,
-                              std::size_t first_index, const ThreadOptions& threads) {
-    std::vector<Wanted> wanted;
-    wanted.reserve(samples.size());
-    for (std::size_t i = 0; i < samples.size(); ++i) {
-        const std::size_t index = first_index + i;
-        if (samples[i].face >= mesh.face_count()) {
-            return invalid("sample " + std::to_string(index) + " is in face " +
-                               std::to_string(samples[i].face) + ", but there are " +
-                               std::to_string(mesh.face_count()),
-                           index);
-        }
-        wanted.push_back({to_point(samples[i]), index});
-    }
-    std::ranges::sort(wanted, {}, [](const Wanted& w) {
-        return std::tuple(w.point.face, w.point.weight1, w.point.weight2);
+                              const JobFrame& frame, std::vector<NumberedSample> samples,
+                              const ThreadOptions& threads) {
+    std::ranges::sort(samples, {}, [](const NumberedSample& s) {
+        return std::tuple_cat(order_of(s.sample), std::tuple(s.number));
     });
     DartSet set;
     Darts drawn;
-    for (auto next = wanted.begin(); next != wanted.end();) {
+    for (auto next = samples.cbegin(); next != samples.cend();) {
         std::vector<std::uint32_t> faces;
         auto end = next;
-        for (; end != wanted.end(); ++end) {
-            if (faces.empty() || faces.back() != end->point.face) {
+        for (; end != samples.cend(); ++end) {
+            if (faces.empty() || faces.back() != end->sample.face) {
                 if (faces.size() == kFacesAtOnce) {
                     break;
                 }
-                faces.push_back(end->point.face);
+                faces.push_back(end->sample.face);
             }
         }
         const auto part = MeshPart::prepare(mesh, params, std::move(faces), threads);
@@ -85,16 +68,16 @@ Result<DartSet> DartSet::find(const MeshView& mesh, const SampleParams& params,
             const auto weights = [](const DrawnCandidate& c) { return by_weights(c.point); };
             std::ranges::sort(drawn, {}, weights);
             for (const std::uint32_t face = part->faces()[f];
-                 next != end && next->point.face == face; ++next) {
-                const auto found =
-                    std::ranges::lower_bound(drawn, by_weights(next->point), {}, weights);
-                if (found == drawn.end() || weights(*found) != by_weights(next->point)) {
-                    return unknown(next->index);
+                 next != end && next->sample.face == face; ++next) {
+                const auto wanted = by_weights(to_point(next->sample));
+                const auto found = std::ranges::lower_bound(drawn, wanted, {}, weights);
+                if (found == drawn.end() || weights(*found) != wanted) {
+                    return unknown(next->number);
                 }
-                if (next + 1 != end && next->point == next[1].point) {
-                    return invalid("samples " + std::to_string(next->index) + " and " +
-                                       std::to_string(next[1].index) + " are the same",
-                                   next[1].index);
+                if (next + 1 != end && order_of(next->sample) == order_of(next[1].sample)) {
+                    return invalid("samples " + std::to_string(next->number) + " and " +
+                                       std::to_string(next[1].number) + " are the same",
+                                   next[1].number);
                 }
                 set.in_order_.push_back(*found);
                 set.in_order_.back().point.face = face;

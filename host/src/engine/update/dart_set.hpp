@@ -1,6 +1,7 @@
 // DartSet: accepted candidates of a surface, by dart order and by face.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <unordered_map>
@@ -16,13 +17,19 @@
 
 namespace geodisk {
 
+/// A sample, and its number among those that the caller gave.
+struct NumberedSample {
+    Sample sample;
+    std::size_t number;
+};
+
 class DartSet {
   public:
-    /// Finds the candidates that samples are, and puts them in dart order. Errors:
-    /// `invalid_argument` for one that is no candidate, with its index from `first_index` on.
+    /// Finds the candidates that samples are, and puts them in dart order. All lie in faces of the
+    /// mesh. Errors: `invalid_argument` for one that is no candidate, with its number.
     static Result<DartSet> find(const MeshView& mesh, const SampleParams& params,
-                                const JobFrame& frame, std::span<const Sample> samples,
-                                std::size_t first_index, const ThreadOptions& threads);
+                                const JobFrame& frame, std::vector<NumberedSample> samples,
+                                const ThreadOptions& threads);
 
     const Darts& in_order() const { return in_order_; }
     /// Returns those of a face.

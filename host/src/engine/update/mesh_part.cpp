@@ -46,6 +46,7 @@ Result<MeshPart> MeshPart::prepare(const MeshView& mesh, const SampleParams& par
     MeshPart part;
     part.params_ = params;
     part.params_.given = {};
+    part.params_.avoid = {};
     part.faces_ = std::move(faces);
     const Shape shape = shape_of(mesh, part.faces_);
     auto prepared =

@@ -21,6 +21,14 @@ constexpr double kFurtherWidth = 2;
 constexpr double kDisksWidth = 2;
 constexpr double kBoundsWidth = 2.5;
 
+double largest_radius(std::span<const KeepOut> avoided) {
+    double largest = 0;
+    for (const KeepOut& one : avoided) {
+        largest = std::max(largest, one.radius);
+    }
+    return largest;
+}
+
 } // namespace
 
 Region::Region(Runner& runner, const EditedSurface& surface)
@@ -31,6 +39,18 @@ Region::Region(Runner& runner, const EditedSurface& surface)
     }
 }
 
+std::vector<KeepOut> Region::avoided_near(std::span<const std::uint32_t> faces) {
+    const double largest = largest_radius(surface_.params.avoid);
+    std::vector<KeepOut> found;
+    if (largest > 0) {
+        near_.clear(surface_.faces.face_count());
+        faces_.reach(faces, kReach * largest, near_);
+        std::ranges::copy_if(surface_.params.avoid, std::back_inserter(found),
+                             [this](const KeepOut& one) { return near_.has(one.center.face); });
+    }
+    return found;
+}
+
 Result<MeshPart> Region::prepare_part() {
     const std::uint32_t count = surface_.faces.face_count();
     const bool vary = surface_.params.radii != nullptr;
@@ -38,6 +58,13 @@ Result<MeshPart> Region::prepare_part() {
     all_.clear(count);
     faces_.reach(region_.members(), reach_, ring_);
     faces_.reach(region_.members(), (vary ? kBoundsWidth : kDisksWidth) * reach_, all_);
+    // Disks of points to avoid may be larger.
+    avoided_ = avoided_near(region_.members());
+    std::vector<std::uint32_t> centers;
+    for (const KeepOut& one : avoided_) {
+        centers.push_back(one.center.face);
+    }
+    faces_.reach(centers, kReach * largest_radius(avoided_), all_);
     std::vector<std::uint32_t> members = all_.members();
     std::ranges::sort(members);
     auto part =
@@ -102,11 +129,16 @@ Result<std::vector<bool>> Region::accept(const MeshPart& part, const std::vector
     params.face_keys = {};
     params.face_mask = {};
     params.given = given;
+    std::vector<KeepOut> avoided = avoided_;
+    for (KeepOut& one : avoided) {
+        one.center.face = *part.find(one.center.face);
+    }
+    params.avoid = avoided;
     const auto domain = listed_domain(part.mesh(), params, surface_.frame, points);
     if (!domain) {
         return domain.error();
     }
-    const auto set = runner_.sample_and_wait(*domain);
+    const auto set = runner_.sample_and_wait(*domain, surface_.progress);
     if (!set) {
         return set.error();
     }
@@ -154,12 +186,15 @@ Changes Region::compare(const MeshPart& part, const std::vector<Entry>& entries,
     return changes;
 }
 
-Result<Changes> Region::decide(std::span<const std::uint32_t> sources, UpdateReport& report) {
+Result<Changes> Region::decide(std::span<const std::uint32_t> sources, double avoided,
+                               UpdateReport& report) {
     region_.clear(surface_.faces.face_count());
     goes_on_.assign(sources.begin(), sources.end());
+    avoided = std::max(avoided, largest_radius(avoided_near(sources)));
+    double width = std::max(kFirstWidth * reach_, kReach * avoided);
     Changes changes;
-    for (double width = kFirstWidth; !goes_on_.empty(); width = kFurtherWidth) {
-        faces_.reach(goes_on_, width * reach_, region_);
+    for (; !goes_on_.empty(); width = kFurtherWidth * reach_) {
+        faces_.reach(goes_on_, width, region_);
         const auto part = prepare_part();
         if (!part) {
             return part.error();

@@ -27,6 +27,7 @@ struct EditedSurface {
     const LiveMesh& faces;
     const DartSet& darts;
     const ThreadOptions& threads;
+    const ProgressCallback& progress;
 };
 
 /// What an edit does to the samples, both in dart order.
@@ -42,10 +43,14 @@ class Region {
     Region(Runner& runner, const EditedSurface& surface);
 
     /// Returns the changes, where `sources` are faces that have changed or share a vertex with one
-    /// that has.
-    Result<Changes> decide(std::span<const std::uint32_t> sources, UpdateReport& report);
+    /// that has. Disks of points to avoid that are no longer there, or new, reach `avoided` from
+    /// them.
+    Result<Changes> decide(std::span<const std::uint32_t> sources, double avoided,
+                           UpdateReport& report);
 
   private:
+    /// Returns the points to avoid whose disks may meet some faces.
+    std::vector<KeepOut> avoided_near(std::span<const std::uint32_t> faces);
     /// A candidate of the region, or a sample outside it, by its face in the part.
     struct Entry {
         DrawnCandidate dart;
@@ -66,7 +71,8 @@ class Region {
     EditedSurface surface_;
     double reach_; ///< More than any two candidates that conflict are apart.
     FaceReach faces_;
-    FaceSet region_, ring_, all_;
+    FaceSet region_, ring_, all_, near_;
+    std::vector<KeepOut> avoided_;       ///< Those whose disks may meet the region.
     std::vector<std::uint32_t> goes_on_; ///< Faces from which changes leave the region.
     std::unordered_map<std::uint32_t, std::vector<Sample>> given_; ///< By face.
 };

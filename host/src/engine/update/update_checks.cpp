@@ -1,11 +1,13 @@
 #include "engine/update/update_checks.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "engine/domain/check_frame.hpp"
 #include "mesh/checks.hpp"
 #include "support/invalid.hpp"
+#include "support/number_text.hpp"
 
 namespace geodisk {
 namespace {
@@ -23,9 +25,6 @@ Result<Done> check_kind(const SampleParams& params) {
     }
     if (!params.class_factors.empty()) {
         return refuse("samples of classes");
-    }
-    if (!params.avoid.empty()) {
-        return refuse("samples with points to avoid");
     }
     if (params.maximal) {
         return refuse("a maximal set");
@@ -52,11 +51,27 @@ Result<Done> check_sizes(const MeshView& mesh, const SampleParams& params) {
     return check("radii", radii);
 }
 
-Result<Done> check_given_faces(const LiveMesh& faces, std::span<const Sample> given) {
-    for (std::size_t i = 0; i < given.size(); ++i) {
-        if (given[i].face >= faces.face_count() || !faces.takes_part(given[i].face)) {
-            return invalid("given sample " + std::to_string(i) + " is in face " +
-                               std::to_string(given[i].face) + ", which there is not",
+Result<Done> check_places(const LiveMesh& faces, const SampleParams& params) {
+    const auto check = [&](const char* what, std::size_t i, std::uint32_t face) -> Result<Done> {
+        return face < faces.face_count() && faces.takes_part(face)
+                   ? Result<Done>(Done{})
+                   : invalid(what + std::to_string(i) + " is in face " + std::to_string(face) +
+                                 ", which there is not",
+                             i);
+    };
+    for (std::size_t i = 0; i < params.given.size(); ++i) {
+        if (auto checked = check("given sample ", i, params.given[i].face); !checked) {
+            return checked;
+        }
+    }
+    for (std::size_t i = 0; i < params.avoid.size(); ++i) {
+        const auto& [center, radius] = params.avoid[i];
+        if (auto checked = check("point to avoid ", i, center.face); !checked) {
+            return checked;
+        }
+        if (!(radius > 0) || !std::isfinite(radius)) {
+            return invalid("point to avoid " + std::to_string(i) + " has the radius " +
+                               number_text(radius) + ", not a positive number",
                            i);
         }
     }

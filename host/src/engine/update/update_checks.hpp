@@ -20,14 +20,18 @@ inline auto order_of(const Sample& sample) {
     return std::tuple(sample.face, second, third);
 }
 
+inline auto order_of_avoided(const KeepOut& avoided) {
+    return std::tuple_cat(order_of(avoided.center), std::tuple(avoided.radius));
+}
+
 /// Returns RadiusField::least_density() of the parameters, or 0.
 double density_of(const SampleParams& params);
 
 /// Checks the sizes of what the parameters say of faces.
 Result<Done> check_sizes(const MeshView& mesh, const SampleParams& params);
 
-/// Checks that given samples are in faces that take part.
-Result<Done> check_given_faces(const LiveMesh& faces, std::span<const Sample> given);
+/// Checks that given samples and points to avoid are in faces that take part.
+Result<Done> check_places(const LiveMesh& faces, const SampleParams& params);
 
 /// Checks that parameters are those of an updater, but for what an edit may change.
 Result<Done> check_same(const SampleParams& params, const JobFrame& frame, std::uint64_t seed,

@@ -29,18 +29,14 @@ namespace {
 // Distances by which edges may become longer.
 constexpr double kSpareEdges = 8;
 
-/// Returns the faces of given samples that only one of two lists has.
-std::vector<std::uint32_t> faces_of_difference(std::vector<Sample> a, std::vector<Sample> b) {
-    std::ranges::sort(a, {}, order_of);
-    std::ranges::sort(b, {}, order_of);
-    std::vector<Sample> difference;
-    std::ranges::set_symmetric_difference(a, b, std::back_inserter(difference), {}, order_of,
-                                          order_of);
-    std::vector<std::uint32_t> faces;
-    for (const Sample& sample : difference) {
-        faces.push_back(sample.face);
-    }
-    return faces;
+/// Returns what only one of two lists has: of given samples, or of points to avoid.
+template <class Place, class Order>
+std::vector<Place> difference_of(std::vector<Place> a, std::vector<Place> b, const Order& order) {
+    std::ranges::sort(a, {}, order);
+    std::ranges::sort(b, {}, order);
+    std::vector<Place> difference;
+    std::ranges::set_symmetric_difference(a, b, std::back_inserter(difference), {}, order, order);
+    return difference;
 }
 
 } // namespace
@@ -63,17 +59,17 @@ struct Updater::Impl {
     LiveMesh faces;
     DartSet darts;
     std::vector<Sample> given{};
+    std::vector<KeepOut> avoid{};
     std::vector<Sample> samples{};
     // Edits that are not yet decided.
     std::vector<std::uint32_t> undecided{}; ///< Faces that have changed.
     FaceSet sources{};                      ///< Those, and their neighbours before and after.
-
-    std::size_t dropped = 0; ///< Samples of those faces that are gone already.
+    std::size_t dropped = 0;                ///< Samples of those faces that are gone already.
+    double avoided = 0; ///< Largest radius of the points to avoid there that are gone.
 
     /// Makes the state of a surface whose samples, but for the given ones, are found.
     static Result<std::unique_ptr<Impl>> make(const SurfaceJob& job, const JobFrame& frame,
-                                              std::span<const Sample> samples,
-                                              std::size_t first_index,
+                                              std::vector<NumberedSample> samples,
                                               const ThreadOptions& threads);
     Result<Done> check_same_job(const MeshView& mesh, const SampleParams& params,
                                 std::span<const std::uint32_t> changed) const;
@@ -82,13 +78,14 @@ struct Updater::Impl {
     void set_samples();
 };
 
-Result<std::unique_ptr<Updater::Impl>>
-Updater::Impl::make(const SurfaceJob& job, const JobFrame& frame, std::span<const Sample> samples,
-                    std::size_t first_index, const ThreadOptions& threads) {
+Result<std::unique_ptr<Updater::Impl>> Updater::Impl::make(const SurfaceJob& job,
+                                                           const JobFrame& frame,
+                                                           std::vector<NumberedSample> samples,
+                                                           const ThreadOptions& threads) {
     JobFrame own = frame;
     own.longest_edge = std::ceil(own.longest_edge); // All tolerances go by it.
     const auto& [mesh, params] = job;
-    auto darts = DartSet::find(mesh, params, own, samples, first_index, threads);
+    auto darts = DartSet::find(mesh, params, own, std::move(samples), threads);
     if (!darts) {
         return darts.error();
     }
@@ -173,12 +170,19 @@ Result<Updater> Updater::create(const MeshView& mesh, const SampleParams& params
         if (auto checked = check_start({mesh, params}, frame, samples, threads); !checked) {
             return checked.error();
         }
-        auto impl = Impl::make({mesh, params}, frame, samples.subspan(params.given.size()),
-                               params.given.size(), threads);
+        std::vector<NumberedSample> found;
+        for (std::size_t i = params.given.size(); i < samples.size(); ++i) {
+            if (samples[i].face >= mesh.face_count()) {
+                return no_face(i, samples[i].face, mesh.face_count());
+            }
+            found.push_back({samples[i], i});
+        }
+        auto impl = Impl::make({mesh, params}, frame, std::move(found), threads);
         if (!impl) {
             return impl.error();
         }
         (*impl)->given.assign(params.given.begin(), params.given.end());
+        (*impl)->avoid.assign(params.avoid.begin(), params.avoid.end());
         (*impl)->set_samples();
         return Updater(std::move(*impl));
     });
@@ -195,7 +199,8 @@ Result<Updater> Updater::create(const SurfaceJob& before, const SurfaceJob& afte
             return checked.error();
         }
         FaceMatch match = match_faces(before, after);
-        std::vector<Sample> given, kept;
+        std::vector<Sample> given;
+        std::vector<NumberedSample> kept;
         std::size_t dropped = 0;
         for (std::size_t i = 0; i < samples.size(); ++i) {
             Sample sample = samples[i];
@@ -204,15 +209,26 @@ Result<Updater> Updater::create(const SurfaceJob& before, const SurfaceJob& afte
             }
             const bool is_given = i < before.params.given.size();
             sample.face = match.kept[sample.face];
-            if (sample.face != kNoFace) {
-                (is_given ? given : kept).push_back(sample);
-            } else if (!is_given) {
-                ++dropped;
+            if (sample.face == kNoFace) {
+                dropped += is_given ? 0 : 1;
+            } else if (is_given) {
+                given.push_back(sample);
+            } else {
+                kept.push_back({sample, i});
             }
         }
-        auto impl = Impl::make(after, frame, kept, before.params.given.size(), threads);
+        auto impl = Impl::make(after, frame, std::move(kept), threads);
         if (!impl) {
             return impl.error();
+        }
+        for (KeepOut one : before.params.avoid) {
+            one.center.face =
+                one.center.face < match.kept.size() ? match.kept[one.center.face] : kNoFace;
+            if (one.center.face != kNoFace) {
+                (*impl)->avoid.push_back(one);
+            } else {
+                (*impl)->avoided = std::max((*impl)->avoided, one.radius);
+            }
         }
         (*impl)->given = std::move(given);
         (*impl)->undecided = std::move(match.changed);
@@ -224,7 +240,8 @@ Result<Updater> Updater::create(const SurfaceJob& before, const SurfaceJob& afte
 
 Result<UpdateReport> Updater::update(Runner& runner, const MeshView& mesh,
                                      const SampleParams& params,
-                                     std::span<const std::uint32_t> changed) noexcept {
+                                     std::span<const std::uint32_t> changed,
+                                     const ProgressCallback& progress) noexcept {
     return guarded([&]() -> Result<UpdateReport> {
         Impl& own = *impl_;
         std::vector<std::uint32_t> edited = own.undecided;
@@ -237,16 +254,22 @@ Result<UpdateReport> Updater::update(Runner& runner, const MeshView& mesh,
         }
         own.undecided = std::move(edited);
         own.connect(mesh);
-        if (auto checked = check_given_faces(own.faces, params.given); !checked) {
+        if (auto checked = check_places(own.faces, params); !checked) {
             return checked.error();
         }
         std::vector<Sample> given(params.given.begin(), params.given.end());
-        for (const std::uint32_t face : faces_of_difference(own.given, given)) {
-            own.sources.insert(face);
+        for (const Sample& sample : difference_of(own.given, given, order_of)) {
+            own.sources.insert(sample.face);
+        }
+        std::vector<KeepOut> avoid(params.avoid.begin(), params.avoid.end());
+        for (const KeepOut& one : difference_of(own.avoid, avoid, order_of_avoided)) {
+            own.sources.insert(one.center.face);
+            own.avoided = std::max(own.avoided, one.radius);
         }
         UpdateReport report;
-        Region region(runner, {mesh, params, own.frame, own.faces, own.darts, own.threads});
-        const auto changes = region.decide(own.sources.members(), report);
+        Region region(runner,
+                      {mesh, params, own.frame, own.faces, own.darts, own.threads, progress});
+        const auto changes = region.decide(own.sources.members(), own.avoided, report);
         if (!changes) {
             return changes.error();
         }
@@ -255,6 +278,8 @@ Result<UpdateReport> Updater::update(Runner& runner, const MeshView& mesh,
         report.added = static_cast<std::uint32_t>(changes->added.size());
         own.darts.replace(changes->removed, changes->added, own.has_keys);
         own.given = std::move(given);
+        own.avoid = std::move(avoid);
+        own.avoided = 0;
         own.set_samples();
         own.undecided.clear();
         own.sources.clear(own.faces.face_count());

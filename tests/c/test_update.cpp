@@ -1,0 +1,202 @@
+// Samples that follow edits by the C API are those of whole runs.
+#include <doctest/doctest.h>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "c/api.hpp"
+
+namespace geodisk::test {
+namespace {
+
+std::vector<geodisk_surface_point> points_of(const Placed& samples) {
+    std::vector<geodisk_surface_point> points;
+    for (std::size_t i = 0; i < samples.faces.size(); ++i) {
+        const float* const w = &samples.weights[3 * i];
+        points.push_back({samples.faces[i], {w[0], w[1], w[2]}});
+    }
+    return points;
+}
+
+geodisk_surface_params job_at(double min_distance) {
+    auto params = sized<geodisk_surface_params>();
+    params.min_distance = min_distance;
+    params.seed = 4;
+    return params;
+}
+
+Placed whole_run(const geodisk_mesh* mesh, const geodisk_surface_params& params,
+                 const geodisk_job_frame* frame = nullptr) {
+    const auto domain = owned<geodisk_domain>([&](geodisk_domain** made, geodisk_error* error) {
+        return frame == nullptr
+                   ? geodisk_domain_surface(mesh, &params, made, error)
+                   : geodisk_domain_surface_in_frame(mesh, &params, frame, made, error);
+    });
+    return placed(sample(shared_sampler(), domain.get()).get());
+}
+
+Placed samples_of(geodisk_updater* updater) {
+    return placed(owned<geodisk_samples>([&](geodisk_samples** made, geodisk_error* error) {
+                      return geodisk_updater_samples(updater, made, error);
+                  }).get());
+}
+
+geodisk_job_frame frame_of(geodisk_updater* updater) {
+    geodisk_job_frame frame{};
+    REQUIRE(geodisk_updater_frame(updater, &frame, nullptr) == GEODISK_OK);
+    return frame;
+}
+
+Owned<geodisk_updater> begin(const geodisk_mesh* mesh, const geodisk_surface_params& params,
+                             const std::vector<geodisk_surface_point>& samples) {
+    return owned<geodisk_updater>([&](geodisk_updater** made, geodisk_error* error) {
+        return geodisk_updater_create(mesh, &params, nullptr, samples.data(), samples.size(), made,
+                                      error);
+    });
+}
+
+} // namespace
+
+TEST_CASE("painted masks and radii are followed") {
+    const TestMesh shape = builtin("torus-knot", 8);
+    const auto mesh = mesh_of(shape);
+    std::vector<float> factors(shape.vertex_count(), 1.0f);
+    const auto radii_of = [&] {
+        return owned<geodisk_radii>([&](geodisk_radii** made, geodisk_error* error) {
+            return geodisk_radii_create(mesh.get(), factors.data(), GEODISK_FLOAT32, factors.size(),
+                                        made, error);
+        });
+    };
+    auto radii = radii_of();
+    std::vector<std::uint8_t> mask(shape.face_count(), 1);
+    auto params = job_at(0.15);
+    params.radii = radii.get();
+    params.face_mask = mask.data();
+    const Placed before = whole_run(mesh.get(), params);
+    const Owned<geodisk_updater> updater = begin(mesh.get(), params, points_of(before));
+    CHECK(samples_of(updater.get()) == before);
+
+    std::vector<std::uint32_t> changed;
+    for (std::uint32_t face = 100; face < 140; ++face) {
+        mask[face] = 0;
+        changed.push_back(face);
+    }
+    for (std::uint32_t face = 0; face < shape.face_count(); ++face) {
+        for (std::uint32_t corner = 0; corner < 3; ++corner) {
+            if (shape.triangles[3 * face + corner] < 30) {
+                factors[shape.triangles[3 * face + corner]] = 0.5f;
+                changed.push_back(face);
+            }
+        }
+    }
+    radii = radii_of();
+    params.radii = radii.get();
+    auto info = sized<geodisk_update_info>();
+    REQUIRE(geodisk_update(updater.get(), shared_sampler(), mesh.get(), &params, changed.data(),
+                           changed.size(), nullptr, nullptr, &info, nullptr) == GEODISK_OK);
+    const geodisk_job_frame frame = frame_of(updater.get());
+    CHECK(samples_of(updater.get()) == whole_run(mesh.get(), params, &frame));
+    CHECK_FALSE(samples_of(updater.get()) == before);
+    CHECK(info.rounds > 0);
+    CHECK(info.added > 0);
+    CHECK(info.removed > 0);
+    CHECK(info.disks > 0);
+    CHECK(info.faces < info.uploaded);
+    CHECK(info.uploaded <= shape.face_count());
+
+    // All that other samples tell is there as well.
+    const auto samples = owned<geodisk_samples>([&](geodisk_samples** made, geodisk_error* error) {
+        return geodisk_updater_samples(updater.get(), made, error);
+    });
+    CHECK(positions(samples.get()).size() == 3 * geodisk_samples_count(samples.get()));
+    CHECK(geodisk_samples_width(samples.get(), GEODISK_CLASS) == 0);
+    auto report = sized<geodisk_report>();
+    REQUIRE(geodisk_samples_report(samples.get(), &report, nullptr) == GEODISK_OK);
+    CHECK(report.samples == geodisk_samples_count(samples.get()));
+    CHECK(report.disks == info.disks);
+    CHECK(report.missing == 0);
+}
+
+TEST_CASE("an edited mesh is found out about, and given samples are followed") {
+    TestMesh shape = builtin("torus-knot", 8);
+    const auto before = mesh_of(shape);
+    const auto params = job_at(0.15);
+    const Placed samples = whole_run(before.get(), params);
+    shape.positions[3 * 40] += 0.05;
+    const auto after = mesh_of(shape);
+    const geodisk_surface_point given{200, {0.5f, 0.25f, 0.25f}};
+    auto edited = params;
+    edited.given = &given;
+    edited.given_count = 1;
+    const std::vector<geodisk_surface_point> points = points_of(samples);
+    const auto updater = owned<geodisk_updater>([&](geodisk_updater** made, geodisk_error* error) {
+        return geodisk_updater_create_edited(before.get(), &params, after.get(), &edited, nullptr,
+                                             points.data(), points.size(), made, error);
+    });
+    REQUIRE(geodisk_update(updater.get(), shared_sampler(), after.get(), &edited, nullptr, 0,
+                           nullptr, nullptr, nullptr, nullptr) == GEODISK_OK);
+    const geodisk_job_frame frame = frame_of(updater.get());
+    CHECK(samples_of(updater.get()) == whole_run(after.get(), edited, &frame));
+    CHECK(samples_of(updater.get()).faces.front() == 200);
+}
+
+TEST_CASE("updates that cannot be are refused") {
+    const TestMesh shape = builtin("torus-knot", 8);
+    const auto mesh = mesh_of(shape);
+    const auto params = job_at(0.15);
+    const std::vector<geodisk_surface_point> points = points_of(whole_run(mesh.get(), params));
+    const auto refusal = [&](const geodisk_mesh* of, const geodisk_surface_params* job,
+                             const geodisk_surface_point* samples, std::size_t count) {
+        auto error = sized<geodisk_error>();
+        geodisk_updater* made = nullptr;
+        CHECK(geodisk_updater_create(of, job, nullptr, samples, count, &made, &error) ==
+              GEODISK_INVALID_ARGUMENT);
+        CHECK(made == nullptr);
+        return std::string(error.message);
+    };
+    CHECK(refusal(nullptr, &params, points.data(), points.size()) == "mesh is NULL");
+    CHECK(refusal(mesh.get(), nullptr, points.data(), points.size()) == "params is NULL");
+    CHECK(refusal(mesh.get(), &params, nullptr, 3) == "samples is NULL");
+    auto other = params;
+    other.metric = GEODISK_EUCLIDEAN;
+    CHECK(refusal(mesh.get(), &other, points.data(), points.size()) ==
+          "params->metric: updates are for geodesic distances only");
+    other = params;
+    other.stop_count = 10;
+    CHECK(refusal(mesh.get(), &other, points.data(), points.size()) ==
+          "samples up to a count cannot be updated; sample the surface again");
+    other = params;
+    other.seed = 5;
+    CHECK(refusal(mesh.get(), &other, points.data(), points.size()).starts_with("sample "));
+    const auto small = mesh_of(builtin("icosphere", 2));
+    CHECK(refusal(small.get(), &params, points.data(), points.size()).starts_with("sample "));
+
+    const Owned<geodisk_updater> updater = begin(mesh.get(), params, points);
+    const Placed before = samples_of(updater.get());
+    const auto failure = [&](geodisk_updater* of, const std::vector<std::uint32_t>& changed,
+                             geodisk_progress_fn progress = nullptr) {
+        auto error = sized<geodisk_error>();
+        CHECK(geodisk_update(of, shared_sampler(), mesh.get(), &params, changed.data(),
+                             changed.size(), progress, of, nullptr, &error) != GEODISK_OK);
+        CHECK(samples_of(updater.get()) == before);
+        return std::string(error.message);
+    };
+    CHECK(failure(nullptr, {}) == "updater is NULL");
+    CHECK(failure(updater.get(), {shape.face_count()}) ==
+          "changed face " + std::to_string(shape.face_count()) + " does not exist");
+    CHECK(failure(updater.get(), {7}, [](void*, const geodisk_progress*) { return 1; }) ==
+          "cancelled");
+    // A callback cannot use the updater that calls it.
+    CHECK(failure(updater.get(), {7}, [](void* of, const geodisk_progress*) {
+              geodisk_job_frame frame{};
+              return static_cast<std::int32_t>(
+                  geodisk_updater_frame(static_cast<geodisk_updater*>(of), &frame, nullptr) ==
+                  GEODISK_BUSY);
+          }) == "cancelled");
+    CHECK(geodisk_updater_samples(updater.get(), nullptr, nullptr) == GEODISK_INVALID_ARGUMENT);
+    CHECK(geodisk_updater_frame(nullptr, nullptr, nullptr) == GEODISK_INVALID_ARGUMENT);
+    geodisk_updater_release(nullptr);
+}
+
+} // namespace geodisk::test
