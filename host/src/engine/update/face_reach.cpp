@@ -33,13 +33,13 @@ FaceReach::Box FaceReach::box_of(std::uint32_t face) const {
     return box;
 }
 
-bool FaceReach::are_near(const Box& a, const Box& b, double width) const {
+double FaceReach::square_gap(const Box& a, const Box& b) const {
     double square = 0;
     for (std::uint32_t axis = 0; axis < mesh_.dimension; ++axis) {
         const double gap = std::max({0.0, a.low[axis] - b.high[axis], b.low[axis] - a.high[axis]});
         square += gap * gap;
     }
-    return square <= width * width;
+    return square;
 }
 
 std::uint64_t FaceReach::cell_of(const Box& box, double width) const {
@@ -55,7 +55,7 @@ std::uint64_t FaceReach::cell_of(const Box& box, double width) const {
 
 template <class Visit>
 bool FaceReach::flood(std::span<const std::uint32_t> from, const Box& box, double width,
-                      const Visit& visit) {
+                      const FaceSet& closed, const Visit& visit) {
     seen_.clear(faces_.face_count());
     stack_.assign(from.begin(), from.end());
     for (const std::uint32_t face : from) {
@@ -66,8 +66,12 @@ bool FaceReach::flood(std::span<const std::uint32_t> from, const Box& box, doubl
         const std::uint32_t face = stack_.back();
         stack_.pop_back();
         faces_.for_faces_around(face, [&](std::uint32_t other) {
-            if (goes_on && seen_.insert(other) && are_near(box_of(other), box, width)) {
-                goes_on = visit(other);
+            if (!goes_on || closed.has(other) || !seen_.insert(other)) {
+                return;
+            }
+            const double square = square_gap(box_of(other), box);
+            if (square <= width * width) {
+                goes_on = visit(other, square);
                 stack_.push_back(other);
             }
         });
@@ -75,13 +79,16 @@ bool FaceReach::flood(std::span<const std::uint32_t> from, const Box& box, doubl
     return goes_on;
 }
 
-void FaceReach::reach(std::span<const std::uint32_t> sources, double width, FaceSet& reached) {
+void FaceReach::reach(std::span<const std::uint32_t> sources, std::initializer_list<Ring> rings) {
+    const double width = rings.end()[-1].width;
     sources_.clear(faces_.face_count());
     for (const std::uint32_t face : sources) {
         sources_.insert(face);
-        reached.insert(face);
+        for (const Ring& ring : rings) {
+            ring.faces.insert(face);
+        }
     }
-    // A path leaves the sources through one at their border.
+    // A path that ends elsewhere leaves the sources for the last time through one at their border.
     std::vector<std::pair<std::uint64_t, std::uint32_t>> border;
     for (const std::uint32_t face : sources_.members()) {
         bool is_inside = true;
@@ -101,16 +108,21 @@ void FaceReach::reach(std::span<const std::uint32_t> sources, double width, Face
             together.push_back(next->second);
             box.add(box_of(next->second), mesh_.dimension);
         }
-        flood(together, box, width, [&](std::uint32_t face) {
-            reached.insert(face);
+        flood(together, box, width, sources_, [&](std::uint32_t face, double square) {
+            for (const Ring& ring : rings) {
+                if (square <= ring.width * ring.width) {
+                    ring.faces.insert(face);
+                }
+            }
             return true;
         });
     }
 }
 
 bool FaceReach::stays_in(std::uint32_t source, double width, const FaceSet& all) {
-    return all.has(source) && flood({&source, 1}, box_of(source), width,
-                                    [&](std::uint32_t face) { return all.has(face); });
+    none_.clear(faces_.face_count());
+    return all.has(source) && flood({&source, 1}, box_of(source), width, none_,
+                                    [&](std::uint32_t face, double) { return all.has(face); });
 }
 
 } // namespace geodisk

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <initializer_list>
 #include <span>
 #include <vector>
 
@@ -22,9 +23,15 @@ class FaceReach {
     /// Both must outlive it.
     FaceReach(const LiveMesh& faces, const MeshView& mesh) : faces_(faces), mesh_(mesh) {}
 
-    /// Inserts in `reached` the sources, and all faces that a path from one of them meets within
-    /// `width`.
-    void reach(std::span<const std::uint32_t> sources, double width, FaceSet& reached);
+    /// Faces within a distance.
+    struct Ring {
+        double width;
+        FaceSet& faces;
+    };
+
+    /// Inserts in each ring the sources, and all faces that a path from one of them meets within
+    /// its width. The last ring is the widest.
+    void reach(std::span<const std::uint32_t> sources, std::initializer_list<Ring> rings);
 
     /// Returns true if all faces that a path from `source` meets within `width` are in `all`.
     bool stays_in(std::uint32_t source, double width, const FaceSet& all);
@@ -35,17 +42,19 @@ class FaceReach {
         void add(const Box& other, std::uint32_t dimension);
     };
     Box box_of(std::uint32_t face) const;
-    bool are_near(const Box& a, const Box& b, double width) const;
+    /// Returns the square of the distance between two boxes.
+    double square_gap(const Box& a, const Box& b) const;
     /// Returns the cell of space that a face's box starts in, of this width.
     std::uint64_t cell_of(const Box& box, double width) const;
-    /// Visits the faces within `width` of some, until `visit` returns false.
+    /// Visits the faces within `width` of some, with the square of their distance, until `visit`
+    /// returns false. Does not enter faces of `closed`.
     template <class Visit>
     bool flood(std::span<const std::uint32_t> from, const Box& box, double width,
-               const Visit& visit);
+               const FaceSet& closed, const Visit& visit);
 
     const LiveMesh& faces_;
     const MeshView& mesh_;
-    FaceSet seen_, sources_;
+    FaceSet seen_, sources_, none_;
     std::vector<std::uint32_t> stack_;
 };
 

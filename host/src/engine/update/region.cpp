@@ -44,7 +44,7 @@ std::vector<KeepOut> Region::avoided_near(std::span<const std::uint32_t> faces) 
     std::vector<KeepOut> found;
     if (largest > 0) {
         near_.clear(surface_.faces.face_count());
-        faces_.reach(faces, kReach * largest, near_);
+        faces_.reach(faces, {{kReach * largest, near_}});
         std::ranges::copy_if(surface_.params.avoid, std::back_inserter(found),
                              [this](const KeepOut& one) { return near_.has(one.center.face); });
     }
@@ -56,15 +56,15 @@ Result<MeshPart> Region::prepare_part() {
     const bool vary = surface_.params.radii != nullptr;
     ring_.clear(count);
     all_.clear(count);
-    faces_.reach(region_.members(), reach_, ring_);
-    faces_.reach(region_.members(), (vary ? kBoundsWidth : kDisksWidth) * reach_, all_);
+    faces_.reach(region_.members(),
+                 {{reach_, ring_}, {(vary ? kBoundsWidth : kDisksWidth) * reach_, all_}});
     // Disks of points to avoid may be larger.
     avoided_ = avoided_near(region_.members());
     std::vector<std::uint32_t> centers;
     for (const KeepOut& one : avoided_) {
         centers.push_back(one.center.face);
     }
-    faces_.reach(centers, kReach * largest_radius(avoided_), all_);
+    faces_.reach(centers, {{kReach * largest_radius(avoided_), all_}});
     std::vector<std::uint32_t> members = all_.members();
     std::ranges::sort(members);
     auto part =
@@ -194,7 +194,7 @@ Result<Changes> Region::decide(std::span<const std::uint32_t> sources, double av
     double width = std::max(kFirstWidth * reach_, kReach * avoided);
     Changes changes;
     for (; !goes_on_.empty(); width = kFurtherWidth * reach_) {
-        faces_.reach(goes_on_, width, region_);
+        faces_.reach(goes_on_, {{width, region_}});
         const auto part = prepare_part();
         if (!part) {
             return part.error();
