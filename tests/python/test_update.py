@@ -126,6 +126,9 @@ def test_what_cannot_be_updated_is_refused():
     refused("removed, added or changed", SAMPLES[[0, *range(len(SAMPLES) - 1)]], edited)
     assert same(geodisk.update(SAMPLES[::-1], edited), whole(edited))
     refused("made with stop_count cannot", whole(stop_count=20), edited)
+    many = geodisk.sample_many([(VERTICES, FACES)], min_distance=0.3)
+    refused("made with sample_many cannot", many[0])
+    refused("not made 0.2 apart", dataclasses.replace(SAMPLES, min_distance=0.2), edited)
     refused("made with maximal cannot", whole(maximal=True), edited)
     refused("radii", SAMPLES, radius_factor=np.full(len(VERTICES), 0.5))
     refused("not from 0.001 to 1|below 0.001|nan", whole(radius_factor=np.ones(len(VERTICES))),

@@ -112,7 +112,8 @@ def samples_of_parts(
     for (seed, distance, surface, given), rows in zip(parts, np.split(by_part, ends[:-1])):
         own = {name: None if x is None else x[rows] for name, x in columns.items()}
         own["given"] = _given(len(rows), given)
-        result.append(_made(own, surface, dict(report), distance, seed))
+        told = {**report, "options": ["sample_many"]}  # One surface alone has another frame.
+        result.append(_made(own, surface, told, distance, seed))
     return result
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ctypes
 import dataclasses
+import math
 from ctypes import byref
 from typing import Any, Mapping
 
@@ -54,7 +55,7 @@ def update(
     Parameters
     ----------
     samples : Samples
-        All samples of a run on the mesh before. Not with throws, stop_count, exact, classes, features,
+        All samples of :func:`sample` on the mesh before, in any order. Not with throws, stop_count, exact, classes, features,
         maximal, another order or another metric.
     to : array_like of float, shape (v, d), or a mesh
         The edited mesh, or positions of its vertices; the mesh before by default.
@@ -172,9 +173,11 @@ class _Side:
         kept = _existing(mesh._surface, job.existing)
         avoided, avoid_radii = _avoided(mesh._surface, job.avoid)
         self._kept_alive = (radii, keys, mask, kept, avoided, avoid_radii)
-        distance = job.distance
-        if distance is None:
-            distance = samples.min_distance / (1.0 if radii is None else radii.distance_part)
+        distance = samples.min_distance / (1.0 if radii is None else radii.distance_part)
+        if job.distance is not None:
+            if not math.isclose(job.distance, distance, rel_tol=1e-12):
+                raise e.invalid(f"these samples were not made {samples.min_distance} apart")
+            distance = job.distance  # Before it was rounded.
         self._params = s.SurfaceParams(
             min_distance=distance,
             seed=samples.seed,
