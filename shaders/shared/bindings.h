@@ -53,7 +53,20 @@ GEODISK_CONST uint kBindVertices = 17u;  // floats
 GEODISK_CONST uint kBindIndices = 18u;   // three of 16 or 32 bits per face
 GEODISK_CONST uint kBindPlaced = 19u;    // PlacedRec per sample
 GEODISK_CONST uint kBindArguments = 20u; // arguments of an indirect draw: four words
-GEODISK_CONST uint kBindCount = 21u;
+// Of lists of neighbours, see lib/neighbour.glsl.
+GEODISK_CONST uint kBindNames = 21u;     // numbers of the targets, if they have others: where those of each
+                                         // begin, and the end; then the numbers
+GEODISK_CONST uint kBindLimits = 22u;    // a float per source: how far neighbours may be
+GEODISK_CONST uint kBindRows = kBindCells; // where the entries of each source of a part begin
+GEODISK_CONST uint kBindEntries = 23u;   // NeighbourRec per entry
+GEODISK_CONST uint kBindSorted = 24u;    // the same, after a pass that merges
+GEODISK_CONST uint kBindPlaces = 25u;    // while entries are chosen: 1 for those that stay; then their places
+// Buffers of the caller, with all lists.
+GEODISK_CONST uint kBindOffsets = 26u;   // where the neighbours of each source begin, and the end; then the
+                                         // number of sources whose neighbours are complete
+GEODISK_CONST uint kBindTargets = 27u;   // number of each neighbour
+GEODISK_CONST uint kBindDistances = 28u; // its distance, a float
+GEODISK_CONST uint kBindCount = 29u;
 
 GEODISK_END_SHARED
 

@@ -242,6 +242,8 @@ GEODISK_CONST uint kLongStrip = 512u;
 GEODISK_CONST uint kUntrimmedVertices = 65536u;
 // Edges whose windows a trimming disk keeps, a power of two; kKeptPerEdge windows each.
 GEODISK_CONST uint kKeptEdges = 2048u;
+// Numbers that a target may have: vertices of one place.
+GEODISK_CONST uint kMostNames = 4096u;
 // Records of disks are counted up to about as many, so that the count never wraps.
 GEODISK_CONST uint kMostRecorded = 0x80000000u;
 GEODISK_CONST uint kWindowWaits = 0xffffffffu; // marks a window in the heap, instead of an event's vertex

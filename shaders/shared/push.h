@@ -72,6 +72,26 @@ struct PlacePush {
     uint avoided;       // points to avoid, which come before the samples
 };
 
+// That of the kernels that put neighbours in lists.
+struct NeighbourPush {
+    uint count;        // hits, or entries
+    uint capacity;     // entries that there is room for
+    uint first_source; // of the part at hand
+    uint sources;      // of the part at hand
+    uint all_sources;
+    uint longest_word; // of the rows: where the longest one's length is
+    uint width;        // entries of a row that are in order already, a power of two
+    uint by_distance;  // 1 for the order by distance, then number; 0 for the order by number
+    uint nearest;      // neighbours that each source keeps, or 0 for all
+    uint skips_own;    // 1 where a source is not its own neighbour
+    uint has_names;    // 1 where targets have other numbers than their own
+    uint pairs;        // that the caller has room for
+    uint unit_low;     // the mantissa, of 53 bits, and the exponent of a unit of length in mesh units
+    uint unit_high;
+    int unit_exponent;
+    uint first_group;  // as above
+};
+
 GEODISK_END_SHARED
 
 #ifdef __cplusplus
@@ -80,6 +100,7 @@ namespace geodisk::gpu {
 static_assert(sizeof(JobRec) == 72 && offsetof(JobRec, first_class_row) == 68);
 // Vulkan promises 128 bytes; a caller's kernels or later ones may want some.
 static_assert(sizeof(Push) <= 96);
+static_assert(sizeof(NeighbourPush) <= sizeof(Push));
 }
 #endif
 

@@ -122,6 +122,12 @@ struct HitRec {
     uint sample_index; uint target; float distance; uint spare;
 };
 
+// An entry of a list of neighbours while it is made: the source, in the part at hand, and the number of the
+// neighbour; its distance in mesh units, as a word, so that words compare as distances do.
+struct NeighbourRec {
+    uint source; uint number; uint distance; uint spare;
+};
+
 // State of the run. The leading words are the indirect sizes of select, detect and resolve. The words
 // before `accepted` start from zero with every chunk.
 struct ControlRec {

@@ -28,6 +28,9 @@ struct Release {
     void operator()(geodisk_samples* object) const { geodisk_samples_release(object); }
     void operator()(geodisk_job* object) const { geodisk_job_release(object); }
     void operator()(geodisk_frame_sampler* object) const { geodisk_frame_sampler_release(object); }
+    void operator()(geodisk_frame_neighbours* object) const {
+        geodisk_frame_neighbours_release(object);
+    }
     void operator()(geodisk_placement* object) const { geodisk_placement_release(object); }
     void operator()(geodisk_count_search* object) const { geodisk_count_search_release(object); }
     void operator()(geodisk_updater* object) const { geodisk_updater_release(object); }

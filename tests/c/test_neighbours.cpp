@@ -12,7 +12,9 @@
 #include <geodisk/runner.hpp>
 
 #include "c/api.hpp"
+#include "c/lent.hpp"
 #include "device_run.hpp"
+#include "embed/workshop.hpp"
 
 namespace geodisk::test {
 namespace {
@@ -140,6 +142,72 @@ TEST_CASE("a search goes on poll by poll, apart from what the caller gave") {
     }
     CHECK(status == GEODISK_CANCELLED);
     CHECK(found(mesh.get(), params)); // It stays usable.
+}
+
+TEST_CASE("neighbours on the device, in the frames of an engine") {
+    const auto device = borrowed(lent_device(shared_context().device(), shared_context().queue()));
+    const auto mesh = mesh_of(builtin("torus-knot", 8));
+    const geodisk_neighbour_params params = params_within(0.3);
+    const Lists expected = found(mesh.get(), params);
+    const geodisk_neighbour_arrays wanted = arrays_of(expected);
+    const auto sampler = owned<geodisk_sampler>([&](auto** made, geodisk_error* error) {
+        return geodisk_sampler_create(device.get(), nullptr, made, error);
+    });
+    Workshop workshop(shared_context());
+    workshop.cut({});
+    for (const bool waits : {false, true}) {
+        auto options = sized<geodisk_frame_neighbour_options>();
+        options.frames = 3;
+        const auto frames = owned<geodisk_frame_neighbours>([&](auto** made, geodisk_error* error) {
+            return geodisk_frame_neighbours_create(device.get(), mesh.get(), &params, &options,
+                                                   made, error);
+        });
+        std::int32_t is_complete = 0;
+        for (std::uint32_t frame = 0; !waits && is_complete == 0; ++frame) {
+            REQUIRE(frame < 10'000);
+            workshop.frame(frame, [&](VkCommandBuffer commands) {
+                REQUIRE(geodisk_frame_neighbours_record(frames.get(), commands, &is_complete,
+                                                        nullptr) == GEODISK_OK);
+            });
+        }
+        if (waits) {
+            REQUIRE(geodisk_frame_neighbours_wait(frames.get(), sampler.get(), nullptr) ==
+                    GEODISK_OK);
+        }
+        auto lists = sized<geodisk_frame_neighbour_lists>();
+        REQUIRE(geodisk_frame_neighbours_describe(frames.get(), &lists, nullptr) == GEODISK_OK);
+        CHECK(lists.is_complete == 1);
+        CHECK(lists.ready == wanted.source_count);
+        CHECK(lists.error == wanted.error);
+        REQUIRE(lists.pair_count == wanted.pair_count);
+        const auto read = [&](std::uint64_t offset, std::size_t count, void* to) {
+            workshop.frame(0, [&](VkCommandBuffer commands) {
+                workshop.record_download(
+                    commands, {handle_of<VkBuffer>(lists.buffer), offset, 4 * count}, 4 * count);
+            });
+            std::memcpy(to, workshop.download_bytes().data(), 4 * count);
+        };
+        std::vector<std::uint32_t> offsets(wanted.source_count + 2), indices(wanted.pair_count);
+        std::vector<float> distances(wanted.pair_count);
+        read(lists.offsets_offset, offsets.size(), offsets.data());
+        read(lists.indices_offset, indices.size(), indices.data());
+        read(lists.distances_offset, distances.size(), distances.data());
+        CHECK(offsets.back() == wanted.source_count);
+        CHECK(std::equal(offsets.begin(), offsets.end() - 1, wanted.offsets));
+        CHECK(std::equal(indices.begin(), indices.end(), wanted.indices));
+        CHECK(std::equal(distances.begin(), distances.end(), wanted.distances));
+    }
+    geodisk_frame_neighbours* made = nullptr;
+    CHECK(geodisk_frame_neighbours_create(device.get(), nullptr, &params, nullptr, &made,
+                                          nullptr) == GEODISK_INVALID_ARGUMENT);
+    CHECK(geodisk_frame_neighbours_create(device.get(), mesh.get(), nullptr, nullptr, &made,
+                                          nullptr) == GEODISK_INVALID_ARGUMENT);
+    CHECK(geodisk_frame_neighbours_record(nullptr, nullptr, nullptr, nullptr) ==
+          GEODISK_INVALID_ARGUMENT);
+    CHECK(geodisk_frame_neighbours_wait(nullptr, nullptr, nullptr) == GEODISK_INVALID_ARGUMENT);
+    CHECK(geodisk_frame_neighbours_describe(nullptr, nullptr, nullptr) == GEODISK_INVALID_ARGUMENT);
+    CHECK(made == nullptr);
+    geodisk_frame_neighbours_release(nullptr);
 }
 
 TEST_CASE("neighbours among points, with distances of their own") {

@@ -28,6 +28,15 @@ def test_guides_show_their_programs():
     assert shown >= 6
 
 
+def test_embedding_shows_what_tests_compile():
+    """The block of FrameNeighbours is part of its test, but for comments."""
+    page = (SOURCE / "host/docs/embedding.md").read_text()
+    block = re.search(r"^```cpp\n(FrameNeighbours .*?)^```$", page, re.M | re.S).group(1)
+    program = lines_of((SOURCE / "tests/embed/test_frame_neighbours.cpp").read_text())
+    shown = [line for line in lines_of(block) if not line.startswith("//")]
+    assert len(shown) >= 3 and all(line in program for line in shown)
+
+
 def test_every_guide_is_told_of():
     page = GUIDES.read_text()
     for program in (SOURCE / "tools/examples/guides").iterdir():

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <map>
 #include <string>
+#include <utility>
 
 #include "engine/kernels/kernel_table.hpp"
 #include "push.h"
@@ -47,6 +48,28 @@ const Offsets kPlacePush{
     GEODISK_OFFSET(PlacePush, short_indices), GEODISK_OFFSET(PlacePush, vertices_each),
     GEODISK_OFFSET(PlacePush, radius),        GEODISK_OFFSET(PlacePush, first_group),
     GEODISK_OFFSET(PlacePush, avoided)};
+
+const Offsets kNeighbourPush{
+    GEODISK_OFFSET(NeighbourPush, count),         GEODISK_OFFSET(NeighbourPush, capacity),
+    GEODISK_OFFSET(NeighbourPush, first_source),  GEODISK_OFFSET(NeighbourPush, sources),
+    GEODISK_OFFSET(NeighbourPush, all_sources),   GEODISK_OFFSET(NeighbourPush, longest_word),
+    GEODISK_OFFSET(NeighbourPush, width),         GEODISK_OFFSET(NeighbourPush, by_distance),
+    GEODISK_OFFSET(NeighbourPush, nearest),       GEODISK_OFFSET(NeighbourPush, skips_own),
+    GEODISK_OFFSET(NeighbourPush, has_names),     GEODISK_OFFSET(NeighbourPush, pairs),
+    GEODISK_OFFSET(NeighbourPush, unit_low),      GEODISK_OFFSET(NeighbourPush, unit_high),
+    GEODISK_OFFSET(NeighbourPush, unit_exponent), GEODISK_OFFSET(NeighbourPush, first_group)};
+
+/// Returns the name of a kernel's push block, and how it lies.
+std::pair<const char*, const Offsets&> push_of(const KernelInfo& info) {
+    switch (info.domain) {
+    case DomainKind::placement:
+        return {"PlacePush", kPlacePush};
+    case DomainKind::lists:
+        return {"NeighbourPush", kNeighbourPush};
+    default:
+        return {"Push", kPush};
+    }
+}
 
 const Offsets kControl{GEODISK_OFFSET(ControlRec, select_x),
                        GEODISK_OFFSET(ControlRec, select_y),
@@ -122,10 +145,9 @@ TEST_SUITE("layout") {
             CAPTURE(info.name);
             for (const auto& spirv : {info.words(false), info.words(true)}) {
                 const auto offsets = struct_offsets(spirv);
-                const bool is_place = static_cast<Kernel>(k) == Kernel::place;
-                const char* const push = is_place ? "PlacePush" : "Push";
+                const auto [push, expected] = push_of(info);
                 REQUIRE(offsets.count(push) == 1);
-                CHECK(offsets.at(push) == (is_place ? kPlacePush : kPush));
+                CHECK(offsets.at(push) == expected);
                 if (offsets.count("JobRec") != 0) {
                     CHECK(offsets.at("JobRec") == kJob);
                 }

@@ -1088,6 +1088,75 @@ GEODISK_C_API geodisk_status geodisk_frame_sampler_set_seed(geodisk_frame_sample
 /* Frees the frame sampler. No command buffer that it recorded may be pending. */
 GEODISK_C_API void geodisk_frame_sampler_release(geodisk_frame_sampler *frames);
 
+/* ---- Neighbours in the frames of an engine ----------------------------------------------------- */
+
+/* Finds the neighbours that geodisk_find_neighbours finds, and leaves them in a buffer on the device.
+ * It records a bounded amount of work into the caller's command buffers. geodisk/frame_neighbours.hpp
+ * says more. */
+typedef struct geodisk_frame_neighbours geodisk_frame_neighbours;
+
+/* How such a search divides its work. All fields may be 0. */
+typedef struct geodisk_frame_neighbour_options {
+    size_t struct_size;
+    uint64_t pool_bytes;   /* Bytes for disks in progress; 0 for 16 MiB. */
+    uint64_t record_bytes; /* Bytes for the paths that disks find, 16 each; 0 for 16 MiB. Three times
+                            * as much is allocated. */
+    uint32_t frames;       /* Maximum of command buffers in flight, 1 to 16; 0 for 2. */
+    uint32_t dispatches;   /* Maximum of passes per call that put neighbours in lists; 0 for 16. */
+    uint32_t rounds;       /* Rounds per call that compute disks; 0 for 2. */
+    /* VkPipelineStageFlags and VkAccessFlags of the caller's commands that read the lists; both 0
+     * for compute shaders and transfers. */
+    uint32_t reader_stages;
+    uint32_t reader_access;
+} geodisk_frame_neighbour_options;
+
+/* Begins a search, allocates its memory, and copies what `params` refers to. `options` may be NULL.
+ * A distance must be given: `within` or `radii`. */
+GEODISK_C_API geodisk_status geodisk_frame_neighbours_create(
+    const geodisk_device *device, const geodisk_mesh *mesh, const geodisk_neighbour_params *params,
+    const geodisk_frame_neighbour_options *options, geodisk_frame_neighbours **frames,
+    geodisk_error *error);
+
+/* Records the next part of the work to a VkCommandBuffer, outside a render pass. Writes to
+ * `is_complete`, which may be NULL, whether all neighbours are complete. Call it only when the
+ * command buffer recorded `frames` calls ago has completed. Submit in the order of the calls. */
+GEODISK_C_API geodisk_status geodisk_frame_neighbours_record(geodisk_frame_neighbours *frames,
+                                                             void *command_buffer,
+                                                             int32_t *is_complete,
+                                                             geodisk_error *error);
+
+/* Submits on the sampler's queue and waits until all neighbours are complete. No command buffer of
+ * geodisk_frame_neighbours_record may be pending. */
+GEODISK_C_API geodisk_status geodisk_frame_neighbours_wait(geodisk_frame_neighbours *frames,
+                                                           geodisk_sampler *sampler,
+                                                           geodisk_error *error);
+
+/* Location of the lists on the device. Offsets are in bytes, aligned for storage buffers. */
+typedef struct geodisk_frame_neighbour_lists {
+    size_t struct_size;
+    uint64_t buffer;           /* VkBuffer. */
+    uint64_t offsets_offset;   /* Of source_count + 1 words: where the neighbours of each source begin,
+                                * and the end; then the number of sources that are complete. */
+    uint64_t indices_offset;   /* Of a word per neighbour: its vertex, point or source. */
+    uint64_t distances_offset; /* Of a float per neighbour, in mesh units. */
+    uint64_t device_bytes;     /* Bytes allocated on the device. */
+    double error;              /* As geodisk_neighbour_arrays.error, for the sources that are ready. */
+    uint32_t source_count;
+    uint32_t capacity;         /* Number of neighbours that fit. */
+    uint32_t ready;            /* Sources whose neighbours are complete, as far as the host knows. */
+    uint32_t pair_count;       /* Neighbours of those. */
+    int32_t is_complete;       /* Not 0: these are all neighbours. */
+} geodisk_frame_neighbour_lists;
+
+/* Writes where the lists are. Valid until the next call that records or waits. */
+GEODISK_C_API geodisk_status geodisk_frame_neighbours_describe(
+    const geodisk_frame_neighbours *frames, geodisk_frame_neighbour_lists *lists,
+    geodisk_error *error);
+
+/* Frees the search and its lists. No command buffer that it recorded, or that reads the lists, may be
+ * pending. */
+GEODISK_C_API void geodisk_frame_neighbours_release(geodisk_frame_neighbours *frames);
+
 /* ---- Finding a distance by a count ------------------------------------------------------------- */
 
 /* Searches for the distance that gives about a wanted number of samples, by trial. Begin with

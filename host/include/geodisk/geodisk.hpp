@@ -9,6 +9,7 @@
 #include <geodisk/device.hpp>
 #include <geodisk/domain.hpp>
 #include <geodisk/farthest.hpp>
+#include <geodisk/frame_neighbours.hpp>
 #include <geodisk/frame_sampler.hpp>
 #include <geodisk/job_frame.hpp>
 #include <geodisk/kernel_report.hpp>

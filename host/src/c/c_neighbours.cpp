@@ -10,6 +10,7 @@
 
 #include "c/c_call.hpp"
 #include "c/c_mesh.hpp"
+#include "c/c_neighbours.hpp"
 #include "c/c_sampler.hpp"
 
 /// Immutable.
@@ -21,32 +22,26 @@ struct geodisk_neighbours {
 namespace geodisk::c {
 namespace {
 
-/// Where the sources are.
-struct Sources {
-    std::vector<Sample> points;
-    std::vector<std::uint32_t> vertices;
-};
-
 std::span<const std::uint32_t> joined_of(const Mesh& mesh, const geodisk_neighbour_params& params) {
     return params.joined == nullptr ? std::span<const std::uint32_t>(mesh.joined)
                                     : std::span(params.joined, mesh.prepared.vertex_count());
 }
 
-Result<Sources> sources_of(const Mesh& mesh, const geodisk_neighbour_params& params) {
+Result<NeighbourSources> sources_of(const Mesh& mesh, const geodisk_neighbour_params& params) {
     if (params.sources != nullptr && params.source_vertices != nullptr) {
         return wrong("params->sources and params->source_vertices contradict each other");
     }
     if (params.sources != nullptr) {
-        return Sources{samples_of(params.sources, params.source_count), {}};
+        return NeighbourSources{samples_of(params.sources, params.source_count), {}};
     }
     auto all = vertex_points(mesh.prepared, joined_of(mesh, params));
     if (!all) {
         return all.error();
     }
     if (params.source_vertices == nullptr) {
-        return Sources{std::move(all->points), std::move(all->vertices)};
+        return NeighbourSources{std::move(all->points), std::move(all->vertices)};
     }
-    Sources sources;
+    NeighbourSources sources;
     for (std::size_t i = 0; i < params.source_count; ++i) {
         const std::uint32_t vertex = params.source_vertices[i];
         const auto at = std::ranges::lower_bound(all->vertices, vertex);
@@ -74,18 +69,6 @@ Result<NeighbourKind> kind_of(geodisk_neighbour_kind kind) {
 }
 
 } // namespace
-
-/// A query with all that it refers to, apart from the caller's arrays.
-struct NeighbourSearch {
-    std::shared_ptr<const Mesh> mesh;
-    Sources sources;
-    std::vector<Sample> points;
-    std::vector<double> radii;
-    std::vector<std::uint32_t> joined;
-    NeighbourQuery query;
-};
-
-namespace {
 
 Result<std::shared_ptr<NeighbourSearch>> search_for(const geodisk_mesh& mesh,
                                                     const geodisk_neighbour_params& params) {
@@ -121,6 +104,8 @@ Result<std::shared_ptr<NeighbourSearch>> search_for(const geodisk_mesh& mesh,
     query.most_pairs = params.most_pairs == 0 ? query.most_pairs : params.most_pairs;
     return search;
 }
+
+namespace {
 
 geodisk_neighbours* handed_over(Neighbours lists, NeighbourSearch& search) {
     return new geodisk_neighbours{std::move(lists), std::move(search.sources.vertices)};

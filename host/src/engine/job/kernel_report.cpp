@@ -45,6 +45,8 @@ std::string text_of(const KernelVariant& variant) {
                (variant.avoids ? ", points to avoid" : "") + (variant.classes ? ", classes" : "");
     case DomainKind::placement:
         return surfaces;
+    case DomainKind::lists:
+        return "lists of neighbours";
     case DomainKind::box:
         return "box, dimension " + std::to_string(variant.dimension);
     case DomainKind::space:

@@ -121,6 +121,13 @@ struct Job::Impl {
     void begin_stages(std::uint32_t first, std::uint32_t count);
     void begin_first_stages();
     void set_seed(std::uint64_t seed);
+    /// Restarts with other settled samples, so many, of which the first ones are points to avoid.
+    /// They are written to the samples buffer before record_begin().
+    void restart(std::uint32_t settled, std::uint32_t of_avoided) {
+        given = settled;
+        avoided = of_avoided;
+        begin_first_stages();
+    }
     /// Sets the end of the orders to decide, for what is recorded next.
     void apply_end();
     /// Returns true if all stages from this one on are to wait.

@@ -88,6 +88,7 @@ std::vector<KernelVariant> all_kernel_variants() {
             placement.several = of_several;
         }
     }
+    variants.emplace_back().domain = DomainKind::lists;
     for (std::uint32_t dimension = 1; dimension <= kMostBoxDimensions; ++dimension) {
         KernelVariant& variant = variants.emplace_back();
         variant.domain = DomainKind::box;

@@ -36,6 +36,7 @@ enum class DomainKind : std::uint8_t {
     in_space = 6, ///< Of kernels: both with a grid.
     any = 7,
     placement = 8, ///< No domain: of the kernel that places samples for a caller.
+    lists = 16,    ///< No domain: of the kernels that put neighbours in lists.
 };
 /// Surface, box and space.
 inline constexpr std::size_t kDomainKinds = 3;
@@ -87,7 +88,7 @@ struct KernelVariant {
     KernelVariant of(Kernel kernel) const;
 };
 
-/// Returns every variant that a job or a placement may need.
+/// Returns every variant that a job, a placement or lists may need.
 std::vector<KernelVariant> all_kernel_variants();
 
 struct KernelInfo {

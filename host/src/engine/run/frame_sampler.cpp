@@ -7,6 +7,7 @@
 
 #include "engine/domain/domain_impl.hpp"
 #include "engine/job/sampler_impl.hpp"
+#include "engine/run/frame_growth.hpp"
 #include "engine/run/frame_memory.hpp"
 #include "engine/run/runner_impl.hpp"
 #include "support/guard.hpp"
@@ -16,7 +17,6 @@
 namespace geodisk {
 namespace {
 
-constexpr std::uint32_t kMostFrames = 16;
 constexpr SyncScope kCopies{VK_PIPELINE_STAGE_TRANSFER_BIT,
                             VK_ACCESS_TRANSFER_READ_BIT | VK_ACCESS_TRANSFER_WRITE_BIT};
 
@@ -69,8 +69,6 @@ struct FrameSampler::Impl {
     Result<Done> record_work(VkCommandBuffer commands, const Advice& advice);
     /// Returns the next step from the latest control record; enlarges memory if needed.
     Result<Advice> look(std::uint32_t lag);
-    /// Returns the plan for disks that have outgrown the pool, with a larger one.
-    Result<Advice> with_larger_pool(const gpu::ControlRec& control);
     /// Frees memory that no frame uses any more.
     void free_unused(std::uint32_t lag);
 };
@@ -102,39 +100,23 @@ void FrameSampler::Impl::free_unused(std::uint32_t lag) {
     }
 }
 
-Result<Advice> FrameSampler::Impl::with_larger_pool(const gpu::ControlRec& control) {
-    const std::uint64_t most = engine().report.limits.max_storage_buffer_range;
-    for (;; options.pool_bytes *= 2) {
-        const bool is_last = options.pool_bytes >= most;
-        auto advice = Job::Impl::of(now->job())
-                          .advance(control, options.pool_bytes,
-                                   is_last ? LastResort::lanes : LastResort::none);
-        if (advice || advice.error().status != Status::workspace_too_small || is_last) {
-            return advice;
-        }
-    }
-}
-
 Result<Advice> FrameSampler::Impl::look(std::uint32_t lag) {
     gpu::ControlRec control{}; // Empty.
     if (is_uploaded && calls - first_call >= lag) {
         control = now->control(static_cast<std::uint32_t>((calls - lag) % options.frames));
     }
-    auto advice = Job::Impl::of(now->job()).advance(control, 0, LastResort::none);
-    const bool outgrown = !advice && advice.error().status == Status::workspace_too_small;
-    if (outgrown) {
-        advice = with_larger_pool(control);
+    const auto next = advance_or_grow(now->job(), control, options.pool_bytes, engine().report);
+    if (!next) {
+        return next.error();
     }
-    if (!advice) {
-        return advice;
-    }
+    const Advice& advice = next->advice;
     RunPlan plan = now->plan();
-    if (outgrown) {
-        plan = advice->plan;
-    } else if (advice->next == Next::larger_samples) {
-        plan.sample_capacity = std::max(plan.sample_capacity, advice->sample_capacity);
+    if (next->outgrown) {
+        plan = advice.plan;
+    } else if (advice.next == Next::larger_samples) {
+        plan.sample_capacity = std::max(plan.sample_capacity, advice.sample_capacity);
     } else {
-        ready = advice->ready - std::min(advice->ready, Domain::Impl::of(domain).avoided);
+        ready = advice.ready - std::min(advice.ready, Domain::Impl::of(domain).avoided);
         return advice;
     }
     if (auto replaced = replace(plan); !replaced) {

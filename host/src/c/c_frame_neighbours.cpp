@@ -1,0 +1,155 @@
+#include <geodisk/frame_neighbours.hpp>
+
+#include <atomic>
+#include <memory>
+#include <utility>
+
+#include <geodisk/geodisk.h>
+
+#include "c/c_call.hpp"
+#include "c/c_device.hpp"
+#include "c/c_handles.hpp"
+#include "c/c_neighbours.hpp"
+#include "c/c_sampler.hpp"
+
+struct geodisk_frame_neighbours {
+    std::shared_ptr<const geodisk::c::Device> device;
+    std::shared_ptr<const geodisk::c::NeighbourSearch> search;
+    geodisk::FrameNeighbours recorded;
+    std::atomic<bool> is_held = false; ///< True while a call uses it.
+};
+
+namespace geodisk::c {
+namespace {
+
+FrameNeighbourOptions options_of(const geodisk_frame_neighbour_options& given) {
+    FrameNeighbourOptions options;
+    const auto set = [](auto& field, auto value) { field = value != 0 ? value : field; };
+    set(options.pool_bytes, given.pool_bytes);
+    set(options.record_bytes, given.record_bytes);
+    set(options.frames, given.frames);
+    set(options.dispatches, given.dispatches);
+    set(options.rounds, given.rounds);
+    if (given.reader_stages != 0 || given.reader_access != 0) {
+        options.readers = {given.reader_stages, given.reader_access};
+    }
+    return options;
+}
+
+/// Runs `body(*frames)` unless another call uses the object.
+template <class Body>
+geodisk_status with_frames(geodisk_frame_neighbours* frames, geodisk_error* error,
+                           const Body& body) {
+    return answer(error, [&]() -> Result<Done> {
+        if (frames == nullptr) {
+            return wrong("frames is NULL");
+        }
+        return hold(frames->is_held, "the search", [&]() -> Result<Done> { return body(*frames); });
+    });
+}
+
+} // namespace
+} // namespace geodisk::c
+
+using namespace geodisk;
+using namespace geodisk::c;
+
+extern "C" {
+
+geodisk_status geodisk_frame_neighbours_create(const geodisk_device* device,
+                                               const geodisk_mesh* mesh,
+                                               const geodisk_neighbour_params* params,
+                                               const geodisk_frame_neighbour_options* options,
+                                               geodisk_frame_neighbours** frames,
+                                               geodisk_error* error) {
+    return answer(error, [&]() -> Result<Done> {
+        if (device == nullptr || mesh == nullptr || frames == nullptr) {
+            return wrong("device, mesh or frames is NULL");
+        }
+        const auto asked = taken(params, "params");
+        if (!asked) {
+            return asked.error();
+        }
+        const auto wanted = taken_if_any(options, "options");
+        if (!wanted) {
+            return wanted.error();
+        }
+        const auto search = search_for(*mesh, *asked);
+        if (!search) {
+            return search.error();
+        }
+        auto sampler = device->shared->sampler();
+        if (!sampler) {
+            return sampler.error();
+        }
+        auto made = FrameNeighbours::create(std::move(*sampler), (*search)->mesh->prepared,
+                                            (*search)->query, options_of(*wanted));
+        if (!made) {
+            return made.error();
+        }
+        *frames = new geodisk_frame_neighbours{device->shared, *search, std::move(*made)};
+        return Done{};
+    });
+}
+
+geodisk_status geodisk_frame_neighbours_record(geodisk_frame_neighbours* frames,
+                                               void* command_buffer, int32_t* is_complete,
+                                               geodisk_error* error) {
+    return with_frames(frames, error, [&](geodisk_frame_neighbours& own) -> Result<Done> {
+        const auto recorded = own.recorded.record(static_cast<VkCommandBuffer>(command_buffer));
+        if (!recorded) {
+            return recorded.error();
+        }
+        if (is_complete != nullptr) {
+            *is_complete = *recorded ? 1 : 0;
+        }
+        return Done{};
+    });
+}
+
+geodisk_status geodisk_frame_neighbours_wait(geodisk_frame_neighbours* frames,
+                                             geodisk_sampler* sampler, geodisk_error* error) {
+    return with_frames(frames, error, [&](geodisk_frame_neighbours& own) -> Result<Done> {
+        if (sampler == nullptr) {
+            return wrong("sampler is NULL");
+        }
+        SamplerState& state = *sampler->shared;
+        return hold(state.is_held, "the sampler", [&]() -> Result<Done> {
+            if (state.is_busy()) {
+                return run_in_progress();
+            }
+            state.is_cancelled = false;
+            return own.recorded.find_and_wait(state.runner, state.callback(nullptr, nullptr));
+        });
+    });
+}
+
+geodisk_status geodisk_frame_neighbours_describe(const geodisk_frame_neighbours* frames,
+                                                 geodisk_frame_neighbour_lists* lists,
+                                                 geodisk_error* error) {
+    return answer(error, [&]() -> Result<Done> {
+        if (frames == nullptr) {
+            return wrong("frames is NULL");
+        }
+        const FrameNeighbourLists found = frames->recorded.lists();
+        geodisk_frame_neighbour_lists told{};
+        told.buffer = number_of(found.buffer);
+        told.offsets_offset = found.offsets_offset;
+        told.indices_offset = found.indices_offset;
+        told.distances_offset = found.distances_offset;
+        told.device_bytes = frames->recorded.device_bytes();
+        told.source_count = found.sources;
+        told.capacity = found.capacity;
+        told.ready = found.ready;
+        told.pair_count = found.pairs;
+        told.error = found.error;
+        told.is_complete = found.is_complete ? 1 : 0;
+        return give(lists, "lists", told);
+    });
+}
+
+void geodisk_frame_neighbours_release(geodisk_frame_neighbours* frames) {
+    delete frames;
+}
+
+} // extern "C"

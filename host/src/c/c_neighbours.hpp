@@ -1,0 +1,35 @@
+// Queries for neighbours of the C API.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include <geodisk/geodisk.h>
+#include <geodisk/neighbours.hpp>
+
+#include "c/c_mesh.hpp"
+
+namespace geodisk::c {
+
+/// Where the sources are.
+struct NeighbourSources {
+    std::vector<Sample> points;
+    std::vector<std::uint32_t> vertices; ///< Empty if sources are points.
+};
+
+/// A query with all that it refers to, apart from the caller's arrays.
+struct NeighbourSearch {
+    std::shared_ptr<const Mesh> mesh;
+    NeighbourSources sources;
+    std::vector<Sample> points;
+    std::vector<double> radii;
+    std::vector<std::uint32_t> joined;
+    NeighbourQuery query;
+};
+
+/// Returns what the caller asks for. Errors name the parameter.
+Result<std::shared_ptr<NeighbourSearch>> search_for(const geodisk_mesh& mesh,
+                                                    const geodisk_neighbour_params& params);
+
+} // namespace geodisk::c

@@ -1,0 +1,134 @@
+#include "engine/neighbours/search_jobs.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <string>
+
+#include "engine/domain/given.hpp"
+#include "engine/domain/stages.hpp"
+#include "engine/domain/surface_domain.hpp"
+#include "engine/domain/tolerances.hpp"
+#include "support/invalid.hpp"
+#include "support/number_text.hpp"
+
+namespace geodisk {
+namespace {
+
+// Paths that a disk finds to a target, and records of a source besides.
+constexpr double kPathsPerTarget = 1.5;
+constexpr double kMoreRecords = 16;
+// Room for more records than expected.
+constexpr double kSpareRecords = 1.25;
+// Maximum of sources of a job.
+constexpr double kMostSources = 0x1p20;
+// Sources after which the number of all pairs is estimated, at least.
+constexpr std::size_t kFewSources = 64;
+
+std::vector<ListedCandidate> targets_of(const NeighbourQuery& query) {
+    const auto points = query.kind == NeighbourKind::points    ? query.points
+                        : query.kind == NeighbourKind::sources ? query.sources
+                                                               : std::span<const Sample>();
+    std::vector<ListedCandidate> targets;
+    targets.reserve(points.size());
+    for (const Sample& point : points) {
+        const auto [second, third] = rounded_weights(point.weights);
+        targets.push_back({point.face, static_cast<std::uint32_t>(second * 0x1p24f),
+                           static_cast<std::uint32_t>(third * 0x1p24f)});
+    }
+    return targets;
+}
+
+} // namespace
+
+Result<Done> check_edges(const PreparedMesh& mesh, double largest) {
+    const double longest = mesh.statistics().longest_edge / largest;
+    if (longest <= kLongestEdge) {
+        return Done{};
+    }
+    return invalid("the distance is too small for this mesh: its longest edge is " +
+                   number_text(longest) + " times as long, and single precision resolves at most " +
+                   number_text(kLongestEdge) + " times; split long edges");
+}
+
+SearchJobs::SearchJobs(const PreparedMesh& mesh, const NeighbourQuery& query)
+    : mesh_(&mesh), query_(&query), targets_(targets_of(query)) {
+    params_.min_distance =
+        query.radii.empty() ? query.within : *std::ranges::max_element(query.radii);
+}
+
+Result<SearchJobs> SearchJobs::create(const PreparedMesh& mesh, const NeighbourQuery& query) {
+    SearchJobs jobs(mesh, query);
+    SampleParams& params = jobs.params_;
+    if (auto checked = check_edges(mesh, params.min_distance); !checked) {
+        return checked.error();
+    }
+    params.throws = 1; // A pool might be too large, and none is drawn.
+    const auto frame = frame_of(mesh, params);
+    params.throws = 0;
+    if (!frame) {
+        return frame.error();
+    }
+    jobs.frame_ = *frame;
+    return jobs;
+}
+
+double SearchJobs::records_per_source() const {
+    const auto all =
+        static_cast<double>(targets_.empty() ? mesh_->vertex_count() : targets_.size());
+    const double part =
+        3.2 * params_.min_distance * params_.min_distance / mesh_->statistics().area;
+    return kPathsPerTarget * all * std::min(1.0, part) + kMoreRecords;
+}
+
+Result<Domain> SearchJobs::job(std::size_t first, std::size_t sources, std::uint32_t room) const {
+    SampleParams params = params_;
+    std::vector<KeepOut> disks;
+    if (query_->radii.empty()) {
+        params.given = query_->sources.subspan(first, sources);
+    } else {
+        disks.reserve(sources);
+        for (std::size_t i = first; i < first + sources; ++i) {
+            disks.push_back({query_->sources[i], query_->radii[i]});
+        }
+        params.avoid = disks;
+    }
+    return SurfaceDomain::recording(*mesh_, params, frame_, Ending::reach, targets_, room);
+}
+
+std::size_t PartSizes::sources(double most_records, std::size_t done, std::size_t left) const {
+    const auto most = static_cast<double>(left);
+    // The first ones tell how many records a source has.
+    const double at_once = done == 0 ? static_cast<double>(kFewSources) : kMostSources;
+    return static_cast<std::size_t>(
+        std::clamp(std::min({most_records / (kSpareRecords * each_), most, at_once}), 1.0, most));
+}
+
+std::uint32_t PartSizes::room(std::size_t sources, double most_records) const {
+    const double wanted = kSpareRecords * each_;
+    return static_cast<std::uint32_t>(
+        std::clamp(wanted * static_cast<double>(sources) + kLeastRecords, kLeastRecords,
+                   std::max(most_records, wanted) + kLeastRecords));
+}
+
+void PartSizes::note(double records, std::size_t sources) {
+    each_ = std::max(each_, records / static_cast<double>(sources));
+}
+
+Result<Done> check_pairs(const NeighbourQuery& query, std::size_t done, std::uint64_t pairs) {
+    const double expected = static_cast<double>(pairs) / static_cast<double>(done) *
+                            static_cast<double>(query.sources.size());
+    if (done < kFewSources && done < query.sources.size()) {
+        return Done{};
+    }
+    if (expected > static_cast<double>(query.most_pairs)) {
+        return Error{Status::job_too_large,
+                     "about " + number_text(std::round(expected)) +
+                         " pairs are to be expected, more than the " +
+                         std::to_string(query.most_pairs) +
+                         " that are allowed; take a smaller distance or fewer sources"};
+    }
+    return Done{};
+}
+
+} // namespace geodisk
