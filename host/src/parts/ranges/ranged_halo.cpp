@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <ranges>
 #include <unordered_map>
 #include <unordered_set>
 #include <utility>
@@ -63,23 +64,32 @@ class FacesAtVertices {
     std::vector<std::uint32_t> starts_, faces_;
 };
 
+/// Asks a process for its faces at a vertex, and so many rings of its faces in all.
+struct Request {
+    std::uint32_t vertex, rings;
+};
+
+constexpr std::uint32_t kMostRings = 64;
+// Ways along edges are longer than distances, by about so much.
+constexpr double kShorter = 0.75;
+
 /// A halo that grows.
 class Halo {
   public:
     Halo(Talk& talk, const KnownSurface& known, double reach)
-        : talk_(talk), known_(known), reach_(reach), own_(known.faces) {
-        const auto& shared = known.directory.shared();
-        const std::unordered_set<std::uint32_t> is_shared(shared.begin(), shared.end());
+        : talk_(talk), known_(known), reach_(reach), own_(known.faces),
+          is_shared_(known.directory.shared().begin(), known.directory.shared().end()),
+          mean_edge_(known.statistics.longest_edge) {
         for (const WholeFace& face : known.faces) {
             if (std::ranges::any_of(face.corners,
-                                    [&](std::uint32_t v) { return is_shared.contains(v); })) {
+                                    [&](std::uint32_t v) { return is_shared_.contains(v); })) {
                 rim_.push_back(face);
             }
         }
         for (const WholeFace& face : rim_) {
             for (const std::uint32_t vertex : face.corners) {
                 // All faces at other own vertices are own ones.
-                ways_[vertex] = {0, !is_shared.contains(vertex)};
+                ways_[vertex] = {0, !is_shared_.contains(vertex)};
             }
         }
     }
@@ -100,7 +110,7 @@ class Halo {
             }
             has_grown = true;
             std::sort(open.begin(), open.end());
-            add_ring(open);
+            add_rings(open);
         }
     }
 
@@ -141,8 +151,8 @@ class Halo {
         bool is_complete = false;
     };
 
-    /// Asks for the faces at open vertices.
-    void add_ring(const std::vector<std::uint32_t>& open) {
+    /// Asks for the faces at open vertices, and as many rings around them as the reach takes.
+    void add_rings(const std::vector<std::uint32_t>& open) {
         const auto asked = talk_.swap(by_home(known_.vertices, open));
         ByProcess<std::uint32_t> told(talk_.size());
         for (std::uint32_t other = 0; other < talk_.size(); ++other) {
@@ -152,19 +162,26 @@ class Halo {
                 told[other].insert(told[other].end(), holders.begin(), holders.end());
             }
         }
-        ByProcess<std::uint32_t> wanted(talk_.size());
+        ByProcess<Request> wanted(talk_.size());
         auto vertex = open.begin();
         for (const auto& heard : talk_.swap(std::move(told))) {
             for (std::size_t at = 0; at < heard.size(); at += 1 + heard[at]) {
                 for (const std::uint32_t holder : std::span(heard).subspan(at + 1, heard[at])) {
                     if (holder != talk_.rank()) {
-                        wanted[holder].push_back(*vertex);
+                        wanted[holder].push_back({*vertex, rings_from(ways_[*vertex].length)});
                     }
                 }
                 ++vertex;
             }
         }
-        const auto faces = talk_.swap(faces_at(talk_.swap(std::move(wanted))));
+        const auto requests = talk_.swap(std::move(wanted));
+        ByProcess<WholeFace> faces(talk_.size());
+        ByProcess<std::uint32_t> complete(talk_.size());
+        for (std::uint32_t other = 0; other < talk_.size(); ++other) {
+            answer(requests[other], faces[other], complete[other]);
+        }
+        faces = talk_.swap(std::move(faces));
+        complete = talk_.swap(std::move(complete));
         const std::size_t before = faces_.size();
         for (std::uint32_t owner = 0; owner < talk_.size(); ++owner) {
             for (const WholeFace& face : faces[owner]) {
@@ -172,26 +189,44 @@ class Halo {
                     faces_.push_back({face, owner, 0});
                 }
             }
+            for (const std::uint32_t one : complete[owner]) {
+                ways_[one].is_complete = true;
+            }
         }
         follow_edges(before);
     }
 
-    /// Returns the own faces at vertices that others ask for.
-    ByProcess<WholeFace> faces_at(const ByProcess<std::uint32_t>& vertices) const {
-        ByProcess<WholeFace> faces(vertices.size());
-        for (std::size_t other = 0; other < vertices.size(); ++other) {
-            std::vector<std::uint32_t> some;
-            for (const std::uint32_t vertex : vertices[other]) {
-                const auto more = own_.at(vertex);
-                some.insert(some.end(), more.begin(), more.end());
-            }
-            std::sort(some.begin(), some.end());
-            some.erase(std::unique(some.begin(), some.end()), some.end());
-            for (const std::uint32_t i : some) {
-                faces[other].push_back(known_.faces[i]);
-            }
+    std::uint32_t rings_from(double length) const {
+        return 1 + static_cast<std::uint32_t>(
+                       std::min<double>(kMostRings, (reach_ - length) / mean_edge_));
+    }
+
+    /// Finds the own faces that another process asks for, and vertices of which these are all.
+    void answer(const std::vector<Request>& requests, std::vector<WholeFace>& faces,
+                std::vector<std::uint32_t>& complete) const {
+        ByProcess<std::uint32_t> by_rings(kMostRings + 2);
+        for (const Request& request : requests) {
+            by_rings[std::min(request.rings, kMostRings + 1)].push_back(request.vertex);
         }
-        return faces;
+        std::unordered_set<std::uint32_t> vertices, sent;
+        for (std::uint32_t rings = kMostRings + 1; rings > 0; --rings) {
+            for (const std::uint32_t vertex : by_rings[rings]) {
+                if (!vertices.insert(vertex).second) {
+                    continue;
+                }
+                if (!is_shared_.contains(vertex)) {
+                    complete.push_back(vertex);
+                }
+                for (const std::uint32_t i : own_.at(vertex)) {
+                    if (sent.insert(i).second) {
+                        faces.push_back(known_.faces[i]);
+                    }
+                    const auto& corners = known_.faces[i].corners;
+                    by_rings[rings - 1].insert(by_rings[rings - 1].end(), corners, corners + 3);
+                }
+            }
+            by_rings[rings] = {};
+        }
     }
 
     /// Goes along the edges of the newest faces.
@@ -203,17 +238,28 @@ class Halo {
         const VertexNumbers numbers = numbers_of(newest);
         const std::vector<double> positions =
             fetch_positions(talk_, known_.vertices, known_.positions, numbers.vertices());
-        for (const WholeFace& face : newest) {
-            for (const std::uint32_t from : face.corners) {
-                for (const std::uint32_t to : face.corners) {
-                    const double* const a = &positions[std::size_t{3} * numbers.of(from)];
-                    const double* const b = &positions[std::size_t{3} * numbers.of(to)];
-                    const double length =
-                        std::hypot(b[0] - a[0], b[1] - a[1], b[2] - a[2]) + ways_[from].length;
-                    Way& way = ways_[to];
-                    way.length = std::min(way.length, length);
+        const auto between = [&](std::uint32_t from, std::uint32_t to) {
+            const double* const a = &positions[std::size_t{3} * numbers.of(from)];
+            const double* const b = &positions[std::size_t{3} * numbers.of(to)];
+            return std::hypot(b[0] - a[0], b[1] - a[1], b[2] - a[2]);
+        };
+        for (const auto& [a, b, c] : newest | std::views::transform(&WholeFace::corners)) {
+            edges_ += between(a, b) + between(b, c) + between(c, a);
+        }
+        for (bool has_changed = true; has_changed;) { // There may be several rings.
+            has_changed = false;
+            for (const WholeFace& face : newest) {
+                for (const std::uint32_t from : face.corners) {
+                    for (const std::uint32_t to : face.corners) {
+                        const double length = ways_[from].length + kShorter * between(from, to);
+                        has_changed |= length < ways_[to].length;
+                        ways_[to].length = std::min(ways_[to].length, length);
+                    }
                 }
             }
+        }
+        if (edges_ > 0) {
+            mean_edge_ = edges_ / (3.0 * static_cast<double>(faces_.size()));
         }
     }
 
@@ -221,7 +267,9 @@ class Halo {
     const KnownSurface& known_;
     double reach_;
     FacesAtVertices own_;
-    std::vector<WholeFace> rim_; ///< Own faces at vertices that are shared.
+    std::unordered_set<std::uint32_t> is_shared_; ///< Own vertices that others hold too.
+    double mean_edge_, edges_ = 0;                ///< Edges of the halo.
+    std::vector<WholeFace> rim_;                  ///< Own faces at vertices that are shared.
     std::unordered_map<std::uint32_t, Way> ways_;
     std::unordered_set<std::uint32_t> seen_; ///< Faces of the halo.
     std::vector<HaloFace> faces_;
