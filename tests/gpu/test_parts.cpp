@@ -36,10 +36,11 @@ Result<std::vector<std::uint32_t>> scattered(const PreparedMesh& mesh, const Sam
 }
 
 Result<PartsResult> in_parts(const PreparedMesh& mesh, const SampleParams& params,
-                             std::uint32_t count, const Cut& cut, double most_candidates) {
+                             std::uint32_t count, const Cut& cut, double most_candidates,
+                             const Checkpoints* checkpoints = nullptr) {
     static const auto sampler =
         std::make_shared<const Sampler>(expect(Sampler::create(shared_context().device())));
-    const WholeSurface whole{mesh, params, cut, most_candidates};
+    const WholeSurface whole{mesh, params, cut, most_candidates, checkpoints};
     std::vector<std::optional<Result<PartsResult>>> results(count);
     run_threads(count, [&](Exchange& exchange) {
         auto runner = Runner::create(sampler, shared_context().queue());
@@ -74,6 +75,29 @@ void check_parts(const PreparedMesh& mesh, const SampleParams& params,
             faces += process.own_faces;
         }
         CHECK(faces == mesh.face_count());
+        CHECK(result.set.report.candidates == whole.report.candidates);
+    }
+}
+
+/// Saves a checkpoint after each stage, and goes on from each with another number of parts.
+void check_resumed(const PreparedMesh& mesh, const SampleParams& params, std::size_t least) {
+    const SampleSet whole = sample(mesh, params);
+    std::vector<Checkpoint> saved;
+    const Checkpoints saving{nullptr, [&](const Checkpoint& checkpoint) -> Result<Done> {
+                                 saved.push_back(checkpoint);
+                                 return Done{};
+                             }};
+    const PartsResult first = expect(in_parts(mesh, params, 3, grown, 0x1p26, &saving));
+    CHECK(points_of(first.set) == points_of(whole));
+    CHECK(saved.size() >= least);
+    CHECK(saved.back().first_stage == kNoStage);
+    std::uint32_t count = 1;
+    for (const Checkpoint& checkpoint : saved) {
+        CAPTURE(checkpoint.first_stage);
+        const Checkpoints resuming{&checkpoint, {}};
+        const PartsResult result =
+            expect(in_parts(mesh, params, 1 + count++ % 4, grown, 0x1p26, &resuming));
+        CHECK(points_of(result.set) == points_of(whole));
         CHECK(result.set.report.candidates == whole.report.candidates);
     }
 }
@@ -192,6 +216,31 @@ TEST_SUITE("parts") {
         params = params_for(cube, 100);
         params.min_distance = -1;
         CHECK(refusal(cube, params, 2).starts_with("the minimum distance must be"));
+    }
+
+    TEST_CASE("a job goes on from each checkpoint, with any number of parts") {
+        const TestMesh shape = builtin("torus-knot", 8);
+        const PreparedMesh knot = prepared(shape);
+        check_resumed(knot, params_for(knot, 600), 4);
+        const RadiusField waves = radius_field(knot, wavy_factors(shape, 0.3));
+        SampleParams params = params_for(knot, 300, 2, &waves);
+        params.throws = 3000;
+        check_resumed(knot, params, 2);
+        params = params_for(knot, 300, 3);
+        params.stop_count = 250;
+        const std::vector<Sample> given{{5, {0.25f, 0.25f, 0.5f}}, {900, {0.5f, 0.25f, 0.25f}}};
+        params.given = given;
+        check_resumed(knot, params, 1);
+    }
+
+    TEST_CASE("a checkpoint that cannot be saved ends all parts") {
+        const PreparedMesh knot = prepared(builtin("torus-knot", 8));
+        const Checkpoints saving{nullptr, [](const Checkpoint&) -> Result<Done> {
+                                     return Error{Status::internal, "the disk is full"};
+                                 }};
+        const auto result = in_parts(knot, params_for(knot, 300), 3, grown, 0x1p26, &saving);
+        REQUIRE_FALSE(result);
+        CHECK(result.error().message == "the disk is full");
     }
 }
 

@@ -43,13 +43,18 @@ Result<std::uint64_t> draw(Exchange& exchange, PartRun& run, const Stages& stage
 
 } // namespace
 
-Result<StagesReport> decide_stages(Exchange& exchange, const Part& part, PartRun& run) {
+Result<StagesReport> decide_stages(Exchange& exchange, const Part& part, PartRun& run,
+                                   Checkpoint& reached, const SaveCheckpoint& save) {
     StagesReport report;
+    report.candidates = part.candidates_before;
     const Stages stages = part.draw().stages();
-    std::uint64_t accepted = part.all_given;
+    std::uint64_t accepted = part.all_given + part.samples_before;
+    std::uint32_t first = part.first_stage;
     const auto is_enough = [&] { return part.stop_count != 0 && accepted >= part.stop_count; };
-    std::uint32_t first = 0;
-    while (!is_enough() && stages.left(first, report.candidates) > 0) {
+    const auto has_more = [&] {
+        return first != kNoStage && !is_enough() && stages.left(first, report.candidates) > 0;
+    };
+    while (has_more()) {
         const std::uint32_t count =
             std::min(part.most_stages, stages.left(first, report.candidates));
         const auto drawn = draw(exchange, run, stages, report.candidates, first, count);
@@ -73,6 +78,13 @@ Result<StagesReport> decide_stages(Exchange& exchange, const Part& part, PartRun
         report.candidates += *drawn;
         report.is_stopped = is_enough();
         first += count;
+        if (part.is_saved && has_more()) {
+            reached.first_stage = first;
+            reached.candidates = report.candidates;
+            if (auto saved = save_stages(exchange, *own, reached, part.has_keys, save); !saved) {
+                return saved.error();
+            }
+        }
     }
     return report;
 }

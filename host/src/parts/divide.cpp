@@ -1,5 +1,6 @@
 // Divides a surface: finds the halo of each part, and who must know whose samples.
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <string>
 #include <utility>
@@ -41,10 +42,22 @@ std::uint32_t stages_at_once(const Stages& stages, double most_candidates) {
 class Division {
   public:
     Division(const PreparedMesh& mesh, const SampleParams& params, const JobFrame& frame,
-             std::span<const std::uint32_t> owners, std::uint32_t processes, double most_candidates)
-        : mesh_(mesh), params_(params), owners_(owners) {
+             std::span<const std::uint32_t> owners, std::uint32_t processes, double most_candidates,
+             const Checkpoints* checkpoints)
+        : mesh_(mesh), params_(params), owners_(owners),
+          from_(checkpoints != nullptr ? checkpoints->from : nullptr) {
         for (std::uint32_t process = 0; process < processes; ++process) {
-            parts_.push_back(part_for(mesh, params, frame, most_candidates));
+            Part& part =
+                parts_.emplace_back(part_for(mesh, params, frame, most_candidates));
+            part.is_saved = checkpoints != nullptr && checkpoints->save;
+            if (part.is_saved) {
+                part.most_stages = std::min(part.most_stages, checkpoints->stages);
+            }
+            if (from_ != nullptr) {
+                part.first_stage = from_->first_stage;
+                part.candidates_before = from_->candidates;
+                part.samples_before = from_->samples.size();
+            }
         }
         widest_ = parts_.front().reach;
         for (const KeepOut& avoided : params.avoid) {
@@ -85,6 +98,12 @@ class Division {
                 sample.face = local(part, sample.face);
                 part.given.push_back(sample);
             }
+        }
+        if (from_ != nullptr) {
+            std::ranges::copy_if(from_->samples, std::back_inserter(part.settled),
+                                 [&](const DrawnCandidate& dart) {
+                                     return to_faces[dart.point.face] <= part.reach;
+                                 });
         }
         for (KeepOut avoided : params_.avoid) {
             if (to_faces[avoided.center.face] <= widest_) {
@@ -137,6 +156,7 @@ class Division {
     const SampleParams& params_;
     std::span<const std::uint32_t> owners_;
     std::vector<Part> parts_;
+    const Checkpoint* from_;
     double widest_;
     /// Faces of the first process whose samples the second one must know.
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::uint32_t>> asked_;
@@ -161,7 +181,7 @@ Part part_for(const PreparedMesh& whole, const SampleParams& params, const JobFr
 
 Result<std::vector<Bytes>> divide(const PreparedMesh& mesh, const SampleParams& params,
                                   std::span<const std::uint32_t> owners, std::uint32_t processes,
-                                  double most_candidates) {
+                                  double most_candidates, const Checkpoints* checkpoints) {
     return guarded([&]() -> Result<std::vector<Bytes>> {
         if (auto checked = check_params(params); !checked) {
             return checked.error();
@@ -170,7 +190,7 @@ Result<std::vector<Bytes>> divide(const PreparedMesh& mesh, const SampleParams& 
         if (!frame) {
             return frame.error();
         }
-        Division division(mesh, params, *frame, owners, processes, most_candidates);
+        Division division(mesh, params, *frame, owners, processes, most_candidates, checkpoints);
         for (std::uint32_t process = 0; process < processes; ++process) {
             division.choose(process);
         }

@@ -14,6 +14,7 @@
 #include <geodisk/status.hpp>
 
 #include "engine/domain/drawn.hpp"
+#include "parts/checkpoint.hpp"
 #include "parts/exchange.hpp"
 
 namespace geodisk {
@@ -54,6 +55,12 @@ struct Part {
     std::uint32_t stop_count = 0;  ///< SampleParams::stop_count.
     std::uint32_t all_given = 0;   ///< Number of given samples of the whole.
     std::uint32_t most_stages = 1; ///< Stages that are drawn at a time.
+    // Where the job goes on from a checkpoint.
+    std::uint32_t first_stage = 0;
+    std::uint64_t candidates_before = 0; ///< Of all processes.
+    std::uint64_t samples_before = 0;    ///< Of all processes.
+    Darts settled;                       ///< Samples of own and near faces.
+    bool is_saved = false;               ///< The first process saves checkpoints.
 
     /// Returns the parameters of the whole, for the part. They refer to it.
     SampleParams params() const;
@@ -67,11 +74,12 @@ Part part_for(const PreparedMesh& whole, const SampleParams& params, const JobFr
               double most_candidates);
 
 /// Returns the parts of all processes as messages, in their order. `owners` has the process of each
-/// face; see part_for(). Errors: `invalid_argument` for parameters that many processes do not take,
-/// and for more processes than faces; those of frame_of().
+/// face; see part_for(). `checkpoints` is null for a job without any. Errors: `invalid_argument` for
+/// parameters that many processes do not take, and for more processes than faces; those of
+/// frame_of().
 Result<std::vector<Bytes>> divide(const PreparedMesh& mesh, const SampleParams& params,
                                   std::span<const std::uint32_t> owners, std::uint32_t processes,
-                                  double most_candidates);
+                                  double most_candidates, const Checkpoints* checkpoints);
 
 /// Reads a part. Errors: those of PreparedMesh::load() and the like.
 Result<std::unique_ptr<Part>> part_of(std::span<const std::byte> bytes);

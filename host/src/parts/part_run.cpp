@@ -34,6 +34,12 @@ PartRun::PartRun(const Part& part, Runner& runner, ProgressCallback progress)
             settled_near_.push_back(sample);
         }
     }
+    for (const DrawnCandidate& dart : part.settled) {
+        settle(dart);
+        if (is_own(dart)) {
+            settled_own_.push_back(dart);
+        }
+    }
 }
 
 void PartRun::settle(const DrawnCandidate& dart) {

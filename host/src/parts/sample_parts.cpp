@@ -43,7 +43,8 @@ Result<std::vector<Bytes>> parts_of(const WholeSurface& whole, std::uint32_t pro
             return frame.error();
         }
         const auto owners = whole.cut(whole.mesh, whole.params, processes);
-        return owners ? divide(whole.mesh, whole.params, *owners, processes, whole.most_candidates)
+        return owners ? divide(whole.mesh, whole.params, *owners, processes, whole.most_candidates,
+                               whole.checkpoints)
                       : Result<std::vector<Bytes>>(owners.error());
     });
 }
@@ -106,10 +107,11 @@ Result<std::uint64_t> candidates_up_to(Exchange& exchange, const PartRun& run,
 }
 
 /// Samples the parts of all processes. `params` are those of the whole, null on all but the first
-/// process.
+/// process, and so are checkpoints, or for a job without any.
 Result<PartsResult> sample_all(Exchange& exchange, Runner& runner,
                                const Result<std::unique_ptr<Part>>& part, std::uint64_t part_bytes,
-                               const SampleParams* params, const ProgressCallback& progress) {
+                               const SampleParams* params, const Checkpoints* given,
+                               const ProgressCallback& progress) {
     Summary summary;
     summary.process.part_bytes = part_bytes;
     std::optional<PartRun> run;
@@ -123,7 +125,10 @@ Result<PartsResult> sample_all(Exchange& exchange, Runner& runner,
     if (auto well = exchange.check_all(error_of(begun)); !well) {
         return well.error();
     }
-    const auto stages = decide_stages(exchange, **part, *run);
+    const Checkpoints none;
+    const Checkpoints& checkpoints = given != nullptr ? *given : none;
+    Checkpoint reached = checkpoints.from != nullptr ? *checkpoints.from : Checkpoint();
+    const auto stages = decide_stages(exchange, **part, *run, reached, checkpoints.save);
     if (!stages) {
         return stages.error();
     }
@@ -164,6 +169,12 @@ Result<PartsResult> sample_all(Exchange& exchange, Runner& runner,
         candidates = stages->before + *last;
     }
     result.set.report.candidates = static_cast<std::uint32_t>(candidates);
+    if ((*part)->is_saved) {
+        reached = {kNoStage, candidates, std::move(darts)};
+        if (auto saved = save_on_first(exchange, reached, checkpoints.save); !saved) {
+            return saved.error();
+        }
+    }
     return result;
 }
 
@@ -186,7 +197,7 @@ Result<PartsResult> sample_parts(Exchange& exchange, Runner& runner, const Whole
     const std::uint64_t bytes = message->size();
     *message = {};
     return sample_all(exchange, runner, part, bytes, whole != nullptr ? &whole->params : nullptr,
-                      progress);
+                      whole != nullptr ? whole->checkpoints : nullptr, progress);
 }
 
 Result<PartsResult> sample_ranges(Exchange& exchange, Runner& runner, const RangedSurface& surface,
@@ -198,7 +209,7 @@ Result<PartsResult> sample_ranges(Exchange& exchange, Runner& runner, const Rang
     }
     const auto part = surface.part(exchange, params, *frame, most_candidates);
     return sample_all(exchange, runner, part, 0, exchange.rank() == 0 ? &params : nullptr,
-                      progress);
+                      nullptr, progress);
 }
 
 } // namespace geodisk

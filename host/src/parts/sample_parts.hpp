@@ -11,6 +11,7 @@
 #include <geodisk/runner.hpp>
 #include <geodisk/status.hpp>
 
+#include "parts/checkpoint.hpp"
 #include "parts/exchange.hpp"
 #include "parts/ranges/ranged_surface.hpp"
 
@@ -29,6 +30,7 @@ struct WholeSurface {
     const SampleParams& params;
     const Cut& cut;
     double most_candidates = kMostAtOnce;
+    const Checkpoints* checkpoints = nullptr; ///< Null for a job without any.
 };
 
 /// What came of it, at the first process alone.

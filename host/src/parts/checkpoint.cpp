@@ -1,0 +1,33 @@
+#include "parts/checkpoint.hpp"
+
+#include <algorithm>
+
+#include "support/guard.hpp"
+
+namespace geodisk {
+
+Result<Done> save_on_first(Exchange& exchange, const Checkpoint& checkpoint,
+                           const SaveCheckpoint& save) {
+    const auto saved = guarded([&] { return save ? save(checkpoint) : Result<Done>(Done{}); });
+    return exchange.check_all(saved ? nullptr : &saved.error());
+}
+
+Result<Done> save_stages(Exchange& exchange, const Darts& own, Checkpoint& all, bool has_keys,
+                         const SaveCheckpoint& save) {
+    Bytes told;
+    append(told, own);
+    const auto messages = exchange.gather(std::move(told));
+    if (!messages) {
+        return messages.error();
+    }
+    const auto before = static_cast<std::ptrdiff_t>(all.samples.size());
+    for (const Bytes& message : *messages) {
+        const Darts darts = darts_of(message);
+        all.samples.insert(all.samples.end(), darts.begin(), darts.end());
+    }
+    // Later stages come later in dart order.
+    std::sort(all.samples.begin() + before, all.samples.end(), DartOrder{has_keys});
+    return save_on_first(exchange, all, save);
+}
+
+} // namespace geodisk
