@@ -33,7 +33,11 @@ bool has_small_faces(const PreparedMesh& mesh, const SampleParams& params, const
 
 template <class Real>
 Surface<Real>::Surface(const PreparedMesh& mesh, double min_distance)
-    : frame(ref::frame_of(mesh, min_distance)), fans(mesh.fans()), corners(mesh.corners()) {
+    : Surface(mesh, ref::frame_of(mesh, min_distance)) {}
+
+template <class Real>
+Surface<Real>::Surface(const PreparedMesh& mesh, const Frame& frame_of_whole)
+    : frame(frame_of_whole), fans(mesh.fans()), corners(mesh.corners()) {
     place_edges(mesh);
 }
 

@@ -80,6 +80,8 @@ struct Surface {
     Classes<Real> classes; ///< Only where radii do not vary.
 
     Surface(const PreparedMesh& mesh, double min_distance);
+    /// The same in the frame of a mesh of which this one is a part.
+    Surface(const PreparedMesh& mesh, const Frame& frame_of_whole);
     /// The surface of a run, with its radii.
     Surface(const PreparedMesh& mesh, const SampleParams& params);
     /// The same in the frame of a mesh of which this one is a part.

@@ -93,7 +93,8 @@ void check_column(const std::string& path, std::span<const std::uint32_t> levels
 
 std::vector<LevelSpacing> check_levels(const std::string& samples_path, const SampleFile& samples,
                                        const MeshInput& mesh, std::span<const double> radii,
-                                       const SpacingResult& last, ProgressLine& progress) {
+                                       const SpacingResult& last, ProgressLine& progress,
+                                       const NotePairs& note) {
     const std::string* const text = samples.header.find(kLevelDistances);
     std::vector<LevelSpacing> found;
     if (text == nullptr) {
@@ -117,7 +118,7 @@ std::vector<LevelSpacing> check_levels(const std::string& samples_path, const Sa
         }
         GivenSpacing spacing =
             check_spacing(mesh, std::span(samples.rows).first(end), PairDistances{own},
-                          given.first(given.empty() ? 0 : end), progress);
+                          given.first(given.empty() ? 0 : end), progress, note);
         found.push_back({distances[level], end, std::move(spacing.others)});
         if (end == samples.rows.size()) {
             break; // The file ends here: later levels are not in it.

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "files/sample_file.hpp"
+#include "geodisk/checks/near_pairs.hpp"
 #include "geodisk/checks/spacing.hpp"
 #include "geodisk/inputs/mesh_input.hpp"
 #include "geodisk/outputs/progress.hpp"
@@ -23,11 +24,12 @@ struct LevelSpacing {
 
 /// Checks the samples up to the end of each level whose distance the header has; none without such
 /// distances. `radii` are those of the last level, and `last` is what a check with them found.
-/// Throws UserError(bad_input) where header and
-/// column contradict each other, or samples are not in the order of their levels.
+/// Pairs are found by `note`. Throws UserError(bad_input) where header and column contradict each
+/// other, or samples are not in the order of their levels.
 std::vector<LevelSpacing> check_levels(const std::string& samples_path, const SampleFile& samples,
                                        const MeshInput& mesh, std::span<const double> radii,
-                                       const SpacingResult& last, ProgressLine& progress);
+                                       const SpacingResult& last, ProgressLine& progress,
+                                       const NotePairs& note);
 
 /// A line for each level. `has_given` tells whether pairs of given samples were left out.
 std::string level_lines(const std::vector<LevelSpacing>& levels, bool has_given);

@@ -12,8 +12,6 @@ namespace {
 
 /// Doubles round at 2^-53; chains of crossings may add up some thousand such errors.
 constexpr double kSmallestViolation = 1e-9;
-/// Enough to say that a file is hopeless, and little enough to hold.
-constexpr std::size_t kMostViolations = 1'000'000;
 constexpr std::size_t kNamedViolations = 10;
 
 std::string count_text(std::size_t count, bool is_complete) {
@@ -21,6 +19,10 @@ std::string count_text(std::size_t count, bool is_complete) {
 }
 
 } // namespace
+
+bool ClosePair::is_violation() const {
+    return ratio < 1 - kSmallestViolation;
+}
 
 bool is_closer(const ClosePair& pair, const std::optional<ClosePair>& than) {
     return !than || std::tie(pair.ratio, pair.row_a, pair.row_b) <
@@ -31,7 +33,7 @@ bool SpacingResult::add(const ClosePair& pair) {
     if (pair.ratio <= cut && is_closer(pair, closest)) {
         closest = pair;
     }
-    if (pair.ratio < 1 - kSmallestViolation) {
+    if (pair.is_violation()) {
         violations.push_back(pair);
     }
     is_complete = violations.size() < kMostViolations;

@@ -26,7 +26,13 @@ struct ClosePair {
     std::uint32_t row_a, row_b;
     double distance;
     double ratio; ///< Of the distance to what it should be at least; of find_closest() itself.
+
+    /// Returns true if it is closer than it should be, by more than a billionth.
+    bool is_violation() const;
 };
+
+/// Violations that are looked for: enough to say that a file is hopeless, and few enough to hold.
+inline constexpr std::size_t kMostViolations = 1'000'000;
 
 /// Whether the pair is closer, by ratio.
 bool is_closer(const ClosePair& pair, const std::optional<ClosePair>& than);

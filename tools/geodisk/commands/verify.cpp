@@ -16,6 +16,7 @@
 #include "geodisk/checks/wanted_spacing.hpp"
 #include "geodisk/commands/commands.hpp"
 #include "geodisk/commands/help_text.hpp"
+#include "geodisk/commands/verify.hpp"
 #include "geodisk/inputs/given_input.hpp"
 #include "geodisk/inputs/mesh_input.hpp"
 #include "geodisk/options/verify_options.hpp"
@@ -51,10 +52,11 @@ void warn_of_other_rows(const VerifyOptions& options, const SampleFile& samples,
 /// Computes the distances of all pairs that may be too close, or finds the closest pair where
 /// nothing says what is too close.
 GivenSpacing measure_spacing(const MeshInput& mesh, const SampleFile& samples,
-                             const WantedSpacing& wanted, ProgressLine& progress) {
+                             const WantedSpacing& wanted, ProgressLine& progress,
+                             const NotePairs& note) {
     if (!wanted.is_known) {
         GivenSpacing found;
-        found.others.closest = find_closest(mesh, samples.rows, progress);
+        found.others.closest = find_closest(mesh, samples.rows, progress, note);
         return found;
     }
     const auto classes = samples.extra_values(kClassColumn);
@@ -62,7 +64,7 @@ GivenSpacing measure_spacing(const MeshInput& mesh, const SampleFile& samples,
         wanted.classes.is_given() ? PairDistances{{}, classes, wanted.classes, wanted.min_distance}
                                   : PairDistances{wanted.radii};
     return check_spacing(mesh, samples.rows, distances, samples.extra_values(kGivenColumn),
-                         progress);
+                         progress, note);
 }
 
 void warn_of_unknown_spacing(const VerifyOptions& options, std::vector<MeshWarning>& warnings) {
@@ -72,7 +74,9 @@ void warn_of_unknown_spacing(const VerifyOptions& options, std::vector<MeshWarni
     print_warning(options.samples + ": " + warnings.back().message);
 }
 
-void run_verify(const VerifyOptions& options) {
+} // namespace
+
+void verify_samples(const VerifyOptions& options, const NotePairs& note) {
     options.check();
     if (options.samples.empty()) {
         verify_box(options.mesh.mesh, options.min_distance, options.out);
@@ -100,7 +104,7 @@ void run_verify(const VerifyOptions& options) {
     if (!spacing.is_known) {
         warn_of_unknown_spacing(options, warnings);
     }
-    GivenSpacing found = measure_spacing(mesh, samples, spacing, progress);
+    GivenSpacing found = measure_spacing(mesh, samples, spacing, progress, note);
     ConstraintOptions constraints = options.constraints;
     constraints.tolerance = options.tolerance;
     const std::size_t before = warnings.size();
@@ -118,8 +122,8 @@ void run_verify(const VerifyOptions& options) {
     }
     std::vector<LevelSpacing> levels;
     if (options.min_distance.empty() && spacing.is_known) {
-        levels =
-            check_levels(options.samples, samples, mesh, spacing.radii, found.others, progress);
+        levels = check_levels(options.samples, samples, mesh, spacing.radii, found.others, progress,
+                              note);
     }
     const SampleCheck check{options,
                             samples,
@@ -141,15 +145,13 @@ void run_verify(const VerifyOptions& options) {
     }
 }
 
-} // namespace
-
 void add_verify_command(Command app) {
     const Command command =
         app.add_command("verify", "Check the distances of samples (exact, CPU only)");
     const auto options = std::make_shared<VerifyOptions>();
     add_verify_options(command, *options);
     command.has_footer(help_footer(kExamples));
-    command.calls([options] { run_verify(*options); });
+    command.calls([options] { verify_samples(*options); });
 }
 
 } // namespace geodisk::tools
