@@ -8,32 +8,9 @@ import time
 
 import pytest
 
-PROGRAM = os.environ["GEODISK_MPI_COMMAND"]
-ENVIRONMENT = {
-    **os.environ,
-    "LP_NUM_THREADS": "1",
-    "OMPI_ALLOW_RUN_AS_ROOT": "1",
-    "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
-    "OMPI_MCA_rmaps_base_oversubscribe": "1",
-}
+from launching import ENVIRONMENT, PROGRAM, alone, children_of, launch, run, wait_for
+
 MESH = "builtin:torus-knot"
-
-
-def launch(processes, *arguments, **more):
-    command = [os.environ["GEODISK_MPIEXEC"], "-q", "-n", str(processes), PROGRAM, *arguments]
-    return subprocess.Popen(command, env=ENVIRONMENT, text=True, stdout=subprocess.PIPE,
-                            stderr=subprocess.PIPE, **more)
-
-
-def run(processes, *arguments, **more):
-    process = launch(processes, *arguments, **more)
-    output, errors = process.communicate(timeout=120)
-    return process.returncode, output, errors
-
-
-def alone(*arguments):
-    subprocess.run([os.environ["GEODISK_COMMAND"], "sample", *arguments, "--quiet"], check=True,
-                   env=ENVIRONMENT)
 
 
 def check_same(tmp_path, arguments, counts, name="samples.ply"):
@@ -116,20 +93,10 @@ def test_processes_started_differently(tmp_path):
     assert done.stderr.count("\n") == 1
 
 
-def children_of(process):
-    """The processes of geodisk_mpi that mpirun started."""
-    listed = subprocess.run(["ps", "--no-headers", "-o", "pid", "--ppid", str(process.pid)],
-                            text=True, capture_output=True).stdout.split()
-    return [int(pid) for pid in listed]
-
-
 def test_killed_process_ends_all(tmp_path):
     out = tmp_path / "s.ply"
     process = launch(3, "sample", MESH, "--count", "3000000", "-o", str(out), "--quiet")
-    deadline = time.monotonic() + 30
-    while len(children_of(process)) < 3:
-        assert time.monotonic() < deadline
-        time.sleep(0.05)
+    wait_for(lambda: len(children_of(process)) == 3)
     time.sleep(1)
     pids = children_of(process)
     os.kill(pids[-1], signal.SIGKILL)

@@ -9,7 +9,8 @@ import struct
 import threading
 
 import pytest
-from test_mpi import alone, run
+
+from launching import alone, run
 
 
 def write_ply(path, vertices, faces, order="<", real="d"):

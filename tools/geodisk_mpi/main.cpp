@@ -9,23 +9,37 @@
 
 #include <geodisk/version.hpp>
 
+#include "geodisk/commands/commands.hpp"
+#include "geodisk/commands/help_text.hpp"
 #include "program/failure.hpp"
 #include "program/program.hpp"
 #include "program/utf8_arguments.hpp"
 #include "sample_command.hpp"
 #include "session.hpp"
+#include "verify_command.hpp"
 
 namespace {
 
 using geodisk::tools::Command;
 using geodisk::tools::Session;
 
+constexpr const char* kExamples[] = {
+    "mpirun -n 4 geodisk_mpi sample bunny.obj -o points.ply --count 10000",
+    "mpirun -n 4 geodisk_mpi verify bunny.obj points.ply",
+};
+
 Session* session = nullptr;
 
 void set_up(Command app) {
     app.has_version("geodisk_mpi " GEODISK_VERSION_STRING);
     app.needs_command();
+    app.has_footer(geodisk::tools::help_footer(kExamples));
     geodisk::tools::add_shared_sample_command(app, *session);
+    geodisk::tools::add_shared_verify_command(app, *session);
+    if (session->is_first()) { // Which alone prints and writes.
+        geodisk::tools::add_completion_command(app);
+        geodisk::tools::add_manual_command(app);
+    }
 }
 
 void check_alike(Command, std::vector<std::string>& arguments) {

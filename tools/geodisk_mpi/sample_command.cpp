@@ -3,6 +3,7 @@
 #include <memory>
 #include <string>
 
+#include "checkpoint_folder.hpp"
 #include "geodisk/commands/commands.hpp"
 #include "geodisk/commands/help_text.hpp"
 #include "program/failure.hpp"
@@ -15,6 +16,7 @@ namespace {
 constexpr const char* kExamples[] = {
     "mpirun -n 4 geodisk_mpi sample bunny.obj -o points.ply --count 10000",
     "mpirun -n 4 geodisk_mpi sample bunny.obj -o points.csv --min-distance 1% --json report.json",
+    "mpirun -n 4 geodisk_mpi sample bunny.obj -o points.ply -d 0.1% --checkpoint saved --resume",
 };
 
 void refuse(const std::string& option) {
@@ -40,6 +42,22 @@ void check_shared(const SampleOptions& options) {
     }
 }
 
+/// Samples as the first process.
+void sample_here(const SampleOptions& options, const CheckpointOptions& checkpoints,
+                 Session& session) {
+    if (checkpoints.folder.empty()) {
+        if (!sample_ranges_to_files(options, session)) {
+            sample_to_files(options, {}, &session);
+        }
+        return;
+    }
+    CheckpointFolder folder(checkpoints, options.out.quiet);
+    session.save_in(&folder);
+    sample_to_files(options, {}, &session);
+    session.save_in(nullptr);
+    folder.remove();
+}
+
 } // namespace
 
 void add_shared_sample_command(Command app, Session& session) {
@@ -49,12 +67,12 @@ void add_shared_sample_command(Command app, Session& session) {
     add_mesh_argument(command, options->mesh, "Mesh to sample");
     add_sample_options(command, *options);
     command.has_footer(help_footer(kExamples));
-    command.calls([options, &session] {
+    const auto checkpoints = std::make_shared<CheckpointOptions>();
+    add_checkpoint_options(command, *checkpoints);
+    command.calls([options, checkpoints, &session] {
         check_shared(*options);
         if (session.is_first()) {
-            if (!sample_ranges_to_files(*options, session)) {
-                sample_to_files(*options, {}, &session);
-            }
+            sample_here(*options, *checkpoints, session);
         } else {
             const SampleJob job = parse_job(*options);
             session.help(&job);

@@ -1,7 +1,9 @@
 #include "session.hpp"
 
 #include <algorithm>
+#include <cstdlib>
 #include <cstring>
+#include <iostream>
 #include <optional>
 #include <utility>
 
@@ -15,6 +17,8 @@
 #include "program/command_text.hpp"
 #include "program/failure.hpp"
 #include "program/interrupt.hpp"
+#include "shared_pairs.hpp"
+#include "status_of.hpp"
 
 namespace geodisk::tools {
 namespace {
@@ -36,19 +40,12 @@ Error unlike(std::size_t process) {
                      "process 0; start all alike"};
 }
 
-/// The device of a process, opened; its error as the first process is told of it.
+/// Opens the device of a process. Returns its error as the first process is told of it.
 Result<Done> open(RunDevice& device, ProgressLine& progress) {
-    try {
+    return caught([&]() -> Result<Done> {
         device.open(progress);
         return Done{};
-    } catch (const UserError& error) {
-        const Status status = error.code() == ExitCode::no_device ? Status::no_device
-                              : error.code() == ExitCode::out_of_memory
-                                  ? Status::out_of_device_memory
-                              : error.code() == ExitCode::usage ? Status::invalid_argument
-                                                                : Status::internal;
-        return Error{status, error.what()};
-    }
+    });
 }
 
 /// Returns what the first process says.
@@ -127,25 +124,30 @@ Session::~Session() {
 }
 
 Session::Task Session::next(Task of_first) {
-    const auto heard = all_hear(*exchange_, of_first);
+    const auto heard = together([&] { return all_hear(*exchange_, of_first); });
     return heard ? *heard : Task::nothing;
 }
 
 void Session::check_arguments(const std::vector<std::string>& arguments) {
-    const Bytes own = to_bytes(command_text(GEODISK_VERSION_STRING, arguments));
-    const auto all = take(exchange_->gather(own));
-    std::optional<Error> error;
-    for (std::size_t process = 0; process < all.size() && !error; ++process) {
-        if (all[process] != own) {
-            error = unlike(process);
+    take(together([&]() -> Result<Done> {
+        const Bytes own = to_bytes(command_text(GEODISK_VERSION_STRING, arguments));
+        const auto all = exchange_->gather(own);
+        if (!all) {
+            return all.error();
         }
-    }
-    take(exchange_->check_all(error ? &*error : nullptr));
+        std::optional<Error> error;
+        for (std::size_t process = 0; process < all->size() && !error; ++process) {
+            if ((*all)[process] != own) {
+                error = unlike(process);
+            }
+        }
+        return exchange_->check_all(error ? &*error : nullptr);
+    }));
 }
 
 std::optional<std::string> Session::read_ranges(const Path& path) {
     next(Task::read);
-    auto surface = read_surface(*exchange_, path);
+    auto surface = together([&] { return read_surface(*exchange_, path); });
     if (surface) {
         surface_ = std::move(*surface);
         return std::nullopt;
@@ -176,25 +178,49 @@ std::vector<double> Session::corners(const std::vector<std::uint32_t>& faces) {
 
 Result<SampleSet> Session::sample(Runner& runner, const SurfaceTask& surface,
                                   const ProgressCallback& progress) {
+    const Checkpoints* const checkpoints =
+        checkpoints_ != nullptr ? &checkpoints_->begin(*surface.mesh, surface.params) : nullptr;
     next(surface_ ? Task::sample_ranges : Task::sample_whole);
-    if (auto well = exchange_->check_all(nullptr); !well) {
-        return well.error();
-    }
-    Result<PartsResult> result = PartsResult();
-    if (surface_) {
-        const auto job = all_hear(*exchange_, RangedJob(surface.params));
-        result = job ? sample_ranges(*exchange_, runner, *surface_, job->params(), progress)
-                     : Result<PartsResult>(job.error());
-    } else {
+    auto result = together([&]() -> Result<PartsResult> {
+        if (auto well = exchange_->check_all(nullptr); !well) {
+            return well.error();
+        }
+        if (surface_) {
+            const auto job = all_hear(*exchange_, RangedJob(surface.params));
+            return job ? sample_ranges(*exchange_, runner, *surface_, job->params(), progress)
+                       : Result<PartsResult>(job.error());
+        }
         const Cut cut = cut_surface;
-        const WholeSurface whole{*surface.mesh, surface.params, cut};
-        result = sample_parts(*exchange_, runner, &whole, progress);
-    }
+        WholeSurface whole{*surface.mesh, surface.params, cut};
+        whole.checkpoints = checkpoints;
+        return sample_parts(*exchange_, runner, &whole, progress);
+    });
     if (!result) {
+        if (checkpoints_ != nullptr) {
+            checkpoints_->check();
+        }
         return result.error();
     }
     processes_ = std::move(result->processes);
     return std::move(result->set);
+}
+
+std::vector<NotedPair> Session::note(const PairSearch& search, ProgressLine& progress) {
+    next(Task::note);
+    auto noted = together([&] { return note_together(*exchange_, &search, progress); });
+    check_interrupted();
+    return take(std::move(noted));
+}
+
+void Session::abort(ExitCode code, const std::string& message) const {
+    const std::uint32_t rank = exchange_->rank();
+    // In one piece, since others may write as well.
+    const std::string line =
+        "geodisk_mpi: " + (rank == 0 ? "" : "process " + std::to_string(rank) + ": ") + message +
+        '\n';
+    std::cerr << line << std::flush;
+    MPI_Abort(MPI_COMM_WORLD, static_cast<int>(code));
+    std::_Exit(static_cast<int>(code));
 }
 
 void Session::help_to_read(const Path& path) {
@@ -220,6 +246,25 @@ void Session::help_to_sample(RunDevice* device, bool has_ranges) {
     }
 }
 
+void Session::do_task(Task task, const SampleJob* job, RunDevice* device) {
+    ProgressLine quiet(true);
+    switch (task) {
+    case Task::read:
+        help_to_read(job != nullptr ? Path(job->mesh.mesh) : Path());
+        break;
+    case Task::corners:
+        if (const auto faces = exchange_->scatter({})) {
+            (void)corners_of(*exchange_, *surface_, Talk::records_of<std::uint32_t>(*faces));
+        }
+        break;
+    case Task::note:
+        (void)note_together(*exchange_, nullptr, quiet);
+        break;
+    default:
+        help_to_sample(device, task == Task::sample_ranges);
+    }
+}
+
 void Session::help(const SampleJob* job) {
     if (has_ended_) {
         return;
@@ -229,18 +274,7 @@ void Session::help(const SampleJob* job) {
         device = device_for(*job);
     }
     for (Task task = next(Task::nothing); task != Task::nothing; task = next(Task::nothing)) {
-        switch (task) {
-        case Task::read:
-            help_to_read(job != nullptr ? Path(job->mesh.mesh) : Path());
-            break;
-        case Task::corners:
-            if (const auto faces = exchange_->scatter({})) {
-                (void)corners_of(*exchange_, *surface_, Talk::records_of<std::uint32_t>(*faces));
-            }
-            break;
-        default:
-            help_to_sample(device ? &*device : nullptr, task == Task::sample_ranges);
-        }
+        together([&] { do_task(task, job, device ? &*device : nullptr); });
     }
     has_ended_ = true;
 }

@@ -1,16 +1,21 @@
-// The processes of a run: the first one reads, asks the others for help, and writes.
+// The processes of a run: the first one reads, asks the others for help, and writes or reports.
 #pragma once
 
 #include <cstdint>
+#include <exception>
 #include <memory>
+#include <new>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "checkpoint_folder.hpp"
+#include "geodisk/checks/near_pairs.hpp"
 #include "geodisk/device_run.hpp"
 #include "geodisk/options/sample_options.hpp"
 #include "mpi_exchange.hpp"
 #include "parts/ranges/ranged_surface.hpp"
+#include "program/failure.hpp"
 #include "program/path.hpp"
 
 namespace geodisk::tools {
@@ -47,23 +52,44 @@ class Session : public SurfaceSampler {
     Result<SampleSet> sample(Runner& runner, const SurfaceTask& surface,
                              const ProgressCallback& progress) override;
     const std::vector<ProcessReport>& processes() const override { return processes_; }
+    /// From now on, saves checkpoints there, if it is not null. It must outlive all samples.
+    void save_in(CheckpointFolder* folder) { checkpoints_ = folder; }
 
-    /// Helps the first process until it has no more work, on the others. `job` says how; it is null
-    /// where the arguments are none.
+    /// Does what note_pairs() does, by all processes, on the first one. Throws UserError.
+    std::vector<NotedPair> note(const PairSearch& search, ProgressLine& progress);
+
+    /// Helps the first process until it has no more work, on the others. `job` says how to sample;
+    /// it is null where nothing is sampled, or the arguments are none.
     void help(const SampleJob* job);
 
   private:
     /// What the others are to do.
-    enum class Task : std::uint8_t { nothing, read, sample_whole, sample_ranges, corners };
+    enum class Task : std::uint8_t { nothing, read, sample_whole, sample_ranges, corners, note };
 
     /// Tells the others what to do, or hears of it.
     Task next(Task of_first);
+    void do_task(Task task, const SampleJob* job, RunDevice* device);
     void help_to_read(const Path& path);
     void help_to_sample(RunDevice* device, bool has_ranges);
+
+    /// Does what all processes do together. What it throws, the others never hear of: that ends all
+    /// of them, with one message.
+    template <class Body>
+    auto together(const Body& body) const {
+        try {
+            return body();
+        } catch (const std::bad_alloc&) {
+            abort(ExitCode::out_of_memory, "out of memory");
+        } catch (const std::exception& error) {
+            abort(ExitCode::internal, error.what());
+        }
+    }
+    [[noreturn]] void abort(ExitCode code, const std::string& message) const;
 
     std::unique_ptr<MpiExchange> exchange_;
     std::optional<RangedSurface> surface_;
     std::vector<ProcessReport> processes_;
+    CheckpointFolder* checkpoints_ = nullptr;
     bool has_ended_ = false;
 };
 

@@ -15,8 +15,9 @@ void add_manual_command(Command app) {
     const auto folder = std::make_shared<std::string>();
     command.add_option("-o,--output", *folder, "DIR", "Folder to write to").required();
     command.calls([app, folder] {
+        const CommandFacts program = app.facts();
         for (const ManualPage& page :
-             manual_pages(app.facts(), "geodisk " GEODISK_VERSION_STRING)) {
+             manual_pages(program, program.name + " " GEODISK_VERSION_STRING)) {
             AtomicFile file(Path(*folder) / page.name);
             file.write(page.text);
             file.commit();

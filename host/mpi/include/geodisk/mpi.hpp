@@ -33,7 +33,9 @@ struct SharedSamples {
 /// Errors: the same on all processes, naming the process that failed: those of
 /// Runner::sample_and_wait(); `invalid_argument` for more processes than faces, for classes
 /// and maximal sets. `cancelled` if `progress` returns false while waiting: the
-/// process then no longer takes part, so end the others, as MPI_Abort() does.
+/// process then no longer takes part, so end the others, as MPI_Abort() does. So do for
+/// `out_of_host_memory` without the name of a process: it came between messages, for which others
+/// wait.
 Result<SharedSamples> sample_together(MPI_Comm communicator, Runner& runner,
                                       const PreparedMesh* mesh, const SampleParams* params,
                                       const ProgressCallback& progress = {}) noexcept;

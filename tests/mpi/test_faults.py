@@ -1,0 +1,41 @@
+"""A process that has no memory for a message ends all, with one message and without a file."""
+
+import os
+
+import pytest
+
+from launching import ENVIRONMENT, alone, run
+
+FAILING = os.environ["GEODISK_FAILING_MESSAGES"]
+
+
+def run_failing(rank, message, *arguments, processes=3):
+    environment = {**ENVIRONMENT, "GEODISK_FAILING_RANK": str(rank),
+                   "GEODISK_FAILING_MESSAGE": str(message)}
+    return run(processes, *arguments, program=["env", f"LD_PRELOAD={FAILING}"], env=environment)
+
+
+def without_signal(errors):
+    """What is told, but that process 0 was ended: MPI ends it by a signal."""
+    return errors.replace("geodisk_mpi: terminated\n", "")
+
+
+# From the arguments of all, the first that process 0 receives, to the samples of all.
+@pytest.mark.parametrize("rank, message", [(0, 1), (0, 4), (0, 9), (1, 1), (1, 4), (2, 3)])
+def test_no_memory_for_a_message_of_sampling(tmp_path, rank, message):
+    out = tmp_path / "out.ply"
+    code, _, errors = run_failing(rank, message, "sample", "builtin:torus-knot", "--min-distance",
+                                  "2%", "-o", str(out), "--quiet")
+    named = "" if rank == 0 else f"process {rank}: "
+    assert (code, without_signal(errors)) == (6, f"geodisk_mpi: {named}out of memory\n")
+    assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize("rank, message", [(0, 3), (2, 2)])
+def test_no_memory_for_a_message_of_verifying(tmp_path, rank, message):
+    samples = tmp_path / "samples.csv"
+    alone("builtin:torus-knot", "--count", "300", "-o", str(samples))
+    code, output, errors = run_failing(rank, message, "verify", "builtin:torus-knot", str(samples))
+    named = "" if rank == 0 else f"process {rank}: "
+    assert (code, output) == (6, "")
+    assert without_signal(errors) == f"geodisk_mpi: {named}out of memory\n"

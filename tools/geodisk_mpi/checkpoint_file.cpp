@@ -1,0 +1,145 @@
+#include "checkpoint_file.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <span>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+#include <geodisk/job_frame.hpp>
+#include <geodisk/radius_field.hpp>
+#include <geodisk/version.hpp>
+
+#include "files/input_file.hpp"
+#include "files/output_file.hpp"
+#include "parts/part_bytes.hpp"
+#include "program/failure.hpp"
+
+namespace geodisk::tools {
+namespace {
+
+constexpr std::string_view kProgram = "geodisk checkpoint 1, version ";
+constexpr std::string_view kFirstLine =
+    "geodisk checkpoint 1, version " GEODISK_VERSION_STRING "\n";
+
+/// FNV-1a with 64 bits, over words of eight bytes.
+class Digest {
+  public:
+    void add(std::uint64_t word) {
+        hash_ = (hash_ ^ word) * 0x100000001b3;
+        hash_ ^= hash_ >> 32; // High bits of a word reach the low ones.
+    }
+    void add_bytes(std::span<const std::byte> bytes) {
+        add(bytes.size());
+        while (!bytes.empty()) {
+            std::uint64_t word = 0;
+            const std::size_t count = std::min(bytes.size(), sizeof word);
+            std::memcpy(&word, bytes.data(), count);
+            add(word);
+            bytes = bytes.subspan(count);
+        }
+    }
+    template <class T, std::size_t extent>
+    void add_all(std::span<const T, extent> values) {
+        static_assert(std::is_trivially_copyable_v<T>);
+        add_bytes(std::as_bytes(values));
+    }
+    std::uint64_t value() const { return hash_; }
+
+  private:
+    std::uint64_t hash_ = 0xcbf29ce484222325;
+};
+
+std::uint64_t digest_of(std::string_view bytes) {
+    Digest digest;
+    digest.add_all(std::span(bytes));
+    return digest.value();
+}
+
+[[noreturn]] void refuse(const Path& path, const std::string& why) {
+    fail_input(path, why + "; remove it to begin again");
+}
+
+} // namespace
+
+JobDigests digests_of(const PreparedMesh& mesh, const SampleParams& params) {
+    Digest surface, options;
+    for (const HalfEdge& edge : mesh.half_edges()) {
+        const double lengths[] = {edge.length, edge.apex_x, edge.apex_y};
+        surface.add_all(std::span(lengths));
+        surface.add(std::uint64_t{edge.origin} << 32 | edge.around);
+    }
+    const auto frame = to_bytes(take(frame_of(mesh, params)));
+    options.add_bytes(frame);
+    for (const double number : {params.min_distance, params.pool_ratio}) {
+        options.add_all(std::span(&number, 1));
+    }
+    for (const std::uint64_t number : {std::uint64_t{params.seed}, std::uint64_t{params.throws},
+                                       std::uint64_t{params.stop_count}}) {
+        options.add(number);
+    }
+    if (params.radii != nullptr) {
+        options.add_bytes(take(params.radii->save()));
+    }
+    options.add_all(params.face_keys);
+    options.add_all(params.face_mask);
+    options.add_all(params.given);
+    options.add_all(params.avoid);
+    return {surface.value(), options.value()};
+}
+
+void write_checkpoint(const Path& path, const JobDigests& job, const Checkpoint& checkpoint) {
+    MessageWriter message;
+    for (const char c : kFirstLine) {
+        message.put(c);
+    }
+    message.put(job);
+    message.put(checkpoint.first_stage);
+    message.put(checkpoint.candidates);
+    message.put_all(checkpoint.samples);
+    const Bytes bytes = message.take();
+    const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    const std::uint64_t digest = digest_of(text);
+    AtomicFile file(path);
+    file.write(text);
+    file.write({reinterpret_cast<const char*>(&digest), sizeof digest});
+    file.commit();
+}
+
+Checkpoint read_checkpoint(const Path& path, const JobDigests& job) {
+    const std::string text = read_file(path);
+    const std::string_view all = text;
+    if (!all.starts_with(kProgram)) {
+        refuse(path, "is no checkpoint of geodisk_mpi, or damaged");
+    }
+    std::uint64_t digest = 0;
+    const std::size_t size = all.size() - std::min(all.size(), sizeof digest);
+    std::memcpy(&digest, all.data() + size, all.size() - size);
+    if (digest != digest_of(all.substr(0, size))) {
+        refuse(path, "is damaged");
+    }
+    if (!all.starts_with(kFirstLine)) {
+        refuse(path, "was written by another version of geodisk_mpi");
+    }
+    MessageReader message(std::as_bytes(std::span(all.substr(0, size).substr(kFirstLine.size()))));
+    JobDigests found;
+    Checkpoint checkpoint;
+    message.get(found);
+    message.get(checkpoint.first_stage);
+    message.get(checkpoint.candidates);
+    message.get_all(checkpoint.samples);
+    if (!message.is_complete()) {
+        refuse(path, "is damaged");
+    }
+    if (found.mesh != job.mesh) {
+        refuse(path, "is of another mesh");
+    }
+    if (found.options != job.options) {
+        refuse(path, "is of a run with other options");
+    }
+    return checkpoint;
+}
+
+} // namespace geodisk::tools

@@ -1,0 +1,31 @@
+// Checkpoints as files, which name the mesh and the job that they are of.
+#pragma once
+
+#include <cstdint>
+
+#include <geodisk/mesh.hpp>
+#include <geodisk/params.hpp>
+
+#include "parts/checkpoint.hpp"
+#include "program/path.hpp"
+
+namespace geodisk::tools {
+
+/// What a checkpoint is of: digests, equal only if all that the samples depend on is equal.
+struct JobDigests {
+    std::uint64_t mesh = 0;    ///< Of the prepared mesh.
+    std::uint64_t options = 0; ///< Of the parameters, in the frame of the job.
+};
+
+/// Returns the digests of a job. Throws UserError for parameters without a frame.
+JobDigests digests_of(const PreparedMesh& mesh, const SampleParams& params);
+
+/// Writes a checkpoint, in place of one that is there, whole or not at all. Throws
+/// UserError(bad_output).
+void write_checkpoint(const Path& path, const JobDigests& job, const Checkpoint& checkpoint);
+
+/// Reads a checkpoint of a job. Throws UserError(bad_input) that names the file, if it is damaged,
+/// or of another version, mesh or job.
+Checkpoint read_checkpoint(const Path& path, const JobDigests& job);
+
+} // namespace geodisk::tools

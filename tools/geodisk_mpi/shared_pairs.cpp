@@ -1,0 +1,231 @@
+#include "shared_pairs.hpp"
+
+#include <algorithm>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "cut_surface.hpp"
+#include "parts/halo.hpp"
+#include "parts/part_bytes.hpp"
+#include "program/failure.hpp"
+#include "program/interrupt.hpp"
+#include "status_of.hpp"
+
+namespace geodisk::tools {
+namespace {
+
+// Share of a face in the work, where that of all samples is 1: its memory.
+constexpr double kFaceWork = 0.25;
+// Beyond what is looked for, so that rounding leaves nothing out.
+constexpr double kMargin = 1 + 0x1p-20;
+
+/// A search by one process: what PairSearch refers to.
+struct PartSearch {
+    PreparedMesh mesh;
+    ref::Frame frame;
+    double longest = 0, cut = 0;
+    std::vector<Sample> samples;
+    std::vector<std::uint32_t> rows; ///< Row in the whole of each sample.
+    std::vector<std::uint8_t> sources;
+    std::vector<std::uint32_t> given;
+    bool has_distances = false;
+    std::vector<double> radii;
+    std::vector<std::uint32_t> classes;
+    ClassTable table;
+    double min_distance = 0;
+
+    PairSearch search() const {
+        PairSearch search{mesh, frame, longest, samples};
+        if (has_distances) {
+            search.distances = PairDistances{radii, classes, table, min_distance};
+        }
+        search.cut = cut;
+        search.given = given;
+        search.sources = sources;
+        return search;
+    }
+};
+
+/// Passes all but the mesh to `one`, or an array to `all`, in the order of the message.
+template <class Part, class One, class All>
+void for_fields(Part& part, const One& one, const All& all) {
+    one(part.frame);
+    one(part.longest);
+    one(part.cut);
+    one(part.has_distances);
+    one(part.table.count);
+    one(part.min_distance);
+    all(part.samples);
+    all(part.rows);
+    all(part.sources);
+    all(part.given);
+    all(part.radii);
+    all(part.classes);
+    all(part.table.distances);
+}
+
+std::vector<double> work_of(const PairSearch& search) {
+    const std::size_t faces = search.mesh.face_count();
+    const double all = static_cast<double>(search.samples.size()) + kFaceWork;
+    std::vector<double> work(faces, kFaceWork / static_cast<double>(faces) / all);
+    for (const Sample& sample : search.samples) {
+        work[sample.face] += 1 / all;
+    }
+    return work;
+}
+
+/// Appends the value of a row, where there are values.
+template <class T>
+void copy_row(std::span<const T> from, std::uint32_t row, std::vector<T>& to) {
+    if (!from.empty()) {
+        to.push_back(from[row]);
+    }
+}
+
+/// Returns the message with the samples on the faces of a process, and all near them.
+Result<Bytes> part_message(const PairSearch& whole, std::span<const std::uint32_t> owners,
+                           std::uint32_t process) {
+    PartSearch part;
+    part.frame = whole.frame;
+    part.longest = whole.longest;
+    part.cut = whole.cut;
+    part.has_distances = whole.distances.has_value();
+    const PairDistances distances = whole.distances.value_or(PairDistances{{}});
+    part.table = distances.table;
+    part.min_distance = distances.min_distance;
+    double reach = 0;
+    for (std::uint32_t row = 0; row < whole.samples.size(); ++row) {
+        if (owners[whole.samples[row].face] == process) {
+            reach = std::max(reach, std::min(whole.reach(row), whole.longest));
+        }
+    }
+    reach *= kMargin;
+    std::vector<std::uint8_t> is_own(owners.size());
+    for (std::size_t face = 0; face < owners.size(); ++face) {
+        is_own[face] = owners[face] == process ? 1 : 0;
+    }
+    constexpr std::uint32_t kOutside = ~0u;
+    std::vector<std::uint32_t> faces, local(owners.size(), kOutside);
+    const std::vector<double> from_own =
+        reach > 0 ? distances_from(whole.mesh, is_own, reach) : std::vector<double>();
+    for (std::uint32_t face = 0; face < owners.size(); ++face) {
+        if (is_own[face] != 0 ||
+            (reach > 0 && nearest_corner(whole.mesh, from_own, face) <= reach)) {
+            local[face] = static_cast<std::uint32_t>(faces.size());
+            faces.push_back(face);
+        }
+    }
+    for (std::uint32_t row = 0; row < whole.samples.size(); ++row) {
+        Sample sample = whole.samples[row];
+        if (local[sample.face] == kOutside) {
+            continue;
+        }
+        part.sources.push_back(is_own[sample.face]);
+        sample.face = local[sample.face];
+        part.samples.push_back(sample);
+        part.rows.push_back(row);
+        copy_row(whole.given, row, part.given);
+        copy_row(distances.radii, row, part.radii);
+        copy_row(distances.classes, row, part.classes);
+    }
+    auto mesh = whole.mesh.part(faces);
+    if (!mesh) {
+        return mesh.error();
+    }
+    const auto saved = mesh->save();
+    if (!saved) {
+        return saved.error();
+    }
+    MessageWriter message;
+    message.put_all(*saved);
+    for_fields(
+        part, [&](const auto& value) { message.put(value); },
+        [&](const auto& values) { message.put_all(values); });
+    return message.take();
+}
+
+Result<std::vector<Bytes>> part_messages(const PairSearch& whole, std::uint32_t processes) {
+    if (processes > whole.mesh.face_count()) {
+        return Error{Status::invalid_argument, "there are " + std::to_string(processes) +
+                                                   " processes, but the mesh has " +
+                                                   std::to_string(whole.mesh.face_count()) +
+                                                   " faces; start at most as many processes"};
+    }
+    const auto owners = cut_by_work(whole.mesh, work_of(whole), processes);
+    if (!owners) {
+        return owners.error();
+    }
+    std::vector<Bytes> messages;
+    for (std::uint32_t process = 0; process < processes; ++process) {
+        auto message = part_message(whole, *owners, process);
+        if (!message) {
+            return message.error();
+        }
+        messages.push_back(std::move(*message));
+    }
+    return messages;
+}
+
+Result<std::vector<NotedPair>> note_in_part(std::span<const std::byte> bytes,
+                                            ProgressLine& progress) {
+    MessageReader message(bytes);
+    std::vector<std::byte> mesh;
+    PartSearch part;
+    message.get_all(mesh);
+    for_fields(
+        part, [&](auto& value) { message.get(value); },
+        [&](auto& values) { message.get_all(values); });
+    if (!message.is_complete()) {
+        return Error{Status::internal, "the part of the surface came incomplete"};
+    }
+    auto loaded = PreparedMesh::load(mesh);
+    if (!loaded) {
+        return loaded.error();
+    }
+    part.mesh = std::move(*loaded);
+    std::vector<NotedPair> noted = note_pairs(part.search(), progress);
+    for (NotedPair& one : noted) {
+        one.source = part.rows[one.source];
+        one.pair.row_a = part.rows[one.pair.row_a];
+        one.pair.row_b = part.rows[one.pair.row_b];
+    }
+    return noted;
+}
+
+} // namespace
+
+Result<std::vector<NotedPair>> note_together(Exchange& exchange, const PairSearch* search,
+                                             ProgressLine& progress) {
+    Result<std::vector<Bytes>> parts = std::vector<Bytes>();
+    if (search != nullptr) {
+        parts = caught([&] { return part_messages(*search, exchange.size()); });
+    }
+    if (auto well = exchange.check_all(parts ? nullptr : &parts.error()); !well) {
+        return well.error();
+    }
+    const auto part = exchange.scatter(std::move(*parts));
+    if (!part) {
+        return part.error();
+    }
+    const auto own = caught([&] { return note_in_part(*part, progress); });
+    if (auto well = exchange.check_all(own ? nullptr : &own.error()); !well) {
+        return well.error();
+    }
+    MessageWriter told;
+    told.put_all(*own);
+    const auto messages = exchange.gather(told.take());
+    if (!messages) {
+        return messages.error();
+    }
+    std::vector<NotedPair> all;
+    for (const Bytes& message : *messages) {
+        MessageReader reader(message);
+        std::vector<NotedPair> some;
+        reader.get_all(some);
+        all.insert(all.end(), some.begin(), some.end());
+    }
+    return search != nullptr ? merged_pairs(*search, std::move(all)) : all;
+}
+
+} // namespace geodisk::tools
