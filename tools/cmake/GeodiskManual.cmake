@@ -1,23 +1,24 @@
-# geodisk_install_manual(): installs manual pages and the completion of shells, which the program
-# writes itself.
-function(geodisk_install_manual)
-    set(folder "${CMAKE_CURRENT_BINARY_DIR}/manual")
-    set(geodisk "$<TARGET_FILE:geodisk_cli>")
+# geodisk_install_manual(TARGET COMPONENT): installs manual pages and the completion of shells, which a
+# program writes itself.
+function(geodisk_install_manual target component)
+    get_target_property(name ${target} OUTPUT_NAME)
+    set(folder "${CMAKE_CURRENT_BINARY_DIR}/manual/${name}")
+    set(program "$<TARGET_FILE:${target}>")
     file(MAKE_DIRECTORY "${folder}/man1")
     add_custom_command(
-        OUTPUT "${folder}/geodisk" "${folder}/_geodisk" "${folder}/man1/geodisk.1"
-        COMMAND "${geodisk}" manual --output "${folder}/man1"
-        COMMAND "${geodisk}" completion bash > "${folder}/geodisk"
-        COMMAND "${geodisk}" completion zsh > "${folder}/_geodisk"
-        DEPENDS geodisk_cli
-        COMMENT "Writing manual pages"
+        OUTPUT "${folder}/${name}" "${folder}/_${name}" "${folder}/man1/${name}.1"
+        COMMAND "${program}" manual --output "${folder}/man1"
+        COMMAND "${program}" completion bash > "${folder}/${name}"
+        COMMAND "${program}" completion zsh > "${folder}/_${name}"
+        DEPENDS ${target}
+        COMMENT "Writing manual pages of ${name}"
         VERBATIM)
-    add_custom_target(geodisk_manual ALL DEPENDS "${folder}/man1/geodisk.1")
-    install(DIRECTORY "${folder}/man1" DESTINATION "${CMAKE_INSTALL_MANDIR}" COMPONENT program)
-    install(FILES "${folder}/geodisk"
-        DESTINATION "${CMAKE_INSTALL_DATADIR}/bash-completion/completions" COMPONENT program)
+    add_custom_target(${name}_manual ALL DEPENDS "${folder}/man1/${name}.1")
+    install(DIRECTORY "${folder}/man1" DESTINATION "${CMAKE_INSTALL_MANDIR}" COMPONENT ${component})
+    install(FILES "${folder}/${name}"
+        DESTINATION "${CMAKE_INSTALL_DATADIR}/bash-completion/completions" COMPONENT ${component})
     # Where zsh of Debian looks for what packages bring, else its own folder.
-    install(FILES "${folder}/_geodisk"
+    install(FILES "${folder}/_${name}"
         DESTINATION "${CMAKE_INSTALL_DATADIR}/zsh/$<IF:$<BOOL:${GEODISK_DEB}>,vendor-completions,site-functions>"
-        COMPONENT program)
+        COMPONENT ${component})
 endfunction()

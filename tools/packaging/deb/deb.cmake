@@ -6,7 +6,7 @@ endif()
 set(CPACK_GENERATOR DEB)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_COMPONENTS_GROUPING IGNORE)
-set(CPACK_COMPONENTS_ALL program library development python)
+set(CPACK_COMPONENTS_ALL program library development python mpi mpi_development)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_RELEASE 1)
 set(CPACK_DEBIAN_PACKAGE_PRIORITY optional)
@@ -67,6 +67,26 @@ set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "python3-tqdm, python3-pandas")
 set(CPACK_DEBIAN_PYTHON_DESCRIPTION "Poisson-disk samples of triangle meshes, Python package
 ${about}
 This package has the modules for Python, and the library that they call.")
+
+set(CPACK_DEBIAN_MPI_PACKAGE_NAME geodisk-mpi)
+set(CPACK_DEBIAN_MPI_PACKAGE_SECTION graphics)
+set(CPACK_DEBIAN_MPI_PACKAGE_DEPENDS openmpi-bin) # mpirun.
+set(CPACK_DEBIAN_MPI_PACKAGE_RECOMMENDS "${vulkan}")
+set(CPACK_DEBIAN_MPI_PACKAGE_SUGGESTS "geodisk (= ${version})") # For its documentation.
+set(CPACK_DEBIAN_MPI_DESCRIPTION "Poisson-disk samples of triangle meshes, by many processes
+${about}
+This package has the program that samples one surface by many processes, by
+MPI.")
+
+set(CPACK_DEBIAN_MPI_DEVELOPMENT_PACKAGE_NAME libgeodisk-mpi-dev)
+set(CPACK_DEBIAN_MPI_DEVELOPMENT_PACKAGE_SECTION libdevel)
+set(CPACK_DEBIAN_MPI_DEVELOPMENT_PACKAGE_DEPENDS
+    "libgeodisk-dev (= ${version}), libmetis-dev, libopenmpi-dev")
+set(CPACK_DEBIAN_MPI_DEVELOPMENT_DESCRIPTION
+    "Poisson-disk samples of triangle meshes, development files for MPI
+${about}
+This package has what programs in C++ are compiled with that sample one surface
+by many processes: a header, the library, and files for CMake.")
 
 # The package for Python, with a library of its own that reads files. A wheel has its metadata from pyproject.toml.
 set(modules lib/python3/dist-packages)
