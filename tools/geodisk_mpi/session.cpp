@@ -129,7 +129,7 @@ Session::Task Session::next(Task of_first) {
 }
 
 void Session::check_arguments(const std::vector<std::string>& arguments) {
-    take(together([&]() -> Result<Done> {
+    auto alike = together([&]() -> Result<Done> {
         const Bytes own = to_bytes(command_text(GEODISK_VERSION_STRING, arguments));
         const auto all = exchange_->gather(own);
         if (!all) {
@@ -142,7 +142,9 @@ void Session::check_arguments(const std::vector<std::string>& arguments) {
             }
         }
         return exchange_->check_all(error ? &*error : nullptr);
-    }));
+    });
+    check_interrupted();
+    take(std::move(alike));
 }
 
 std::optional<std::string> Session::read_ranges(const Path& path) {

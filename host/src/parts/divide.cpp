@@ -47,8 +47,7 @@ class Division {
         : mesh_(mesh), params_(params), owners_(owners),
           from_(checkpoints != nullptr ? checkpoints->from : nullptr) {
         for (std::uint32_t process = 0; process < processes; ++process) {
-            Part& part =
-                parts_.emplace_back(part_for(mesh, params, frame, most_candidates));
+            Part& part = parts_.emplace_back(part_for(mesh, params, frame, most_candidates));
             part.is_saved = checkpoints != nullptr && checkpoints->save;
             if (part.is_saved) {
                 part.most_stages = std::min(part.most_stages, checkpoints->stages);

@@ -74,8 +74,8 @@ Part part_for(const PreparedMesh& whole, const SampleParams& params, const JobFr
               double most_candidates);
 
 /// Returns the parts of all processes as messages, in their order. `owners` has the process of each
-/// face; see part_for(). `checkpoints` is null for a job without any. Errors: `invalid_argument` for
-/// parameters that many processes do not take, and for more processes than faces; those of
+/// face; see part_for(). `checkpoints` is null for a job without any. Errors: `invalid_argument`
+/// for parameters that many processes do not take, and for more processes than faces; those of
 /// frame_of().
 Result<std::vector<Bytes>> divide(const PreparedMesh& mesh, const SampleParams& params,
                                   std::span<const std::uint32_t> owners, std::uint32_t processes,

@@ -208,8 +208,8 @@ Result<PartsResult> sample_ranges(Exchange& exchange, Runner& runner, const Rang
         return frame.error();
     }
     const auto part = surface.part(exchange, params, *frame, most_candidates);
-    return sample_all(exchange, runner, part, 0, exchange.rank() == 0 ? &params : nullptr,
-                      nullptr, progress);
+    return sample_all(exchange, runner, part, 0, exchange.rank() == 0 ? &params : nullptr, nullptr,
+                      progress);
 }
 
 } // namespace geodisk
