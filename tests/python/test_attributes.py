@@ -1,5 +1,11 @@
 """Attributes of meshes at samples."""
 
+import os
+import pickle
+import struct
+import subprocess
+import zlib
+
 import numpy as np
 import pytest
 
@@ -118,11 +124,147 @@ def test_normals_frames_and_textures_of_a_file(obj, tmp_path):
     assert np.array_equal(found[:5].attributes["frames"], frames[:5])
     arrays = geodisk.sample(SQUARE, [[0, 1, 2, 3]], min_distance=0.1)
     assert "frames" in geodisk.transfer(arrays, SQUARE, frames=True).attributes
-    with pytest.raises(TypeError, match="need its path"):
+    with pytest.raises(TypeError, match="from files"):
         geodisk.transfer(arrays, SQUARE, attributes="all")
-    with pytest.raises(geodisk.InvalidArgument, match="none.png"):
-        geodisk.transfer(samples, obj, texture=tmp_path / "none.png")
-    with pytest.raises(geodisk.InvalidArgument, match="normals"):
-        geodisk.transfer(samples, obj, normals="round")
-    with pytest.raises(TypeError, match="frames is 'no'"):
-        geodisk.transfer(samples, obj, frames="no")
+
+
+ROOF = (  # Two faces with normals of their own, and no other attribute of the roof.
+    "v 0 0 0\nv 1 0 1\nv 1 1 1\nv 0 1 0\nv 2 0 0\nv 2 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n"
+    "vn 0 0 1\nvn 1 0 1\nf 1/1/1 2/2/1 3/3/1 4/4/1\nf 2/1/2 5/2/2 6/3/2 3/4/2\n"
+)
+
+
+def write_png(path, rgb):
+    """Writes an image of shape (h, w, 3)."""
+
+    def chunk(kind, data):
+        body = kind + data
+        return struct.pack(">I", len(data)) + body + struct.pack(">I", zlib.crc32(body))
+
+    height, width, _ = rgb.shape
+    rows = b"".join(b"\0" + row.tobytes() for row in rgb.astype(np.uint8))
+    path.write_bytes(
+        b"\x89PNG\r\n\x1a\n"
+        + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0))
+        + chunk(b"IDAT", zlib.compress(rows))
+        + chunk(b"IEND", b"")
+    )
+
+
+@pytest.fixture
+def roof(tmp_path):
+    path = tmp_path / "roof.obj"
+    path.write_text(ROOF)
+    ramp = np.zeros((1, 4, 3))
+    ramp[0, :, 0] = [0, 85, 170, 255]
+    write_png(tmp_path / "ramp.png", ramp)
+    return path
+
+
+def test_sample_has_the_record_of_the_program(roof, tmp_path):
+    texture = tmp_path / "ramp.png"
+    record = dict(texture=texture, frames=True, attributes=["uv"])
+    for normals in ("face", "file", "smooth"):
+        samples = geodisk.sample(roof, min_distance=0.2, seed=5, normals=normals, **record)
+        out = tmp_path / f"{normals}.npz"
+        program = [os.environ.get("GEODISK_COMMAND", "geodisk"), "sample", str(roof), "-q", "-d", "0.2"]
+        subprocess.run(
+            [*program, "--seed", "5", "-o", str(out), "--normals", normals, "--frames"]
+            + ["--texture", str(texture), "--attributes", "uv"],
+            check=True,
+        )
+        told = np.load(out)
+        assert np.array_equal(samples.face_index, told["face_index"])
+        assert np.allclose(samples.normals, told["normals"], atol=1e-7)
+        for name in ("color", "uv", "frames"):
+            assert np.array_equal(samples.attributes[name], told[name]), name
+    u = samples.attributes["uv"][:, 0]
+    middle = (u > 0.125) & (u < 0.875)  # Between the centres of the outer pixels.
+    expected = (u - 0.125) * 4 / 3
+    assert np.allclose(samples.attributes["color"][middle, 0], expected[middle], atol=1e-4)
+    by_face = geodisk.sample(roof, min_distance=0.2, seed=5, normals="file")
+    tilted = by_face.polygon_index == 1
+    assert np.allclose(by_face.normals[~tilted], [0, 0, 1])
+    assert np.allclose(by_face.normals[tilted], np.array([1, 0, 1]) / np.sqrt(2))
+
+
+def test_sample_transfer_and_many_have_one_record(roof, tmp_path):
+    record = dict(texture=tmp_path / "ramp.png", normals="smooth", frames=True, attributes="all")
+    samples = geodisk.sample(roof, min_distance=0.2, seed=5, **record)
+    (many,) = geodisk.sample_many([roof], min_distance=0.2, seed=5, **record)
+    plain = geodisk.sample(roof, min_distance=0.2, seed=5)
+    moved = geodisk.transfer(plain, roof, **record)
+    for other in (many, moved):
+        assert np.array_equal(other.normals, samples.normals)
+        assert list(other.attributes) == list(samples.attributes) == ["uv", "color", "frames"]
+        for name, array in samples.attributes.items():
+            assert np.array_equal(other.attributes[name], array), name
+    ordered = geodisk.sample(roof, min_distance=0.2, seed=5, order="farthest", frames=True)
+    turned = {f.tobytes() for f in samples.attributes["frames"]}
+    assert len(turned) == len(samples) and len(ordered) == len(samples)
+    few = samples[3:9]
+    for name in ("color", "frames"):
+        assert np.array_equal(few.attributes[name], samples.attributes[name][3:9])
+    assert np.array_equal(few.normals, samples.normals[3:9])
+    assert np.array_equal(few[0].attributes["frames"], samples.attributes["frames"][3])
+
+
+def test_dataframe_has_the_record(roof, tmp_path):
+    pytest.importorskip("pandas")
+    samples = geodisk.sample(
+        roof, min_distance=0.2, texture=tmp_path / "ramp.png", frames=True, normals="file"
+    )
+    table = samples[:7].to_dataframe()
+    assert {"red", "green", "blue", "qx", "qy", "qz", "qw", "nx", "ny", "nz"} <= set(table.columns)
+    assert np.array_equal(table["red"], samples.attributes["color"][:7, 0])
+    assert np.array_equal(table["qw"], samples.attributes["frames"][:7, 3])
+
+
+def test_meshes_of_arrays_have_smooth_normals_and_frames():
+    bent = np.array([[0.0, 0, 0], [1, 0, 1], [1, 1, 1], [0, 1, 0], [2, 0, 0], [2, 1, 0]])
+    faces = [[0, 1, 2, 3], [1, 4, 5, 2]]
+    samples = geodisk.sample(bent, faces, min_distance=0.2, normals="smooth", frames=True)
+    ridge = np.abs(samples.points[:, 0] - 1) < 0.05
+    assert ridge.any() and (samples.normals[ridge, 2] > 0.99).all()
+    assert np.allclose(np.linalg.norm(samples.normals, axis=1), 1)
+    triangles = geodisk.Mesh(bent, faces)
+    again = geodisk.sample(triangles, min_distance=0.2, normals="smooth", frames=True)
+    apart = geodisk.sample(  # The same as two pieces, whose border edges are joined.
+        bent[[0, 1, 2, 3, 1, 4, 5, 2]],
+        [[0, 1, 2], [0, 2, 3], [4, 5, 6], [4, 6, 7]],
+        min_distance=0.2,
+        normals="smooth",
+        frames=True,
+    )
+    for other in (again, apart, geodisk.sample(pickle.loads(pickle.dumps(triangles)),
+                                               min_distance=0.2, normals="smooth", frames=True)):
+        assert np.allclose(other.normals, samples.normals, atol=1e-7)
+        assert np.allclose(other.attributes["frames"], samples.attributes["frames"], atol=1e-6)
+
+
+def test_records_that_cannot_be(obj, roof, tmp_path):
+    samples = geodisk.sample(roof, min_distance=0.2)
+    for call in (
+        lambda **record: geodisk.sample(roof, min_distance=0.2, **record),
+        lambda **record: geodisk.sample_many([roof], min_distance=0.2, **record),
+        lambda **record: geodisk.transfer(samples, roof, **record),
+    ):
+        with pytest.raises(geodisk.InvalidArgument, match="none.png"):
+            call(texture=tmp_path / "none.png")
+        with pytest.raises(geodisk.InvalidArgument, match="normals is 'round'"):
+            call(normals="round")
+        with pytest.raises(TypeError, match="frames is 'no'"):
+            call(frames="no")
+    with pytest.raises(geodisk.MeshRejected, match="no normals"):
+        geodisk.sample(obj, min_distance=0.2, normals="file")
+    with pytest.raises(geodisk.InvalidArgument, match="color"):
+        geodisk.sample(obj, min_distance=0.2, texture=tmp_path / "ramp.png", attributes="all")
+    mesh = geodisk.Mesh(roof)
+    for record in ({"texture": tmp_path / "ramp.png"}, {"normals": "file"}):
+        with pytest.raises(TypeError, match="path of the mesh"):
+            geodisk.sample(mesh, min_distance=0.2, **record)
+        with pytest.raises(TypeError, match="path of the mesh"):
+            geodisk.sample(SQUARE, [[0, 1, 2, 3]], min_distance=0.2, **record)
+    flat = np.array(SQUARE)[:, :2]
+    with pytest.raises(geodisk.InvalidArgument, match="3 coordinates"):
+        geodisk.sample(flat, [[0, 1, 2, 3]], min_distance=0.2, frames=True)

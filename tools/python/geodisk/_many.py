@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ctypes
+import os
 from collections.abc import Sequence
 from ctypes import byref, c_double
 from typing import Any, Iterable
@@ -19,6 +20,7 @@ from ._mesh import Mesh, keys_of, mask_of, mesh_of
 from ._oddities import oddities_of_set, warn
 from ._protocols import MeshLike
 from ._radii import radii_of
+from ._record import Record, recorded
 from ._results import first_of, samples_of_parts
 from ._running import CountSearch, ProgressCallback, Runs
 from ._samples import Samples
@@ -134,6 +136,9 @@ def sample_many(
     keep_seams: bool = False,
     columns: str | Sequence[str] = (),
     attributes: str | Sequence[str] = (),
+    texture: str | os.PathLike[str] | None = None,
+    normals: str = "face",
+    frames: bool = False,
     mesh_format: str | None = None,
     device: DeviceLike | None = None,
     progress: bool | ProgressCallback = False,
@@ -152,8 +157,8 @@ def sample_many(
         As for :func:`sample`.
     density, radius_factor, face_keys, face_mask, existing, avoid : sequence of one per mesh, or None
         As for :func:`sample`; None for a mesh without.
-    exact, pool_ratio, weld, keep_seams, columns, attributes, mesh_format, device,
-    progress
+    exact, pool_ratio, weld, keep_seams, columns, attributes, texture, normals, frames, mesh_format,
+    device, progress
         As for :func:`sample`, for all meshes. The other parameters of :func:`sample` are for single
         meshes.
 
@@ -178,6 +183,7 @@ def sample_many(
     True
     """
     _refuse(others)
+    record = Record(texture, normals, frames)
     given = list(meshes)
     n = len(given)
     distances = [
@@ -194,7 +200,7 @@ def sample_many(
     def job_at(i: int) -> _Job:
         of_mesh = [values[i] for values in distances]
         return _Job(
-            _mesh_of(given[i], weld, keep_seams, columns, mesh_format, attributes),
+            _mesh_of(given[i], weld, keep_seams, columns, mesh_format, attributes, record),
             distance_of(*of_mesh),
             of_mesh[2],
             exact,
@@ -218,7 +224,7 @@ def sample_many(
             active = [job for group in _groups(active) for job in _run(runs, group)]
     for i, job in enumerate(jobs):
         job.warn(f"mesh {i}: ")
-    return [job.result for job in jobs if job.result is not None]
+    return [recorded(job.result, job.mesh, record) for job in jobs if job.result is not None]
 
 
 #: Parameters of sample() that one job of several meshes cannot have.
@@ -294,13 +300,16 @@ def _mesh_of(
     columns: str | Sequence[str],
     mesh_format: str | None,
     attributes: str | Sequence[str],
+    record: Record,
 ) -> Mesh:
     vertices, faces = given, None
     if isinstance(given, (tuple, list)):
         if len(given) != 2:
             raise TypeError("a mesh is a pair of vertices and faces, or brings its faces")
         vertices, faces = given
-    return mesh_of(vertices, faces, None, weld, keep_seams, columns, mesh_format, attributes)
+    return mesh_of(
+        vertices, faces, None, weld, keep_seams, columns, mesh_format, attributes, record
+    )
 
 
 def _each(values: Any, name: str, n: int) -> list[Any]:

@@ -18,6 +18,7 @@ from ._objects import arrays_of, faces_of, is_object
 from ._oddities import oddities_of, warn
 from ._polygons import Polygons
 from ._protocols import Faces, MeshLike
+from ._record import NOTHING, Record, check_texture
 from ._source import Source, read_file, split
 from ._surface import Surface
 from ._values import flag
@@ -101,6 +102,8 @@ class Mesh:
     (1.0, [[0, 1, 2], [0, 2, 3]], [0, 0])
     """
 
+    _source: c.Handle | None = None  # Which pickles do not have.
+
     def __init__(
         self,
         vertices: ArrayLike | MeshLike,
@@ -112,6 +115,7 @@ class Mesh:
         attributes: str | Sequence[str] = (),
         columns: str | Sequence[str] = (),
         mesh_format: str | None = None,
+        _record: Record = NOTHING,
     ) -> None:
         source: Source | None = None
         flag(keep_seams, "keep_seams")
@@ -128,12 +132,15 @@ class Mesh:
                     attributes=_names(attributes),
                     columns=_names(columns),
                     mesh_format=mesh_format,
+                    has_normals=_record.normals == "file",
+                    has_uvs=_record.texture is not None,
                 )
             )
             surface = _surface_of(source, source.vertices, keep_seams)
         else:
             if attributes or columns or mesh_format is not None:
                 raise TypeError("attributes, columns and mesh_format are for meshes from files")
+            _record.check_no_file()
             if faces is None:
                 vertices, faces = arrays_of(vertices)
             given = faces_of(faces)
@@ -145,6 +152,9 @@ class Mesh:
                 surface = _surface_of(source, vertices, keep_seams)
             else:
                 surface = Surface(vertices, given, edge_lengths, weld, bool(keep_seams))
+        _record.check(surface)
+        self._source = source.handle if source else None
+        check_texture(self, _record)
         self._prepare(surface, source.joined_edges if source else 0)
         self.warnings = oddities_of(self._handle, source.handle if source else None)
         warn(self.warnings)
@@ -280,8 +290,9 @@ def mesh_of(
     columns: str | Sequence[str] = (),
     mesh_format: str | None = None,
     attributes: str | Sequence[str] = (),
+    record: Record = NOTHING,
 ) -> Mesh:
-    """Returns the mesh that the arguments of a function name."""
+    """Returns the mesh that the arguments of a function name, read for `record`."""
     if not isinstance(vertices, Mesh):
         return Mesh(
             vertices,
@@ -292,6 +303,7 @@ def mesh_of(
             columns=columns,
             mesh_format=mesh_format,
             attributes=attributes,
+            _record=record,
         )
     if faces is not None or edge_lengths is not None or weld is not False or keep_seams:
         raise TypeError("a geodisk.Mesh has its faces, lengths and welds already")
@@ -299,6 +311,8 @@ def mesh_of(
         raise TypeError(
             "a geodisk.Mesh has its columns already; give columns, attributes and mesh_format to it"
         )
+    record.check_no_file()
+    record.check(vertices._surface)
     return vertices
 
 

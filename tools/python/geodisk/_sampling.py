@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ctypes
 import dataclasses
+import os
 from ctypes import byref, c_double
 from typing import Sequence
 
@@ -24,6 +25,7 @@ from ._mesh import keys_of, mask_of, mesh_of
 from ._oddities import oddities_of_set, warn
 from ._protocols import Faces, MeshLike
 from ._radii import radii_of
+from ._record import Record, recorded
 from ._results import first_of, report_of, samples_of
 from ._running import Made, ProgressCallback, Runs, sampled
 from ._samples import Samples
@@ -60,6 +62,9 @@ def sample(
     keep_seams: bool = False,
     columns: str | Sequence[str] = (),
     attributes: str | Sequence[str] = (),
+    texture: str | os.PathLike[str] | None = None,
+    normals: str = "face",
+    frames: bool = False,
     mesh_format: str | None = None,
     device: DeviceLike | None = None,
     progress: bool | ProgressCallback = False,
@@ -135,6 +140,14 @@ def sample(
         Distance to use; the last two are for comparison.
     edge_lengths, weld, keep_seams, columns, attributes, mesh_format
         Parameters of :class:`Mesh`.
+    texture : str or path-like, optional
+        PNG or JPEG image whose colours to add, as ``attributes["color"]``, at the texture
+        coordinates that the mesh file has.
+    normals : {"face", "file", "smooth"}
+        Normals of triangles, those of the mesh file, or interpolated means at vertices.
+    frames : bool
+        Add ``attributes["frames"]``, shape (n, 4): quaternions (x, y, z, w) that turn z to the
+        normal, after a random angle about z.
     device : Device, int or str, optional
         One of :func:`devices`, its index, its UUID or a part of its name. The default is the
         environment variable GEODISK_DEVICE, else the best device.
@@ -192,8 +205,9 @@ def sample(
     check_pool(count, pool_ratio, throws)
     if metric not in s.METRICS:
         raise e.invalid(f"metric is {metric!r}, none of {', '.join(s.METRICS)}")
+    record = Record(texture, normals, frames)
     mesh = mesh_of(
-        vertices, faces, edge_lengths, weld, keep_seams, columns, mesh_format, attributes
+        vertices, faces, edge_lengths, weld, keep_seams, columns, mesh_format, attributes, record
     )
     if order == "farthest" and existing is not None:
         raise e.invalid("order='farthest' takes no existing samples, which come first")
@@ -298,7 +312,7 @@ def sample(
     samples = dataclasses.replace(samples, _job=job)
     if order == "farthest":
         samples = put_farthest_first(mesh._handle, mesh._surface, samples, device, progress)
-    return samples
+    return recorded(samples, mesh, record)
 
 
 def sample_box(

@@ -60,6 +60,8 @@ def read_file(
     attributes: Sequence[str],
     columns: Sequence[str],
     mesh_format: str | None,
+    has_normals: bool = False,
+    has_uvs: bool = False,
 ) -> Source:
     """Reads a mesh file with the readers of the program.
 
@@ -83,6 +85,8 @@ def read_file(
         attribute_count=len(attributes),
         columns=joined.encode(),
         mesh_format=None if mesh_format is None else mesh_format.encode(),
+        has_normals=has_normals,
+        has_uvs=has_uvs,
     )
     return _read(params, stop, weld, keep_seams, joined.split(",") if joined else ())
 

@@ -302,6 +302,27 @@ class SourceParams(_Sized):
         ("keep_seams", c_int32),
         ("mesh_format", c_char_p),
         ("columns", c_char_p),
+        ("has_normals", c_int32),
+        ("has_uvs", c_int32),
+    ]
+
+
+#: Kinds of normals by name.
+NORMALS = {"face": 0, "file": 1, "smooth": 2}
+
+
+class RecordParams(_Sized):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("faces", c_void_p),
+        ("weights", c_void_p),
+        ("count", c_size_t),
+        ("normal_kind", c_int32),
+        ("texture", c_char_p),
+        ("seed", c_uint64),
+        ("normals", c_void_p),
+        ("colours", c_void_p),
+        ("frames", c_void_p),
     ]
 
 

@@ -17,8 +17,8 @@ from ._mesh import Mesh, is_mesh, mesh_of
 from ._program import folder, run
 from ._protocols import Faces, MeshLike
 from ._reading import read
+from ._record import Record, recorded
 from ._samples import Samples
-from ._values import flag
 
 
 def transfer(
@@ -83,23 +83,17 @@ def transfer(
     source = surface_of(samples, vertices, faces, edge_lengths, weld, keep_seams)
     if source is None:
         raise e.invalid("samples in a box have no mesh")
+    record = Record(texture, normals, frames)
     path = _path_of(to)
-    if path is None and (attributes or texture is not None or normals == "file"):
-        raise TypeError("attributes, textures and normals of a file need its path as `to`")
-    record = ["--normals", normals]
-    if attributes:
-        names = [attributes] if isinstance(attributes, str) else attributes
-        record += ["--attributes", ",".join(names)]
-    if texture is not None:
-        record += ["--texture", os.path.abspath(texture)]
-    if flag(frames, "frames"):
-        record.append("--frames")
     if is_mesh(to):
-        target = mesh_of(to, None, None, False)._surface
+        mesh = mesh_of(to, None, None, False, attributes=attributes, record=record)
     else:
-        target = Mesh(
-            to, source.faces, weld=source.weld, keep_seams=source.keep_seams
-        )._surface
+        if attributes:
+            raise TypeError("attributes are for meshes from files")
+        mesh = Mesh(
+            to, source.faces, weld=source.weld, keep_seams=source.keep_seams, _record=record
+        )
+    target = mesh._surface
     with folder() as place:
         # A file has the corners from before vertices were joined.
         corners = None if path is None else source.own_corners()
@@ -109,7 +103,7 @@ def transfer(
         )
         files = [write_samples(place, samples), from_mesh, to_mesh]
         outputs = ["--output", "there.npz", "--json", "report.json"]
-        run(place, ["transfer", *files, *from_options, *to_options, *record, *outputs])
+        run(place, ["transfer", *files, *from_options, *to_options, *outputs])
         there = read(place / "there.npz")
         closest = json.loads((place / "report.json").read_text("utf-8"))["smallest"]
     dimension = target.dimension()
@@ -120,17 +114,23 @@ def transfer(
     placed = {}
     if samples.face_index is None:
         placed = {"face_index": there.face_index, "barycentric": there.barycentric}
-    return dataclasses.replace(
+    moved = dataclasses.replace(
         samples,
         **placed,
         points=points,
         normals=there.normals if dimension == 3 else None,
         radius=np.full(len(samples), distance / 2),
         min_distance=distance,
-        attributes={**samples.attributes, **there.attributes},
         report={},
         _surface=target,
     )
+    assert moved.face_index is not None and moved.barycentric is not None
+    found = {
+        name: one.at(moved.face_index, moved.barycentric)
+        for name, one in target.attributes.items()
+    }
+    moved = dataclasses.replace(moved, attributes={**samples.attributes, **found})
+    return recorded(moved, mesh, record)
 
 
 def _path_of(mesh: Any) -> str | None:

@@ -35,6 +35,8 @@ typedef struct geodisk_source_params {
     int32_t keep_seams;        /* As in geodisk_mesh_params. */
     const char *mesh_format;   /* "obj" and so on, or NULL for that of the extension. */
     const char *columns;       /* Columns of triangles to read: "mesh,primitive". May be NULL. */
+    int32_t has_normals;       /* Not 0 to read the file's normals, for geodisk_source_record(). */
+    int32_t has_uvs;           /* Not 0 to read texture coordinates, for a texture. */
 } geodisk_source_params;
 
 /* Reads a mesh. Fails with GEODISK_MESH_REJECTED for a file that cannot be read or used. */
@@ -80,6 +82,32 @@ GEODISK_C_API geodisk_status geodisk_source_get_attribute(const geodisk_source *
 /* Writes to `values` where those of a column are, one for each triangle. */
 GEODISK_C_API geodisk_status geodisk_source_column(const geodisk_source *source, size_t index,
                                                    const uint32_t **values, geodisk_error *error);
+
+/* Normals of triangles, those of the file, or interpolated means at vertices. */
+typedef int32_t geodisk_normal_kind;
+#define GEODISK_FACE_NORMALS 0
+#define GEODISK_FILE_NORMALS 1
+#define GEODISK_SMOOTH_NORMALS 2
+
+/* Samples on a source, and what they get of it besides attributes. */
+typedef struct geodisk_record_params {
+    size_t struct_size;
+    const uint32_t *faces;
+    const double *weights; /* Three for each sample. */
+    size_t count;
+    geodisk_normal_kind normal_kind;
+    const char *texture;   /* Image whose colours to look up, or NULL. */
+    uint64_t seed;         /* Of the angles of frames. */
+    double *normals;       /* In: those of the triangles, three for each sample. Out: those asked for. */
+    double *colours;       /* Out: red, green and blue of the texture. */
+    double *frames;        /* Out: quaternions x y z w, or NULL. */
+} geodisk_record_params;
+
+/* Fails with GEODISK_INVALID_ARGUMENT for a damaged image, and for normals or texture coordinates that
+ * were not read. */
+GEODISK_C_API geodisk_status geodisk_source_record(const geodisk_source *source,
+                                                   const geodisk_record_params *params,
+                                                   geodisk_error *error);
 
 GEODISK_C_API void geodisk_source_release(geodisk_source *source);
 

@@ -66,6 +66,8 @@ MeshFile mesh_of(const geodisk_source_params& params) {
     if (sources.fields.names == std::vector<std::string>{"all"}) {
         sources.fields = {{}, true};
     }
+    sources.fields.normals = params.has_normals != 0;
+    sources.fields.uvs = params.has_uvs != 0;
     sources.progress = [stop = params.stop](double) {
         if (stop != nullptr && *stop != 0) {
             throw Stopped();

@@ -1,0 +1,127 @@
+"""What samples get of their mesh besides attributes: normals, colours of a texture, frames."""
+
+from __future__ import annotations
+
+import dataclasses
+import os
+from ctypes import byref
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import _errors as e
+from . import _library as c
+from . import _structs as s
+from ._background import interruptible
+from ._polygons import from_rows
+from ._source import split
+from ._surface import Surface
+from ._values import flag
+
+if TYPE_CHECKING:
+    from ._mesh import Mesh
+    from ._samples import Samples
+
+
+class Record:
+    """What to add.
+
+    Attributes
+    ----------
+    texture : str or None
+        Path of an image.
+    normals : {"face", "file", "smooth"}
+    frames : bool
+    """
+
+    def __init__(
+        self, texture: str | os.PathLike[str] | None, normals: str, frames: bool
+    ) -> None:
+        self.texture = None if texture is None else os.fspath(texture)
+        if normals not in s.NORMALS:
+            raise e.invalid(f"normals is {normals!r}, none of {', '.join(s.NORMALS)}")
+        self.normals = normals
+        self.frames = flag(frames, "frames")
+
+    def check_no_file(self) -> None:
+        """Raises TypeError for what only the reader of a file finds."""
+        if self.texture is not None or self.normals == "file":
+            raise TypeError("a texture, and normals of a file, need the path of the mesh")
+
+    def check(self, surface: Surface) -> None:
+        """Raises if a mesh cannot have it."""
+        if self.is_nothing():
+            return
+        if surface.dimension() != 3:
+            raise e.invalid("texture, normals and frames need a mesh with 3 coordinates per vertex")
+        if self.texture is not None and "color" in surface.attributes:
+            raise e.invalid("the texture and the attribute color are both attributes['color']")
+
+    def is_nothing(self) -> bool:
+        return self.texture is None and self.normals == "face" and not self.frames
+
+
+NOTHING = Record(None, "face", False)
+
+
+def recorded(samples: Samples, mesh: Mesh, record: Record) -> Samples:
+    """Returns samples with what they get of their mesh, as the program writes it."""
+    if record.is_nothing():
+        return samples
+    assert samples.face_index is not None and samples.barycentric is not None
+    normals = np.array(samples.normals, np.float64, order="C")
+    added = _record(
+        mesh, record, samples.face_index, samples.barycentric, normals, samples.seed or 0
+    )
+    return dataclasses.replace(
+        samples, normals=normals, attributes={**samples.attributes, **added}
+    )
+
+
+def check_texture(mesh: Mesh, record: Record) -> None:
+    """Raises for an image that cannot be read, before samples are made for it."""
+    if record.texture is not None:
+        none = np.empty((0, 3))
+        _record(mesh, record, np.empty(0, np.uint32), none, none, 0)
+
+
+def _record(
+    mesh: Mesh,
+    record: Record,
+    face_index: NDArray[np.uint32],
+    barycentric: NDArray[np.float64],
+    normals: NDArray[np.float64],
+    seed: int,
+) -> dict[str, NDArray[np.float64]]:
+    """Returns attributes, and replaces `normals`."""
+    count = len(face_index)
+    faces = np.ascontiguousarray(face_index)
+    weights = np.ascontiguousarray(barycentric)
+    params = s.RecordParams(
+        faces=faces.ctypes.data,
+        weights=weights.ctypes.data,
+        count=count,
+        normal_kind=s.NORMALS[record.normals],
+        seed=seed,
+        normals=normals.ctypes.data,
+    )
+    added: dict[str, NDArray[np.float64]] = {}
+    if record.texture is not None:
+        added["color"] = np.empty((count, 3))
+        params.texture = os.fsencode(record.texture)
+        params.colours = added["color"].ctypes.data
+    if record.frames:
+        added["frames"] = np.empty((count, 4))
+        params.frames = added["frames"].ctypes.data
+    source = mesh._source or _source_of(mesh._surface)
+    c.call("geodisk_source_record", source.value, byref(params))
+    return added
+
+
+def _source_of(surface: Surface) -> c.Handle:
+    """Returns a source of a mesh that was not read from a file."""
+    faces = from_rows(surface.indices())
+    weld, keep_seams = surface.weld, surface.keep_seams
+    points = surface.coordinates()
+    return interruptible(lambda stop: split(points, faces, weld, keep_seams, stop)).handle
