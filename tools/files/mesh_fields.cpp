@@ -226,10 +226,10 @@ void move_uvs(PolygonMesh& polygons) {
 MeshField texture_uvs(const Path& path, const PolygonMesh& polygons, const FieldTaker& taker) {
     const auto found = std::ranges::find(polygons.fields, kUvField, &MeshField::name);
     if (found == polygons.fields.end() || found->components.size() != 2) {
-        fail_input(path, "has no texture coordinates, as --texture requests");
+        fail_input(path, "has no texture coordinates, which a texture needs");
     }
     if (const std::string gap = taker.gap(*found); !gap.empty()) {
-        fail_input(path, gap + " has no texture coordinates, as --texture requests");
+        fail_input(path, gap + " has no texture coordinates, which a texture needs");
     }
     MeshField uvs = *found;
     taker.take(uvs);

@@ -76,6 +76,9 @@ void add_report_command(Command app);
 /// Finds what is near each vertex or point along the surface, on a Vulkan device.
 void add_neighbours_command(Command app);
 
+/// Finds the nearest sample of each texel of a texture.
+void add_bake_command(Command app);
+
 /// Finds the geodesic Voronoi cells of samples: areas, and the mesh of those whose cells meet.
 void add_cells_command(Command app);
 

@@ -8,6 +8,7 @@ Distances are exact geodesic ones, computed on a Vulkan device, a GPU's or the C
 True
 """
 
+from ._bake import SampleMap, bake
 from ._cells import Cells, cells
 from ._devices import Device, devices
 from ._errors import (
@@ -55,8 +56,10 @@ __all__ = [
     "OutOfMemory",
     "Picture",
     "Sample",
+    "SampleMap",
     "Samples",
     "Verification",
+    "bake",
     "cells",
     "devices",
     "farthest_order",

@@ -1,0 +1,123 @@
+// `geodisk bake`: maps of the nearest sample, and what it refuses.
+#include <doctest/doctest.h>
+
+#include <fstream>
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+#include "cli/command.hpp"
+#include "cli/png_image.hpp"
+
+namespace geodisk::test {
+namespace {
+
+using Json = nlohmann::json;
+
+void write(const TemporaryFolder& folder, const char* name, const std::string& text) {
+    std::ofstream(folder / name) << text;
+}
+
+/// Two triangles: the unit square, in the left half of the texture.
+const char* const kSquare = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"
+                            "vt 0 0\nvt 0.5 0\nvt 0.5 1\nvt 0 1\nf 1/1 2/2 3/3 4/4\n";
+const char* const kEnds = "x,y,z\n0,0.5,0\n1,0.5,0\n";
+
+void check_refused(const TemporaryFolder& folder, int status, const std::string& message,
+                   Arguments arguments) {
+    arguments.insert(arguments.begin(), "bake");
+    check_fails(folder, status, message, arguments);
+}
+
+} // namespace
+
+TEST_CASE("bake: pictures show cells and distances") {
+    const TemporaryFolder folder;
+    write(folder, "square.obj", kSquare);
+    write(folder, "ends.csv", kEnds);
+    const Outcome outcome = run(folder, {"bake", "square.obj", "ends.csv", "-o", "cells.png",
+                                         "--size", "64x32", "--json", "map.json"});
+    INFO(outcome.err);
+    REQUIRE(outcome.status == 0);
+    CHECK(contains(outcome.out, "1,024 of 64 x 32 have a face"));
+    const PngImage cells = read_png(folder / "cells.png");
+    REQUIRE(cells.width == 64);
+    REQUIRE(cells.height == 32);
+    const Pixel left = cells.pixels[0], right = cells.pixels[31];
+    CHECK_FALSE(left == right);
+    for (std::size_t i = 0; i < cells.pixels.size(); ++i) {
+        const std::size_t column = i % 64;
+        REQUIRE(cells.pixels[i] == (column < 16 ? left : column < 32 ? right : Pixel{0, 0, 0, 0}));
+    }
+    const Json json = Json::parse(bytes_of(folder / "map.json"));
+    CHECK(json["size"] == Json{64, 32});
+    CHECK(json["texels"]["covered"] == 1024);
+    CHECK(json["texels"]["overlapping"] == 0);
+    CHECK(json["texels"]["unreached"] == 0);
+    CHECK(json["largest_distance"].get<double>() < 0.72);
+
+    REQUIRE(run(folder, {"bake", "square.obj", "ends.csv", "-o", "grey.png", "--size", "64x32",
+                         "--style", "distance", "-q"})
+                .status == 0);
+    const PngImage grey = read_png(folder / "grey.png");
+    for (std::size_t i = 0; i < grey.pixels.size(); ++i) {
+        const Pixel pixel = grey.pixels[i];
+        REQUIRE(pixel.red == pixel.green);
+        REQUIRE(pixel.alpha == (i % 64 < 32 ? 255 : 0));
+    }
+    CHECK(grey.pixels[15 * 64].red < 16);
+    CHECK(grey.pixels[15].red > 240); // A corner of the middle line.
+}
+
+TEST_CASE("bake: overlaps and repeats are reported") {
+    const TemporaryFolder folder;
+    write(folder, "ends.csv", kEnds);
+    write(folder, "twice.obj",
+          "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 2 0\nvt 2 1\nvt 0 1\n"
+          "f 1/1 2/2 3/3 4/4\n");
+    const Outcome outcome = run(folder, {"bake", "twice.obj", "ends.csv", "-o", "map.npz", "--size",
+                                         "16", "--json", "map.json"});
+    REQUIRE(outcome.status == 0);
+    CHECK(contains(outcome.out, "256 texels have several faces"));
+    CHECK(contains(outcome.out, "2 faces have texture coordinates outside of 0 to 1"));
+    const Json json = Json::parse(bytes_of(folder / "map.json"));
+    CHECK(json["texels"]["overlapping"] == 256);
+    CHECK(json["repeating_faces"] == 2);
+    const std::string npz = bytes_of(folder / "map.npz");
+    CHECK(contains(npz, "'<i4', 'fortran_order': False, 'shape': (16, 16)"));
+    // Neither memory nor a second run matter.
+    REQUIRE(run(folder, {"bake", "twice.obj", "ends.csv", "-o", "again.npz", "--size", "16",
+                         "--memory", "64M", "-q"})
+                .status == 0);
+    CHECK(bytes_of(folder / "again.npz") == npz);
+}
+
+TEST_CASE("bake: what cannot be made leaves no file") {
+    const TemporaryFolder folder;
+    write(folder, "square.obj", kSquare);
+    write(folder, "ends.csv", kEnds);
+    write(folder, "none.csv", "x,y,z\n");
+    write(folder, "corner.csv", "x,y,z,face_index,bary_u,bary_v,bary_w\n0,0,0,0,1,0,0\n");
+    write(folder, "bare.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    write(folder, "tiny.obj",
+          "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1e-5 0\nvt 0 1e-5\nf 1/1 2/2 3/3\n");
+    write(folder, "far.obj",
+          "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1e9 0\nvt 0 1\nf 1/1 2/2 3/3\n");
+    check_refused(folder, 3, "has no texture coordinates",
+                  {"bare.obj", "ends.csv", "-o", "no.npz"});
+    check_refused(folder, 3, "has no texture coordinates",
+                  {"builtin:cube:2", "ends.csv", "-o", "no.npz"});
+    check_refused(folder, 3, "no face covers", {"tiny.obj", "corner.csv", "-o", "no.npz"});
+    check_refused(folder, 3, "too far from 0", {"far.obj", "corner.csv", "-o", "no.npz"});
+    check_refused(folder, 3, "none.csv", {"square.obj", "none.csv", "-o", "no.npz"});
+    check_refused(folder, 2, "maps are written as .npz or .png",
+                  {"square.obj", "ends.csv", "-o", "no.tif"});
+    for (const char* const size : {"0", "20000", "16x", "x16", "16x16x16", "many"}) {
+        check_refused(folder, 2, "--size",
+                      {"square.obj", "ends.csv", "-o", "no.npz", "--size", size});
+    }
+    check_refused(folder, 2, "--style",
+                  {"square.obj", "ends.csv", "-o", "no.png", "--style", "disks"});
+}
+
+} // namespace geodisk::test

@@ -1,0 +1,121 @@
+"""Maps of the nearest sample, against other means."""
+
+import numpy as np
+import pytest
+
+import geodisk
+
+
+def write_obj(path, points, uvs, faces):
+    lines = [f"v {x!r} {y!r} {z!r}" for x, y, z in np.asarray(points, float).tolist()]
+    lines += [f"vt {u!r} {v!r}" for u, v in np.asarray(uvs, float).tolist()]
+    lines += ["f " + " ".join(f"{i + 1}/{i + 1}" for i in face) for face in faces]
+    path.write_text("\n".join(lines) + "\n")
+    return path
+
+
+def sheet(n):
+    """A half pipe, developable, with texture coordinates along it: u by angle, v by height."""
+    u, v = (x.ravel() for x in np.meshgrid(np.linspace(0, 1, n + 1), np.linspace(0, 1, n + 1)))
+    points = np.stack([np.cos(np.pi * u), np.sin(np.pi * u), 2 * v], axis=1)
+    faces = [
+        [a, a + 1, a + n + 2, a + n + 1]
+        for a in (y * (n + 1) + x for y in range(n) for x in range(n))
+    ]
+    return points, np.stack([u, v], axis=1), faces
+
+
+def centres(width, height):
+    """u and v of each texel."""
+    u = (np.arange(width) + 0.5) / width
+    v = 1 - (np.arange(height) + 0.5) / height
+    return np.meshgrid(u, v)
+
+
+@pytest.fixture
+def pipe(tmp_path):
+    return write_obj(tmp_path / "pipe.obj", *sheet(24))
+
+
+def test_map_is_that_of_the_unrolled_sheet(pipe):
+    samples = geodisk.sample(pipe, count=60, attributes=["uv"])
+    found = geodisk.bake(pipe, samples, size=(96, 64))
+    assert found.sample.shape == found.distance.shape == found.face.shape == (64, 96)
+    assert (found.face >= 0).all() and found.overlapping == 0
+    step = 24 * 2 * np.sin(np.pi / 48)  # The width of the sheet, of flat strips.
+    u, v = centres(96, 64)
+    at = samples.attributes["uv"]
+    apart = np.hypot(
+        step * (u[..., None] - at[:, 0]), 2 * (v[..., None] - at[:, 1])
+    )  # Of each texel from each sample.
+    # Texture coordinates are rounded to 1/256 texel.
+    rounding = 1.5 / 256 * max(step / 96, 2 / 64)
+    assert np.abs(found.distance - apart.min(axis=2)).max() < rounding + 1e-5
+    nearest = np.take_along_axis(apart, found.sample[..., None], axis=2)[..., 0]
+    assert (nearest - apart.min(axis=2)).max() < 2 * rounding + 2e-5
+    assert (found.sample != apart.argmin(axis=2)).mean() < 0.01
+
+
+def test_areas_are_those_of_cells(pipe):
+    mesh = geodisk.Mesh(pipe)
+    samples = geodisk.sample(mesh, count=40, seed=3)
+    found = geodisk.bake(pipe, samples, size=512)
+    texels = np.bincount(found.sample.ravel(), minlength=len(samples))
+    areas = geodisk.cells(mesh, samples, dual=False).area
+    assert np.abs(texels / texels.sum() * mesh.area - areas).max() < 0.01 * areas.mean()
+
+
+def test_map_agrees_with_neighbours(tmp_path):
+    rng = np.random.default_rng(5)
+    points, uvs, faces = sheet(8)
+    points = points + 0.05 * rng.standard_normal(points.shape)
+    path = write_obj(tmp_path / "bumpy.obj", points, uvs, faces)
+    mesh = geodisk.Mesh(path)
+    samples = geodisk.sample(mesh, count=25, seed=2)
+    found = geodisk.bake(path, samples, size=40)
+    corners = np.array(uvs)[mesh.triangles[found.face.ravel()]]
+    u, v = (x.ravel() for x in centres(40, 40))
+    sides = corners[:, 1:] - corners[:, :1]
+    target = np.stack([u, v], axis=1) - corners[:, 0]
+    b = np.linalg.solve(sides.transpose(0, 2, 1), target[..., None])[..., 0]
+    weights = np.clip(np.column_stack([1 - b.sum(axis=1), b]), 0, 1)
+    weights = (weights / weights.sum(axis=1, keepdims=True)).astype(np.float32)
+    texels = (found.face.ravel(), weights)
+    near = geodisk.neighbours(mesh, sources=texels, among=samples, nearest=1)
+    rounding = 2e-3 * np.abs(points).max() / 40 * 8
+    assert np.abs(near.distances - found.distance.ravel()).max() < rounding
+    assert (near.indices == found.sample.ravel()).mean() > 0.98
+
+
+def test_parts_without_samples_and_texels_without_faces(tmp_path):
+    points, uvs, faces = sheet(4)
+    both = np.concatenate([points, points + [5, 0, 0]])
+    # One sheet in the lower left quarter, one in the upper right quarter.
+    charts = np.concatenate([0.5 * uvs, 0.5 * uvs + 0.5])
+    path = write_obj(tmp_path / "two.obj", both, charts, faces + [[i + 25 for i in f] for f in faces])
+    samples = geodisk.Samples(points[[0, 12]])
+    found = geodisk.bake(path, samples, size=16)
+    quarters = found.sample[8:, :8], found.sample[:8, 8:], found.sample[:8, :8]
+    assert set(quarters[0].ravel()) == {0, 1} and set(quarters[1].ravel()) == {-1}
+    assert (found.face[:8, 8:] >= 0).all() and np.isinf(found.distance[:8, 8:]).all()
+    assert (quarters[2] == -1).all() and (found.face[:8, :8] == -1).all()
+    assert np.isnan(found.distance[:8, :8]).all()
+
+
+def test_what_cannot_be_baked(pipe, tmp_path):
+    samples = geodisk.sample(pipe, count=10)
+    bare = tmp_path / "bare.obj"
+    bare.write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+    corner = geodisk.Samples([[0, 0, 0]])
+    with pytest.raises(geodisk.InvalidArgument, match="no texture coordinates"):
+        geodisk.bake(bare, corner)
+    with pytest.raises(geodisk.InvalidArgument, match="texels"):
+        geodisk.bake(pipe, samples, size=0)
+    with pytest.raises(geodisk.InvalidArgument, match="size"):
+        geodisk.bake(pipe, samples, size=20000)
+    with pytest.raises(TypeError, match="path"):
+        geodisk.bake(geodisk.Mesh(pipe), samples)
+    with pytest.raises(TypeError, match="Samples"):
+        geodisk.bake(pipe, samples.points)
+    with pytest.raises(geodisk.InvalidArgument):
+        geodisk.bake(pipe, geodisk.Samples([[50.0, 0, 0]]))

@@ -1,0 +1,116 @@
+#include "geodisk/map_run.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <geodisk/cells.hpp>
+#include <geodisk/nearest.hpp>
+
+#include "geodisk/search_progress.hpp"
+#include "program/failure.hpp"
+#include "program/human_text.hpp"
+#include "program/interrupt.hpp"
+#include "program/stopwatch.hpp"
+
+namespace geodisk::tools {
+namespace {
+
+// Texels that are looked up at once: some 60 bytes each.
+constexpr std::size_t kTexelsAtOnce = std::size_t{1} << 18;
+
+void check_range(const std::string& path, const MeshFile& mesh, TextureSize size) {
+    const double most = Texels::kFarthest / std::max(size.width, size.height) - 1;
+    const std::vector<double>& values = mesh.texture_uvs->values;
+    const auto far = std::ranges::find_if(values, [&](double x) { return !(std::abs(x) <= most); });
+    if (far != values.end()) {
+        fail_input(path, "has the texture coordinate " + rounded(*far, 6) +
+                             ", too far from 0 for a map of this size: at most " +
+                             rounded(std::floor(most), 6));
+    }
+}
+
+/// Looks up the texels from `begin` to `end`.
+void look_up(const NearestSamples& nearest, const Texels& texels, std::size_t begin,
+             std::size_t end, MapResult& result) {
+    std::vector<Sample> points;
+    std::vector<std::size_t> places;
+    for (std::size_t texel = begin; texel < end; ++texel) {
+        if (const std::uint32_t face = texels.faces()[texel]; face != Texels::kNone) {
+            const auto [first, second, third] = texels.weights(texel);
+            points.push_back({face, {first, second, third}});
+            places.push_back(texel);
+        }
+    }
+    const std::vector<NearestSample> found = take(nearest.of(points));
+    SampleMap& map = result.map;
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        const auto [sample, distance] = found[i];
+        map.faces[places[i]] = static_cast<std::int32_t>(points[i].face);
+        map.distances[places[i]] = distance;
+        if (sample == NearestSample::kNone) {
+            ++result.unreached;
+        } else {
+            map.samples[places[i]] = static_cast<std::int32_t>(sample);
+            result.largest_distance = std::max(result.largest_distance, distance);
+        }
+    }
+}
+
+} // namespace
+
+MapResult run_map(std::span<const SampleRow> rows, TextureSize size, const std::string& path,
+                  const MeshInput& mesh, RunDevice& device, bool is_bounded,
+                  ProgressLine& progress) {
+    check_range(path, mesh.file, size);
+    progress.begin_stage("finding texels");
+    const Texels texels(mesh.file, size);
+    if (texels.covered() == 0) {
+        fail_input(path, "no face covers the centre of a texel; give a larger --size");
+    }
+    const Stopwatch watch;
+    device.open(progress);
+    MapResult result;
+    result.done.open_seconds = watch.seconds();
+    progress.begin_stage("finding cells");
+    std::vector<Sample> samples;
+    samples.reserve(rows.size());
+    for (const SampleRow& row : rows) {
+        samples.push_back(sample_of(row));
+    }
+    auto nearest =
+        NearestSamples::create(device.runner(), mesh.prepared, samples, CellParams().most_records,
+                               search_progress(progress, "samples"));
+    progress.clear();
+    check_interrupted();
+    if (!nearest) {
+        check_run(nearest.error(), is_bounded);
+    }
+    const NearestSamples disks = take(std::move(nearest));
+    progress.begin_stage("finding nearest samples");
+    result.map = {size.width, size.height,
+                  std::vector<std::int32_t>(size.texels(), SampleMap::kNone),
+                  std::vector<float>(size.texels(), std::numeric_limits<float>::quiet_NaN()),
+                  std::vector<std::int32_t>(size.texels(), SampleMap::kNone)};
+    const Stopwatch search;
+    for (std::size_t begin = 0; begin < size.texels(); begin += kTexelsAtOnce) {
+        check_interrupted();
+        look_up(disks, texels, begin, std::min(begin + kTexelsAtOnce, size.texels()), result);
+        progress.update(static_cast<double>(begin) / static_cast<double>(size.texels()), "");
+    }
+    progress.clear();
+    result.covered = texels.covered();
+    result.overlapping = texels.overlapping();
+    result.repeating = texels.repeating();
+    result.error = disks.error();
+    result.done.device = device.context().report();
+    result.done.tuning = device.runner().sampler().tuning();
+    result.done.run = disks.report();
+    result.done.run.seconds.sample += search.seconds();
+    return result;
+}
+
+} // namespace geodisk::tools

@@ -1,0 +1,35 @@
+// The nearest sample of each texel of a texture of a mesh.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "files/map_file.hpp"
+#include "files/sample_file.hpp"
+#include "geodisk/device_run.hpp"
+#include "geodisk/inputs/mesh_input.hpp"
+#include "geodisk/opened_device.hpp"
+#include "geodisk/outputs/progress.hpp"
+#include "geometry/texels.hpp"
+
+namespace geodisk::tools {
+
+struct MapResult {
+    SampleMap map;
+    std::uint64_t covered = 0;     ///< Texels with a face.
+    std::uint64_t overlapping = 0; ///< Of these, with several.
+    std::uint64_t unreached = 0;   ///< Of these, in parts of the mesh without a sample.
+    std::uint64_t repeating = 0;   ///< Faces with texture coordinates outside of 0 to 1.
+    float largest_distance = 0;
+    double error = 0; ///< Bound on that of distances, in mesh units.
+    DeviceRun done;
+};
+
+/// Opens the device where need be and finds the nearest of the samples in `rows`. The mesh must
+/// have been read with texture coordinates. Takes 16 bytes for each texel besides what is the same
+/// for all sizes. Throws UserError.
+MapResult run_map(std::span<const SampleRow> rows, TextureSize size, const std::string& path,
+                  const MeshInput& mesh, RunDevice& device, bool is_bounded,
+                  ProgressLine& progress);
+
+} // namespace geodisk::tools

@@ -1,0 +1,25 @@
+// What `bake` reports: to people and to programs.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "geodisk/map_run.hpp"
+#include "geodisk/options/mesh_options.hpp"
+
+namespace geodisk::tools {
+
+/// A map that is made, for write_outputs().
+struct MapReport {
+    const MeshOptions& options;
+    const MeshInput& mesh;
+    const std::vector<MeshWarning>& warnings; ///< Of mesh and samples.
+    const MapResult& result;
+    std::size_t samples;
+    const std::string& output;
+
+    std::string json(double write_seconds) const;
+    std::string summary(double write_seconds) const;
+};
+
+} // namespace geodisk::tools

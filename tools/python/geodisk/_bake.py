@@ -1,0 +1,105 @@
+"""Maps of the nearest sample, as textures."""
+
+from __future__ import annotations
+
+import json
+import os
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import _errors as e
+from ._inputs import write_samples
+from ._program import folder, run
+from ._samples import Samples
+from ._values import integer
+
+
+@dataclass(frozen=True, eq=False)
+class SampleMap:
+    """The nearest sample of each texel of a texture. Row 0 is that of v = 1.
+
+    Attributes
+    ----------
+    sample : ndarray of int32, shape (h, w)
+        Number of the nearest sample; -1 where no face lies, and where no path leads to one.
+    distance : ndarray of float32, shape (h, w)
+        How far it is along the surface; NaN where no face lies, infinite without a sample.
+    face : ndarray of int32, shape (h, w)
+        Triangle that covers the centre of the texel; -1 for none.
+    error : float
+        Distances are at most so far from exact ones on the mesh.
+    overlapping : int
+        Texels that several triangles cover, of which the lowest counts.
+    """
+
+    sample: NDArray[np.int32]
+    distance: NDArray[np.float32]
+    face: NDArray[np.int32]
+    error: float
+    overlapping: int
+
+    def __repr__(self) -> str:
+        height, width = self.sample.shape
+        return f"<geodisk.SampleMap of {width} x {height} texels>"
+
+
+def bake(
+    mesh: str | os.PathLike[str], samples: Samples, *, size: int | tuple[int, int] = 1024
+) -> SampleMap:
+    """Returns the sample that is nearest to each texel of a texture, along the surface.
+
+    Parameters
+    ----------
+    mesh : str or path-like
+        File of the mesh, with texture coordinates. Outside of 0 to 1 they wrap around.
+    samples : Samples
+        Samples of the mesh, or points of other programs, which are put on the nearest triangle.
+    size : int or (width, height)
+        Texels, 1 to 16384 along each side.
+
+    Returns
+    -------
+    SampleMap
+
+    Raises
+    ------
+    InvalidArgument
+        For a file without texture coordinates, and samples that are not on the mesh.
+    TypeError, OutOfMemory, NoProgram, KeyboardInterrupt
+        As :func:`verify` does.
+
+    Examples
+    --------
+    >>> import geodisk, os, tempfile
+    >>> path = os.path.join(tempfile.mkdtemp(), "square.obj")
+    >>> with open(path, "w") as file:
+    ...     _ = file.write("v 0 0 0\\nv 1 0 0\\nv 1 1 0\\nv 0 1 0\\n")
+    ...     _ = file.write("vt 0 0\\nvt 1 0\\nvt 1 1\\nvt 0 1\\nf 1/1 2/2 3/3 4/4\\n")
+    >>> corners = geodisk.Samples([[0, 0, 0], [1, 1, 0]])
+    >>> geodisk.bake(path, corners, size=3).sample.tolist()
+    [[0, 1, 1], [0, 0, 1], [0, 0, 0]]
+    """
+    if not isinstance(mesh, (str, os.PathLike)):
+        raise TypeError("bake needs the path of a mesh file, which has texture coordinates")
+    if not isinstance(samples, Samples):
+        raise TypeError(f"samples are a geodisk.Samples, not {type(samples).__name__}")
+    sides = (size, size) if np.ndim(size) == 0 else tuple(size)  # type: ignore[arg-type]
+    if len(sides) != 2:
+        raise e.invalid(f"size is {size}, neither a number nor (width, height)")
+    width, height = (integer(side, "size", 16384) for side in sides)
+    path = os.fspath(mesh)
+    with folder() as place:
+        files = [os.path.abspath(path), write_samples(place, samples)]
+        options = ["--size", f"{width}x{height}", "--json", "report.json", "--output", "map.npz"]
+        run(place, ["bake", *files, *options])
+        report = json.loads((place / "report.json").read_text("utf-8"))
+        with np.load(place / "map.npz") as arrays:
+            return SampleMap(
+                arrays["sample"],
+                arrays["distance"],
+                arrays["face"],
+                float(report["error"]),
+                int(report["texels"]["overlapping"]),
+            )
