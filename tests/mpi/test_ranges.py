@@ -127,6 +127,17 @@ def test_same_file_of_odd_surfaces(tmp_path):
     check_same(tmp_path, [str(few), "--min-distance", "0.3"], [1, 4], "few.ply")
 
 
+def test_same_file_of_steep_hills(tmp_path):
+    # Obtuse angles: ways along edges are far longer than lower bounds on distances.
+    steep = lambda u, v: (u, v, 0.25 * math.sin(14 * u) * math.cos(11 * v))
+    mesh = tmp_path / "hills.ply"
+    write_ply(mesh, *grid(60, 50, steep))
+    assert is_read_in_ranges(tmp_path, mesh, "--min-distance", "0.1", processes=4)
+    check_same(tmp_path, [str(mesh), "--min-distance", "0.05"], [4])
+    assert not is_read_in_ranges(tmp_path, mesh, "--count", "100")
+    check_same(tmp_path, [str(mesh), "--count", "300"], [3], "count.ply")
+
+
 def test_report_counts_what_the_ranges_have(tmp_path):
     vertices, faces = grid(14, 9)
     other, other_faces = torus(12, 6)
@@ -136,7 +147,7 @@ def test_report_counts_what_the_ranges_have(tmp_path):
     told = []
     for name in ["alone", "ranges"]:
         report = tmp_path / f"{name}.json"
-        arguments = [str(mesh), "--count", "100", "-o", str(tmp_path / "s.ply"),
+        arguments = [str(mesh), "--min-distance", "0.2", "-o", str(tmp_path / "s.ply"),
                      "--json", str(report)]
         if name == "alone":
             alone(*arguments)

@@ -91,7 +91,8 @@ Records vertex_records(const PlyElement& element, std::uint64_t offset, PlyLayou
     std::array<bool, 3> is_found{};
     for (const PlyProperty& property : element.properties) {
         if (property.count_type || property.name == "x0") {
-            throw NeedsWhole{"its vertices have more than numbers, or other coordinates than x y z"};
+            throw NeedsWhole{
+                "its vertices have more than numbers, or other coordinates than x y z"};
         }
         const std::size_t axis = std::string("xyz").find(property.name);
         if (property.name.size() == 1 && axis < 3) {

@@ -105,6 +105,9 @@ std::vector<SampleRow> rows_of(const std::vector<Sample>& samples, Session& sess
 SampleResult sample_ranged(const SampleJob& job, MeshInput& mesh, Session& session,
                            ProgressLine& progress) {
     const RangedSurface& surface = *session.ranges();
+    if (!job.min_distance && surface.statistics().mesh.boundary_edges > 0) {
+        throw NeedsWhole{"the distance for a count depends on the length of its borders"};
+    }
     SampleParams params = params_on(mesh, job);
     std::optional<PreparedMesh> triangle;
     const auto task_at = [&](double min_distance) {

@@ -143,6 +143,8 @@ class PreparedMesh {
     std::uint64_t identity() const noexcept { return identity_; }
 
   private:
+    friend struct MeshPieces; // Makes meshes of surfaces of which no process holds the whole.
+
     static std::uint64_t next_identity() noexcept;
     template <class View>
     static Result<PreparedMesh> prepare_any(const View& mesh, const ThreadOptions& threads);

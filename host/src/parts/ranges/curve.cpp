@@ -144,8 +144,9 @@ Place place_of(const MeshRange& range, const RangeFaces& faces, const RangeFindi
     for (std::size_t axis = 0; axis < 3; ++axis) {
         double sum = 0;
         for (std::size_t k = 0; k < 3; ++k) {
-            sum += faces.positions[std::size_t{3} * faces.numbers.of(range.triangles[3 * face + k]) +
-                                   axis];
+            sum +=
+                faces.positions[std::size_t{3} * faces.numbers.of(range.triangles[3 * face + k]) +
+                                axis];
         }
         const double size = findings.high[axis] - findings.low[axis];
         const double part = size > 0 ? (sum / 3 - findings.low[axis]) / size : 0;

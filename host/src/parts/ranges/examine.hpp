@@ -21,9 +21,9 @@ struct RangeFaces {
 
 /// What all ranges have together. Components are not known yet.
 struct RangeFindings {
-    MeshStatistics statistics; ///< As PreparedMesh::prepare() has them, to the bit.
-    double low[3], high[3];    ///< Bounding box of the used vertices.
-    double largest_area = 0;   ///< Of a face.
+    MeshStatistics statistics;      ///< As PreparedMesh::prepare() has them, to the bit.
+    double low[3], high[3];         ///< Bounding box of the used vertices.
+    double largest_area = 0;        ///< Of a face.
     std::uint64_t turned_edges = 0; ///< Edges of two faces that are turned over against each other.
 };
 

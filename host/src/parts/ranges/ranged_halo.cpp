@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <ranges>
+#include <functional>
+#include <queue>
 #include <unordered_map>
 #include <unordered_set>
 #include <utility>
@@ -72,6 +73,9 @@ struct Request {
 constexpr std::uint32_t kMostRings = 64;
 // Ways along edges are longer than distances, by about so much.
 constexpr double kShorter = 0.75;
+// Lower bounds are shorter still where angles are obtuse. There the halo has to grow again, and
+// then takes ways for shorter by this factor each time, so that it needs few turns.
+constexpr double kShorterEachTime = 0.5;
 
 /// A halo that grows.
 class Halo {
@@ -89,7 +93,7 @@ class Halo {
         for (const WholeFace& face : rim_) {
             for (const std::uint32_t vertex : face.corners) {
                 // All faces at other own vertices are own ones.
-                ways_[vertex] = {0, !is_shared_.contains(vertex)};
+                ways_[vertex] = {.length = 0, .is_complete = !is_shared_.contains(vertex)};
             }
         }
     }
@@ -98,20 +102,18 @@ class Halo {
     bool grow() {
         bool has_grown = false;
         for (;;) {
-            std::vector<std::uint32_t> open;
-            for (auto& [vertex, way] : ways_) {
-                if (!way.is_complete && way.length <= reach_) {
-                    open.push_back(vertex);
-                    way.is_complete = true;
-                }
-            }
+            const std::vector<std::uint32_t> open = open_within(reach_);
             if (talk_.sum(open.size()) == 0) {
-                return has_grown;
+                break;
             }
             has_grown = true;
-            std::sort(open.begin(), open.end());
+            for (const std::uint32_t vertex : open) {
+                ways_[vertex].is_complete = true;
+            }
             add_rings(open);
         }
+        shorter_ *= kShorterEachTime;
+        return has_grown;
     }
 
     /// Shortens ways to lower bounds on distances.
@@ -145,11 +147,30 @@ class Halo {
     }
 
   private:
-    /// Length of a way from own faces, and whether all faces at its end are known.
+    struct Edge {
+        std::uint32_t end;
+        double length;
+    };
+
+    /// Length of a way from own faces, whether all faces at its end are known, and edges there.
     struct Way {
         double length = HUGE_VAL;
         bool is_complete = false;
+        std::vector<Edge> edges{};
     };
+
+    /// Returns the vertices, in ascending order, to which a way is no longer than `limit`, and
+    /// whose faces are not all known.
+    std::vector<std::uint32_t> open_within(double limit) const {
+        std::vector<std::uint32_t> open;
+        for (const auto& [vertex, way] : ways_) {
+            if (!way.is_complete && way.length <= limit) {
+                open.push_back(vertex);
+            }
+        }
+        std::ranges::sort(open);
+        return open;
+    }
 
     /// Asks for the faces at open vertices, and as many rings around them as the reach takes.
     void add_rings(const std::vector<std::uint32_t>& open) {
@@ -229,7 +250,7 @@ class Halo {
         }
     }
 
-    /// Goes along the edges of the newest faces.
+    /// Takes ways along the edges of the newest faces.
     void follow_edges(std::size_t first) {
         std::vector<WholeFace> newest;
         for (const HaloFace& one : std::span(faces_).subspan(first)) {
@@ -243,29 +264,51 @@ class Halo {
             const double* const b = &positions[std::size_t{3} * numbers.of(to)];
             return std::hypot(b[0] - a[0], b[1] - a[1], b[2] - a[2]);
         };
-        for (const auto& [a, b, c] : newest | std::views::transform(&WholeFace::corners)) {
-            edges_ += between(a, b) + between(b, c) + between(c, a);
-        }
-        for (bool has_changed = true; has_changed;) { // There may be several rings.
-            has_changed = false;
-            for (const WholeFace& face : newest) {
-                for (const std::uint32_t from : face.corners) {
-                    for (const std::uint32_t to : face.corners) {
-                        const double length = ways_[from].length + kShorter * between(from, to);
-                        has_changed |= length < ways_[to].length;
-                        ways_[to].length = std::min(ways_[to].length, length);
-                    }
-                }
+        std::vector<std::uint32_t> changed;
+        for (const WholeFace& face : newest) {
+            for (int side = 0; side < 3; ++side) {
+                const std::uint32_t from = face.corners[side], to = face.corners[(side + 1) % 3];
+                const double length = between(from, to);
+                edges_ += length;
+                ways_[from].edges.push_back({to, length});
+                ways_[to].edges.push_back({from, length});
+                changed.push_back(from);
             }
         }
+        shorten(std::move(changed));
         if (edges_ > 0) {
             mean_edge_ = edges_ / (3.0 * static_cast<double>(faces_.size()));
+        }
+    }
+
+    /// Shortens ways that lead through vertices that have changed.
+    void shorten(std::vector<std::uint32_t> changed) {
+        using Entry = std::pair<double, std::uint32_t>;
+        std::priority_queue<Entry, std::vector<Entry>, std::greater<>> next;
+        for (const std::uint32_t vertex : changed) {
+            next.emplace(ways_[vertex].length, vertex);
+        }
+        while (!next.empty()) {
+            const auto [length, vertex] = next.top();
+            next.pop();
+            const Way& way = ways_[vertex];
+            if (length > way.length) {
+                continue;
+            }
+            for (const Edge& edge : way.edges) {
+                double& there = ways_[edge.end].length;
+                if (length + shorter_ * edge.length < there) {
+                    there = length + shorter_ * edge.length;
+                    next.emplace(there, edge.end);
+                }
+            }
         }
     }
 
     Talk& talk_;
     const KnownSurface& known_;
     double reach_;
+    double shorter_ = kShorter; ///< For ways along edges, when it grows next.
     FacesAtVertices own_;
     std::unordered_set<std::uint32_t> is_shared_; ///< Own vertices that others hold too.
     double mean_edge_, edges_ = 0;                ///< Edges of the halo.

@@ -26,8 +26,8 @@ std::vector<WholeFace> own_faces_of(Talk& talk, const MeshRange& range,
         const std::size_t end = owners.size() * (turn + 1) / turns;
         for (std::size_t face = owners.size() * turn / turns; face < end; ++face) {
             const std::uint32_t* const corners = &range.triangles[3 * face];
-            sent[owners[face]].push_back({static_cast<std::uint32_t>(first + face),
-                                          {corners[0], corners[1], corners[2]}});
+            sent[owners[face]].push_back(
+                {static_cast<std::uint32_t>(first + face), {corners[0], corners[1], corners[2]}});
         }
         for (const auto& some : talk.swap(std::move(sent))) {
             own.insert(own.end(), some.begin(), some.end());

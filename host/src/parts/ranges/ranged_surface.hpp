@@ -2,8 +2,8 @@
 //
 // Each process reads a range of the faces and vertices. Faces then move to processes along a curve,
 // so that each has those of a region. The coordinates of a vertex stay at its home, the process
-// that read it, which also knows the processes with faces there. A part gets its halo by rings: homes
-// name the holders of the vertices where it ends, and holders send rings of their faces.
+// that read it, which also knows the processes with faces there. A part gets its halo by rings:
+// homes name the holders of the vertices where it ends, and holders send rings of their faces.
 #pragma once
 
 #include <cstdint>

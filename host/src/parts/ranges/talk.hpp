@@ -105,8 +105,7 @@ class Talk {
     }
     template <class Record>
     Record swap_with(std::uint32_t other, Bytes message, Record otherwise) {
-        const auto received =
-            value(exchange_.swap(std::span(&other, 1), std::span(&message, 1)));
+        const auto received = value(exchange_.swap(std::span(&other, 1), std::span(&message, 1)));
         const auto records = records_of<Record>(received.front());
         return records.empty() ? otherwise : records.front();
     }
