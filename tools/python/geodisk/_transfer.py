@@ -20,6 +20,8 @@ from ._reading import read
 from ._record import Record, recorded
 from ._samples import Samples
 
+_OF_ONE_POSE = frozenset({"cover", "frames"})
+
 
 def transfer(
     samples: Samples,
@@ -60,7 +62,8 @@ def transfer(
     Returns
     -------
     Samples
-        Samples with the same faces and weights. `min_distance` is their smallest distance there,
+        Samples with the same faces and weights, and their attributes but for ``frames`` and
+        ``cover``, which other poses change. `min_distance` is their smallest distance there,
         NaN if no path joins two samples, and `radius` is half of it.
 
     Raises
@@ -129,7 +132,8 @@ def transfer(
         name: one.at(moved.face_index, moved.barycentric)
         for name, one in target.attributes.items()
     }
-    moved = dataclasses.replace(moved, attributes={**samples.attributes, **found})
+    kept = {name: one for name, one in samples.attributes.items() if name not in _OF_ONE_POSE}
+    moved = dataclasses.replace(moved, attributes={**kept, **found})
     return recorded(moved, mesh, record)
 
 
