@@ -86,6 +86,7 @@ TEST_CASE("attributes that a mesh lacks, and formats that lack columns, are refu
           {"-o", "a.csv", "--attributes", "heat"});
     fails(2, "so no column of --attributes", {"-o", "a.xyz", "--attributes", "all"});
     fails(2, "so no column of --frames", {"-o", "a.obj", "--frames"});
+    fails(2, "so no column of --texture", {"-o", "a.xyz", "--texture", "missing.png"});
     fails(3, "nowhere.png", {"-o", "a.csv", "--texture", "nowhere.png"});
     fails(2, "--texture and the attribute color are both the columns red, green and blue",
           {"-o", "a.csv", "--texture", "nowhere.png", "--attributes", "color"});

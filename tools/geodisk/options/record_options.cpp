@@ -39,9 +39,12 @@ WantedFields RecordOptions::fields() const {
 }
 
 void RecordOptions::check(const SampleTarget& target) const {
-    if (!attributes.empty() || frames) {
-        check_columns(target, std::vector<std::string>{attributes.empty() ? "of --frames"
-                                                                          : "of --attributes"});
+    for (const auto& [is_given, columns] : {std::pair{!attributes.empty(), "of --attributes"},
+                                            {!texture.empty(), "of --texture"},
+                                            {frames, "of --frames"}}) {
+        if (is_given) {
+            check_columns(target, std::vector<std::string>{columns});
+        }
     }
     if (normal_kind() != NormalKind::face && target.format == SampleFormat::xyz) {
         check_columns(target, std::vector<std::string>{"of --normals"});
