@@ -8,6 +8,7 @@
 
 #include "c/c_call.hpp"
 #include "c/c_device.hpp"
+#include "c/c_frames.hpp"
 #include "c/c_handles.hpp"
 #include "c/c_neighbours.hpp"
 #include "c/c_sampler.hpp"
@@ -22,30 +23,12 @@ struct geodisk_frame_neighbours {
 namespace geodisk::c {
 namespace {
 
-FrameNeighbourOptions options_of(const geodisk_frame_neighbour_options& given) {
-    FrameNeighbourOptions options;
-    const auto set = [](auto& field, auto value) { field = value != 0 ? value : field; };
-    set(options.pool_bytes, given.pool_bytes);
-    set(options.record_bytes, given.record_bytes);
-    set(options.frames, given.frames);
-    set(options.dispatches, given.dispatches);
-    set(options.rounds, given.rounds);
-    if (given.reader_stages != 0 || given.reader_access != 0) {
-        options.readers = {given.reader_stages, given.reader_access};
-    }
-    return options;
-}
+constexpr const char* kName = "the search";
 
-/// Runs `body(*frames)` unless another call uses the object.
-template <class Body>
-geodisk_status with_frames(geodisk_frame_neighbours* frames, geodisk_error* error,
-                           const Body& body) {
-    return answer(error, [&]() -> Result<Done> {
-        if (frames == nullptr) {
-            return wrong("frames is NULL");
-        }
-        return hold(frames->is_held, "the search", [&]() -> Result<Done> { return body(*frames); });
-    });
+FrameNeighbourOptions options_of(const geodisk_frame_neighbour_options& given) {
+    auto options = frame_options_of<FrameNeighbourOptions>(given);
+    set_if_given(options.record_bytes, given.record_bytes);
+    return options;
 }
 
 } // namespace
@@ -95,21 +78,14 @@ geodisk_status geodisk_frame_neighbours_create(const geodisk_device* device,
 geodisk_status geodisk_frame_neighbours_record(geodisk_frame_neighbours* frames,
                                                void* command_buffer, int32_t* is_complete,
                                                geodisk_error* error) {
-    return with_frames(frames, error, [&](geodisk_frame_neighbours& own) -> Result<Done> {
-        const auto recorded = own.recorded.record(static_cast<VkCommandBuffer>(command_buffer));
-        if (!recorded) {
-            return recorded.error();
-        }
-        if (is_complete != nullptr) {
-            *is_complete = *recorded ? 1 : 0;
-        }
-        return Done{};
+    return with_frames(frames, kName, error, [&](geodisk_frame_neighbours& own) -> Result<Done> {
+        return record_frame(own.recorded, command_buffer, is_complete);
     });
 }
 
 geodisk_status geodisk_frame_neighbours_wait(geodisk_frame_neighbours* frames,
                                              geodisk_sampler* sampler, geodisk_error* error) {
-    return with_frames(frames, error, [&](geodisk_frame_neighbours& own) -> Result<Done> {
+    return with_frames(frames, kName, error, [&](geodisk_frame_neighbours& own) -> Result<Done> {
         if (sampler == nullptr) {
             return wrong("sampler is NULL");
         }

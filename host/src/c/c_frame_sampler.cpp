@@ -10,6 +10,7 @@
 #include "c/c_call.hpp"
 #include "c/c_device.hpp"
 #include "c/c_domain.hpp"
+#include "c/c_frames.hpp"
 #include "c/c_handles.hpp"
 #include "c/c_sampler.hpp"
 
@@ -23,30 +24,12 @@ struct geodisk_frame_sampler {
 namespace geodisk::c {
 namespace {
 
-FrameSamplerOptions options_of(const geodisk_frame_options& given) {
-    FrameSamplerOptions options;
-    const auto set = [](auto& field, auto value) { field = value != 0 ? value : field; };
-    set(options.pool_bytes, given.pool_bytes);
-    set(options.frames, given.frames);
-    set(options.dispatches, given.dispatches);
-    set(options.rounds, given.rounds);
-    set(options.vertices_each, given.vertices_each);
-    if (given.reader_stages != 0 || given.reader_access != 0) {
-        options.readers = {given.reader_stages, given.reader_access};
-    }
-    return options;
-}
+constexpr const char* kName = "the frame sampler";
 
-/// Runs `body(*frames)` unless another call uses the object.
-template <class Body>
-geodisk_status with_frames(geodisk_frame_sampler* frames, geodisk_error* error, const Body& body) {
-    return answer(error, [&]() -> Result<Done> {
-        if (frames == nullptr) {
-            return wrong("frames is NULL");
-        }
-        return hold(frames->is_held, "the frame sampler",
-                    [&]() -> Result<Done> { return body(*frames); });
-    });
+FrameSamplerOptions options_of(const geodisk_frame_options& given) {
+    auto options = frame_options_of<FrameSamplerOptions>(given);
+    set_if_given(options.vertices_each, given.vertices_each);
+    return options;
 }
 
 } // namespace
@@ -89,21 +72,14 @@ geodisk_status geodisk_frame_sampler_create(const geodisk_device* device,
 
 geodisk_status geodisk_frame_sampler_record(geodisk_frame_sampler* frames, void* command_buffer,
                                             int32_t* is_complete, geodisk_error* error) {
-    return with_frames(frames, error, [&](geodisk_frame_sampler& own) -> Result<Done> {
-        const auto recorded = own.recorded.record(static_cast<VkCommandBuffer>(command_buffer));
-        if (!recorded) {
-            return recorded.error();
-        }
-        if (is_complete != nullptr) {
-            *is_complete = *recorded ? 1 : 0;
-        }
-        return Done{};
+    return with_frames(frames, kName, error, [&](geodisk_frame_sampler& own) -> Result<Done> {
+        return record_frame(own.recorded, command_buffer, is_complete);
     });
 }
 
 geodisk_status geodisk_frame_sampler_wait(geodisk_frame_sampler* frames, geodisk_sampler* sampler,
                                           geodisk_error* error) {
-    return with_frames(frames, error, [&](geodisk_frame_sampler& own) -> Result<Done> {
+    return with_frames(frames, kName, error, [&](geodisk_frame_sampler& own) -> Result<Done> {
         if (sampler == nullptr) {
             return wrong("sampler is NULL");
         }
@@ -138,7 +114,7 @@ geodisk_status geodisk_frame_sampler_describe(const geodisk_frame_sampler* frame
 
 geodisk_status geodisk_frame_sampler_set_seed(geodisk_frame_sampler* frames, uint64_t seed,
                                               geodisk_error* error) {
-    return with_frames(frames, error, [&](geodisk_frame_sampler& own) -> Result<Done> {
+    return with_frames(frames, kName, error, [&](geodisk_frame_sampler& own) -> Result<Done> {
         own.recorded.set_seed(seed);
         return Done{};
     });

@@ -20,7 +20,7 @@
 #include "engine/neighbours/neighbour_memory.hpp"
 #include "engine/neighbours/search_jobs.hpp"
 #include "engine/run/frame_growth.hpp"
-#include "engine/run/runner_impl.hpp"
+#include "engine/run/frame_run.hpp"
 #include "support/guard.hpp"
 #include "support/invalid.hpp"
 #include "vk/barriers.hpp"
@@ -564,25 +564,9 @@ Result<bool> FrameNeighbours::record(VkCommandBuffer commands) noexcept {
 Result<Done> FrameNeighbours::find_and_wait(Runner& runner,
                                             const ProgressCallback& progress) noexcept {
     return guarded([&]() -> Result<Done> {
-        Runner::Impl& with = Runner::Impl::of(runner);
-        if (with.work) {
-            return invalid("a run of the runner is in progress");
-        }
-        while (!impl_->is_complete) {
-            Result<bool> recorded = false;
-            const auto submitted = with.submitter->run(
-                [&](VkCommandBuffer commands) { recorded = impl_->record_next(commands, 1); });
-            if (!submitted) {
-                return submitted.error();
-            }
-            if (!recorded) {
-                return recorded.error();
-            }
-            if (progress && !progress({impl_->ready, impl_->count(), impl_->pairs, 0, 0})) {
-                return Error{Status::cancelled, "cancelled"};
-            }
-        }
-        return Done{};
+        return run_frames(*impl_, runner, progress, [&] {
+            return Progress{impl_->ready, impl_->count(), impl_->pairs, 0, 0};
+        });
     });
 }
 

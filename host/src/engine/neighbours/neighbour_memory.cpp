@@ -16,19 +16,6 @@ namespace {
 constexpr VkDeviceSize kWord = 4;
 constexpr VkDeviceSize kLeastRange = 16; // Of buffers that may have nothing in them.
 
-Result<DeviceBuffer> make(const Sampler& sampler, VkDeviceSize bytes, VkBufferUsageFlags usage,
-                          MemoryKind kind) {
-    const Sampler::Impl& engine = Sampler::Impl::of(sampler);
-    const auto instance =
-        load_instance_table(engine.device.get_instance_proc_addr, engine.device.instance);
-    if (!instance) {
-        return instance.error();
-    }
-    VkPhysicalDeviceMemoryProperties memory{};
-    instance->vkGetPhysicalDeviceMemoryProperties(engine.device.physical_device, &memory);
-    return DeviceBuffer::create(engine.device, engine.vk, memory, bytes, usage, kind);
-}
-
 RangeCutter cutter_for(const Sampler& sampler) {
     return RangeCutter(range_alignment(sampler.report().limits));
 }
@@ -47,8 +34,9 @@ Result<ListMemory> ListMemory::create(const Sampler& sampler, std::uint32_t sour
     const VkDeviceSize offsets = cutter.cut(heads);
     const VkDeviceSize targets = cutter.cut(each);
     const VkDeviceSize distances = cutter.cut(each);
-    auto buffer = make(sampler, cutter.end(), kWorkspaceUsage | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT,
-                       MemoryKind::device);
+    auto buffer =
+        make_frame_buffer(sampler, cutter.end(),
+                          kWorkspaceUsage | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, MemoryKind::device);
     if (!buffer) {
         return buffer.error();
     }
@@ -122,29 +110,25 @@ Result<Done> NeighbourMemory::allocate(const Sampler& sampler, const Domain& dom
     cut(ranges_.sorted, entries);
     cut(ranges_.sums, (scanned + gpu::kScanBlock - 1) / gpu::kScanBlock * kWord);
 
-    VkDeviceSize staged = bytes_of(inputs.sources).size() + bytes_of(inputs.limits).size() +
-                          bytes_of(inputs.names).size();
-    for (std::size_t i = 0; i < kBufferRoles; ++i) {
-        staged += sampler.upload_size(domain, static_cast<BufferRole>(i));
+    auto buffer = make_frame_buffer(sampler, cutter.end(), kWorkspaceUsage, MemoryKind::device);
+    if (!buffer) {
+        return buffer.error();
     }
-    const auto allocated = [&](DeviceBuffer& buffer, VkDeviceSize bytes, VkBufferUsageFlags usage,
-                               MemoryKind kind) -> Result<Done> {
-        auto made = make(sampler, bytes, usage, kind);
-        if (!made) {
-            return made.error();
-        }
-        buffer = std::move(*made);
-        return Done{};
-    };
-    auto done = allocated(buffer_, cutter.end(), kWorkspaceUsage, MemoryKind::device);
-    done = done ? allocated(staging_, staged, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, MemoryKind::host)
-                : done;
-    done = done ? allocated(told_, frames * sizeof(NeighbourTold), VK_BUFFER_USAGE_TRANSFER_DST_BIT,
-                            MemoryKind::host)
-                : done;
-    if (!done) {
-        return done;
+    buffer_ = std::move(*buffer);
+    auto uploads =
+        FrameUploads::create(sampler, domain,
+                             bytes_of(inputs.sources).size() + bytes_of(inputs.limits).size() +
+                                 bytes_of(inputs.names).size());
+    if (!uploads) {
+        return uploads.error();
     }
+    uploads_ = std::move(*uploads);
+    auto told = make_frame_buffer(sampler, frames * sizeof(NeighbourTold),
+                                  VK_BUFFER_USAGE_TRANSFER_DST_BIT, MemoryKind::host);
+    if (!told) {
+        return told.error();
+    }
+    told_ = std::move(*told);
     workspace_ = layout_.in(buffer_.handle());
     for (BufferRange* const range : {&sources_, &ranges_.limits, &ranges_.names, &ranges_.rows,
                                      &ranges_.entries, &ranges_.sorted, &ranges_.sums}) {
@@ -156,44 +140,20 @@ Result<Done> NeighbourMemory::allocate(const Sampler& sampler, const Domain& dom
 
 Result<Done> NeighbourMemory::stage(const Sampler& sampler, const Domain& domain,
                                     const NeighbourInputs& inputs) {
-    VkDeviceSize from = 0;
-    const auto take = [&](VkDeviceSize to, VkDeviceSize bytes) {
-        uploads_.push_back({from, to, bytes});
-        const auto place = staging_.bytes().subspan(from, bytes);
-        from += bytes;
-        return place;
-    };
-    for (std::size_t i = 0; i < kBufferRoles; ++i) {
-        const auto role = static_cast<BufferRole>(i);
-        const std::size_t size = sampler.upload_size(domain, role);
-        // Sources come part by part.
-        if (size == 0 || role == BufferRole::samples) {
-            continue;
-        }
-        if (auto written =
-                sampler.write_upload(domain, plan_, role, take(layout_.offsets[i], size));
-            !written) {
-            return written;
-        }
+    // Sources come part by part.
+    if (auto staged = uploads_.stage_domain(sampler, domain, plan_, layout_, BufferRole::samples);
+        !staged) {
+        return staged;
     }
-    const auto put = [&](const BufferRange& to, std::span<const std::byte> bytes) {
-        if (!bytes.empty()) {
-            std::memcpy(take(to.offset, bytes.size()).data(), bytes.data(), bytes.size());
-        }
-    };
-    put(sources_, bytes_of(inputs.sources));
-    put(ranges_.limits, bytes_of(inputs.limits));
-    put(ranges_.names, bytes_of(inputs.names));
+    uploads_.stage(sources_.offset, bytes_of(inputs.sources));
+    uploads_.stage(ranges_.limits.offset, bytes_of(inputs.limits));
+    uploads_.stage(ranges_.names.offset, bytes_of(inputs.names));
     std::memset(told_.bytes().data(), 0, told_.bytes().size());
     return Done{};
 }
 
 void NeighbourMemory::record_upload(const DeviceTable& vk, VkCommandBuffer commands) {
-    for (const Upload& upload : uploads_) {
-        const VkBufferCopy region{upload.from, upload.to, upload.bytes};
-        vk.vkCmdCopyBuffer(commands, staging_.handle(), buffer_.handle(), 1, &region);
-    }
-    uploads_.clear();
+    uploads_.record(vk, commands, buffer_.handle());
 }
 
 void NeighbourMemory::record_part(const DeviceTable& vk, VkCommandBuffer commands,

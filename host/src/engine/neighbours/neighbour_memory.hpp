@@ -13,6 +13,7 @@
 #include <geodisk/sampler.hpp>
 
 #include "engine/neighbours/neighbour_kernels.hpp"
+#include "engine/run/frame_buffers.hpp"
 #include "records.h"
 #include "samples.h"
 #include "vk/buffer.hpp"
@@ -85,7 +86,7 @@ class NeighbourMemory {
     /// Records the uploads, once.
     void record_upload(const DeviceTable& vk, VkCommandBuffer commands);
     /// Frees the staging memory, after the uploads have completed.
-    void free_staging() { staging_ = DeviceBuffer(); }
+    void free_staging() { uploads_.free(); }
     /// Records that the job has no hits yet, and its sources: so many from this one on.
     void record_part(const DeviceTable& vk, VkCommandBuffer commands, std::uint32_t first,
                      std::uint32_t sources) const;
@@ -98,10 +99,6 @@ class NeighbourMemory {
     NeighbourTold told(std::uint32_t turn) const;
 
   private:
-    struct Upload {
-        VkDeviceSize from, to, bytes; ///< Offsets in the staging and in the buffer.
-    };
-
     Result<Done> allocate(const Sampler& sampler, const Domain& domain,
                           const NeighbourInputs& inputs, std::uint32_t frames);
     Result<Done> stage(const Sampler& sampler, const Domain& domain, const NeighbourInputs& inputs);
@@ -109,12 +106,12 @@ class NeighbourMemory {
         return workspace_[static_cast<std::size_t>(role)];
     }
 
-    DeviceBuffer buffer_, staging_, told_;
+    DeviceBuffer buffer_, told_;
+    FrameUploads uploads_;
     Workspace workspace_;
     WorkspaceLayout layout_;
     NeighbourRanges ranges_;
     BufferRange sources_;
-    std::vector<Upload> uploads_;
     RunPlan plan_;
     std::uint32_t room_ = 0;
     std::uint32_t most_sources_ = 0;

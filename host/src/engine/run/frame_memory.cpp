@@ -120,65 +120,36 @@ Result<Done> FrameMemory::allocate(const Sampler& sampler, const Domain& domain,
     placed_ = cutter.cut(VkDeviceSize{plan_.sample_capacity} * sizeof(gpu::PlacedRec));
     arguments_ = cutter.cut(sizeof(VkDrawIndirectCommand));
 
-    VkDeviceSize staged = bytes_of(mesh.positions).size() + bytes_of(mesh.indices).size();
-    for (std::size_t i = 0; i < kBufferRoles; ++i) {
-        staged += sampler.upload_size(domain, static_cast<BufferRole>(i));
+    auto buffer =
+        make_frame_buffer(sampler, cutter.end(),
+                          kWorkspaceUsage | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, MemoryKind::device);
+    if (!buffer) {
+        return buffer.error();
     }
-    const Sampler::Impl& engine = Sampler::Impl::of(sampler);
-    const auto instance =
-        load_instance_table(engine.device.get_instance_proc_addr, engine.device.instance);
-    if (!instance) {
-        return instance.error();
+    buffer_ = std::move(*buffer);
+    auto uploads = FrameUploads::create(
+        sampler, domain, bytes_of(mesh.positions).size() + bytes_of(mesh.indices).size());
+    if (!uploads) {
+        return uploads.error();
     }
-    VkPhysicalDeviceMemoryProperties memory{};
-    instance->vkGetPhysicalDeviceMemoryProperties(engine.device.physical_device, &memory);
-    const auto make = [&](DeviceBuffer& buffer, VkDeviceSize bytes, VkBufferUsageFlags usage,
-                          MemoryKind kind) -> Result<Done> {
-        auto created = DeviceBuffer::create(engine.device, engine.vk, memory, bytes, usage, kind);
-        if (!created) {
-            return created.error();
-        }
-        buffer = std::move(*created);
-        return Done{};
-    };
-    auto made = make(buffer_, cutter.end(), kWorkspaceUsage | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT,
-                     MemoryKind::device);
-    if (made) {
-        made = make(staging_, staged, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, MemoryKind::host);
+    uploads_ = std::move(*uploads);
+    auto controls =
+        make_frame_buffer(sampler, VkDeviceSize{options.frames} * sizeof(gpu::ControlRec),
+                          VK_BUFFER_USAGE_TRANSFER_DST_BIT, MemoryKind::host);
+    if (!controls) {
+        return controls.error();
     }
-    if (made) {
-        made = make(controls_, VkDeviceSize{options.frames} * sizeof(gpu::ControlRec),
-                    VK_BUFFER_USAGE_TRANSFER_DST_BIT, MemoryKind::host);
-    }
-    return made;
+    controls_ = std::move(*controls);
+    return Done{};
 }
 
 Result<Done> FrameMemory::stage(const Sampler& sampler, const Domain& domain,
                                 const FrameMesh& mesh) {
-    VkDeviceSize from = 0;
-    const auto take = [&](VkDeviceSize to, VkDeviceSize bytes) {
-        uploads_.push_back({from, to, bytes});
-        const auto place = staging_.bytes().subspan(from, bytes);
-        from += bytes;
-        return place;
-    };
-    for (std::size_t i = 0; i < kBufferRoles; ++i) {
-        const auto role = static_cast<BufferRole>(i);
-        const std::size_t size = sampler.upload_size(domain, role);
-        if (size == 0) {
-            continue;
-        }
-        if (auto written =
-                sampler.write_upload(domain, plan_, role, take(layout_.offsets[i], size));
-            !written) {
-            return written;
-        }
+    if (auto staged = uploads_.stage_domain(sampler, domain, plan_, layout_); !staged) {
+        return staged;
     }
-    const auto put = [&](VkDeviceSize to, std::span<const std::byte> bytes) {
-        std::memcpy(take(to, bytes.size()).data(), bytes.data(), bytes.size());
-    };
-    put(vertices_, bytes_of(mesh.positions));
-    put(indices_, bytes_of(mesh.indices));
+    uploads_.stage(vertices_, bytes_of(mesh.positions));
+    uploads_.stage(indices_, bytes_of(mesh.indices));
     std::memset(controls_.bytes().data(), 0, controls_.bytes().size());
     return Done{};
 }
@@ -193,11 +164,7 @@ FrameSamples FrameMemory::samples() const {
 }
 
 void FrameMemory::record_upload(const DeviceTable& vk, VkCommandBuffer commands) {
-    for (const Upload& upload : uploads_) {
-        const VkBufferCopy region{upload.from, upload.to, upload.bytes};
-        vk.vkCmdCopyBuffer(commands, staging_.handle(), buffer_.handle(), 1, &region);
-    }
-    uploads_.clear();
+    uploads_.record(vk, commands, buffer_.handle());
     // Nothing to draw until samples are placed.
     vk.vkCmdFillBuffer(commands, buffer_.handle(), arguments_, sizeof(VkDrawIndirectCommand), 0);
 }

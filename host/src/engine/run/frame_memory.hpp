@@ -11,6 +11,7 @@
 #include <geodisk/placement.hpp>
 #include <geodisk/sampler.hpp>
 
+#include "engine/run/frame_buffers.hpp"
 #include "records.h"
 #include "vk/buffer.hpp"
 
@@ -44,17 +45,13 @@ class FrameMemory {
     /// Records the uploads, once.
     void record_upload(const DeviceTable& vk, VkCommandBuffer commands);
     /// Frees the staging memory, after the uploads have completed.
-    void free_staging() { staging_ = DeviceBuffer(); }
+    void free_staging() { uploads_.free(); }
 
     /// Records a copy of the control record to the host, to place `turn`, 0 to `frames` - 1.
     void record_control(const DeviceTable& vk, VkCommandBuffer commands, std::uint32_t turn) const;
     gpu::ControlRec control(std::uint32_t turn) const;
 
   private:
-    struct Upload {
-        VkDeviceSize from, to, bytes; ///< Offsets in the staging and in the buffer.
-    };
-
     Result<Done> allocate(const Sampler& sampler, const Domain& domain, const FrameMesh& mesh,
                           const FrameSamplerOptions& options);
     Result<Done> stage(const Sampler& sampler, const Domain& domain, const FrameMesh& mesh);
@@ -62,10 +59,10 @@ class FrameMemory {
         return {buffer_.handle(), offset, bytes};
     }
 
-    DeviceBuffer buffer_, staging_, controls_;
+    DeviceBuffer buffer_, controls_;
+    FrameUploads uploads_;
     WorkspaceLayout layout_;
     VkDeviceSize vertices_ = 0, indices_ = 0, placed_ = 0, arguments_ = 0; ///< Offsets.
-    std::vector<Upload> uploads_;
     RunPlan plan_;
     // Declared last: destroyed before the buffers.
     std::optional<Job> job_;

@@ -9,7 +9,7 @@
 #include "engine/job/sampler_impl.hpp"
 #include "engine/run/frame_growth.hpp"
 #include "engine/run/frame_memory.hpp"
-#include "engine/run/runner_impl.hpp"
+#include "engine/run/frame_run.hpp"
 #include "support/guard.hpp"
 #include "support/invalid.hpp"
 #include "vk/barriers.hpp"
@@ -240,26 +240,10 @@ Result<bool> FrameSampler::record(VkCommandBuffer commands) noexcept {
 Result<Done> FrameSampler::sample_and_wait(Runner& runner,
                                            const ProgressCallback& progress) noexcept {
     return guarded([&]() -> Result<Done> {
-        Runner::Impl& with = Runner::Impl::of(runner);
-        if (with.work) {
-            return invalid("a run of the runner is in progress");
-        }
-        while (!impl_->is_complete) {
-            Result<bool> recorded = false;
-            const auto submitted = with.submitter->run(
-                [&](VkCommandBuffer commands) { recorded = impl_->record_next(commands, 1); });
-            if (!submitted) {
-                return submitted.error();
-            }
-            if (!recorded) {
-                return recorded.error();
-            }
+        return run_frames(*impl_, runner, progress, [&] {
             const auto all = static_cast<std::uint32_t>(impl_->domain.stages().candidates());
-            if (progress && !progress({0, all, impl_->ready, 0, 0})) {
-                return Error{Status::cancelled, "cancelled"};
-            }
-        }
-        return Done{};
+            return Progress{0, all, impl_->ready, 0, 0};
+        });
     });
 }
 
