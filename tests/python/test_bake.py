@@ -48,12 +48,21 @@ def test_map_is_that_of_the_unrolled_sheet(pipe):
     apart = np.hypot(
         step * (u[..., None] - at[:, 0]), 2 * (v[..., None] - at[:, 1])
     )  # Of each texel from each sample.
-    # Texture coordinates are rounded to 1/256 texel.
-    rounding = 1.5 / 256 * max(step / 96, 2 / 64)
-    assert np.abs(found.distance - apart.min(axis=2)).max() < rounding + 1e-5
+    assert np.abs(found.distance - apart.min(axis=2)).max() < 1e-5
     nearest = np.take_along_axis(apart, found.sample[..., None], axis=2)[..., 0]
-    assert (nearest - apart.min(axis=2)).max() < 2 * rounding + 2e-5
+    assert (nearest - apart.min(axis=2)).max() < 2e-5
     assert (found.sample != apart.argmin(axis=2)).mean() < 0.01
+
+
+def test_distances_of_small_maps_are_exact(pipe):
+    samples = geodisk.sample(pipe, count=60, attributes=["uv"])
+    step = 24 * 2 * np.sin(np.pi / 48)
+    at = samples.attributes["uv"]
+    for size in [(1, 1), (3, 2), (7, 5)]:
+        found = geodisk.bake(pipe, samples, size=size)
+        u, v = centres(*size)
+        apart = np.hypot(step * (u[..., None] - at[:, 0]), 2 * (v[..., None] - at[:, 1]))
+        assert np.abs(found.distance - apart.min(axis=2)).max() < 1e-5
 
 
 def test_areas_are_those_of_cells(pipe):
@@ -82,8 +91,7 @@ def test_map_agrees_with_neighbours(tmp_path):
     weights = (weights / weights.sum(axis=1, keepdims=True)).astype(np.float32)
     texels = (found.face.ravel(), weights)
     near = geodisk.neighbours(mesh, sources=texels, among=samples, nearest=1)
-    rounding = 2e-3 * np.abs(points).max() / 40 * 8
-    assert np.abs(near.distances - found.distance.ravel()).max() < rounding
+    assert np.abs(near.distances - found.distance.ravel()).max() < 1e-5
     assert (near.indices == found.sample.ravel()).mean() > 0.98
 
 

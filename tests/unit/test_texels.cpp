@@ -77,8 +77,11 @@ Uv place_of(const MeshFile& mesh, const Texels& texels, std::size_t texel) {
 
 void check_places(const MeshFile& mesh, const Texels& texels) {
     const auto [width, height] = texels.size();
-    constexpr double kRounded = 1.5 / 256; // Of texture coordinates, in texels.
+    // Centres that only rounded coordinates cover are so far off, in texels; of others, weights are
+    // multiples of 2^-24.
+    constexpr double kRounded = 1.5 / 256, kExact = 0x1p-22;
     double worst = 0;
+    std::size_t covered = 0, rounded = 0;
     bool are_weights = true;
     for (std::size_t texel = 0; texel < texels.faces().size(); ++texel) {
         if (texels.faces()[texel] == Texels::kNone) {
@@ -92,11 +95,18 @@ void check_places(const MeshFile& mesh, const Texels& texels) {
             const double texels_off = at * count - centre;
             return std::abs(texels_off - std::round(texels_off / count) * count);
         };
-        worst = std::max({worst, off(u, width, static_cast<double>(texel % width) + 0.5),
-                          off(1 - v, height, static_cast<double>(texel / width) + 0.5)});
+        const double own = std::max(off(u, width, static_cast<double>(texel % width) + 0.5),
+                                    off(1 - v, height, static_cast<double>(texel / width) + 0.5));
+        worst = std::max(worst, own);
+        const bool is_exact = own < kExact * std::max(width, height);
+        // The nearest point of the face is at its rim.
+        are_weights = are_weights && (is_exact || *std::ranges::min_element(w) == 0);
+        ++covered;
+        rounded += is_exact ? 0 : 1;
     }
     CHECK(are_weights);
     CHECK(worst < kRounded);
+    CHECK(rounded <= covered / 20);
 }
 
 } // namespace
@@ -182,6 +192,29 @@ TEST_SUITE("texels") {
         CHECK(four.covered() == size.texels());
         CHECK(four.overlapping() == size.texels());
         check_places(tiled, four);
+    }
+
+    TEST_CASE("have the weights of coordinates that are not rounded") {
+        // The whole face is a few steps of rounding wide, around the centre of a texel.
+        std::mt19937 random(3);
+        std::uniform_real_distribution<double> off(0.5, 3);
+        const TextureSize size{8, 8};
+        for (int round = 0; round < 200; ++round) {
+            const auto near = [&](double x, double y) {
+                return Uv{(3.5 + x * off(random) / 256) / size.width,
+                          (3.5 + y * off(random) / 256) / size.height};
+            };
+            const MeshFile mesh = mesh_of({near(-1, -1), near(1, -1), near(0, 1)}, {0, 1, 2});
+            const Texels texels(mesh, size);
+            if (texels.covered() == 1) {
+                const std::size_t texel = std::size_t{4} * size.width + 3;
+                REQUIRE(texels.faces()[texel] == 0);
+                const auto [u, v] = place_of(mesh, texels, texel);
+                const auto w = texels.weights(texel);
+                const bool is_exact = std::hypot(u * 8 - 3.5, v * 8 - 3.5) < 1e-8;
+                CHECK((is_exact || *std::ranges::min_element(w) == 0));
+            }
+        }
     }
 
     TEST_CASE("see both ways of counting rows") {

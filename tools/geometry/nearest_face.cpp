@@ -11,8 +11,6 @@ namespace {
 
 constexpr std::uint32_t kLeaf = 4; ///< Faces that are not divided further.
 
-using Vector = std::array<double, kMostCoordinates>;
-
 Vector operator-(const Vector& a, const Vector& b) {
     Vector difference;
     std::ranges::transform(a, b, difference.begin(), std::minus<>());
@@ -23,8 +21,8 @@ double dot(const Vector& a, const Vector& b) {
     return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
 }
 
-/// The point of a triangle, by weights, that is nearest to the origin of `to`, which leads from the
-/// first corner to it.
+} // namespace
+
 std::array<double, 3> nearest_weights(const Vector& ab, const Vector& ac, const Vector& to) {
     const double b2 = dot(ab, ab), c2 = dot(ac, ac), bc = dot(ab, ac);
     const double b = dot(to, ab), c = dot(to, ac);
@@ -56,8 +54,6 @@ std::array<double, 3> nearest_weights(const Vector& ab, const Vector& ac, const 
     }
     return best;
 }
-
-} // namespace
 
 NearestFace::NearestFace(const MeshFile& mesh) : mesh_(mesh) {
     for (std::uint32_t face = 0; face < mesh.triangle_count(); ++face) {

@@ -18,6 +18,13 @@ struct SurfacePoint {
     double distance = 0;             ///< From the point that was asked for.
 };
 
+/// A point or a difference of points, in up to as many dimensions as meshes have.
+using Vector = std::array<double, kMostCoordinates>;
+
+/// Returns the weights of the point of a triangle that is nearest to a point. `ab`, `ac` and `to`
+/// lead from the first corner to the others and to the point. They sum to 1 up to rounding.
+std::array<double, 3> nearest_weights(const Vector& ab, const Vector& ac, const Vector& to);
+
 /// A tree of boxes over the faces of a mesh that take part, in any dimension. The mesh must outlive
 /// it and have at least one such face.
 class NearestFace {
@@ -32,7 +39,6 @@ class NearestFace {
     double diagonal() const;
 
   private:
-    using Vector = std::array<double, kMostCoordinates>;
     struct Node {
         Vector low, high;
         std::uint32_t begin, end; ///< In faces_, of a leaf.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/nearest_face.hpp"
 #include "program/interrupt.hpp"
 
 namespace geodisk::tools {
@@ -46,8 +47,8 @@ class TextureFace {
                                           : mesh.corners_in_file()[corner];
             const double u = uvs.values[2 * value], v = uvs.values[2 * value + 1];
             is_repeating_ = is_repeating_ || u < 0 || u > 1 || v < 0 || v > 1;
-            corners_[k] = {std::llround(u * size.width * kSteps),
-                           std::llround((uvs.is_from_top ? v : 1 - v) * size.height * kSteps)};
+            exact_[k] = {u * size.width, (uvs.is_from_top ? v : 1 - v) * size.height};
+            corners_[k] = {std::llround(exact_[k].x * kSteps), std::llround(exact_[k].y * kSteps)};
         }
         area_ = side(corners_[0], corners_[1], corners_[2]);
     }
@@ -74,15 +75,29 @@ class TextureFace {
         return found;
     }
 
-    /// Returns, in parts of the area, the weight of each corner; positive within.
-    std::array<std::int64_t, 3> weights(Spot spot) const {
-        const std::int64_t sign = area_ < 0 ? -1 : 1;
-        return {sign * side(corners_[1], corners_[2], spot),
-                sign * side(corners_[2], corners_[0], spot),
-                sign * side(corners_[0], corners_[1], spot)};
+    /// Returns the weights of the corners at the centre of a texel. They are those of coordinates
+    /// that are not rounded; a centre just outside of these counts as the nearest point of them.
+    std::array<double, 3> weights(std::int64_t column, std::int64_t row) const {
+        const auto from_first = [this](ExactSpot spot) {
+            return Vector{spot.x - exact_[0].x, spot.y - exact_[0].y};
+        };
+        const auto cross = [](const Vector& a, const Vector& b) {
+            return a[0] * b[1] - a[1] * b[0];
+        };
+        const Vector ab = from_first(exact_[1]), ac = from_first(exact_[2]);
+        const Vector to =
+            from_first({static_cast<double>(column) + 0.5, static_cast<double>(row) + 0.5});
+        const double area = cross(ab, ac), v = cross(to, ac) / area, w = cross(ab, to) / area;
+        return v >= 0 && w >= 0 && v + w <= 1 ? std::array{1 - v - w, v, w}
+                                              : nearest_weights(ab, ac, to); // Area 0 as well.
     }
 
   private:
+    /// A point of the texture in texels, from its upper left.
+    struct ExactSpot {
+        double x, y;
+    };
+
     /// Twice the area of a triangle: positive if `p` is to the side of the line that is kept.
     static std::int64_t side(Spot a, Spot b, Spot p) {
         return (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x);
@@ -104,7 +119,8 @@ class TextureFace {
         }
     }
 
-    std::array<Spot, 3> corners_{};
+    std::array<ExactSpot, 3> exact_{};
+    std::array<Spot, 3> corners_{}; // Rounded.
     std::int64_t area_ = 0;
     bool is_repeating_ = false;
 };
@@ -156,11 +172,10 @@ std::array<float, 3> Texels::weights(std::size_t texel) const {
         is_found = column <= right;
         row += is_found ? 0 : size_.height;
     }
-    const auto parts = face.weights({centre(column), centre(row)});
+    const auto parts = face.weights(column, row);
     constexpr double kOne = 0x1p24;
-    const double area = static_cast<double>(std::abs(face.area()));
-    double second = std::floor(static_cast<double>(parts[1]) / area * kOne + 0.5);
-    const double third = std::floor(static_cast<double>(parts[2]) / area * kOne + 0.5);
+    double second = std::floor(parts[1] * kOne + 0.5);
+    const double third = std::floor(parts[2] * kOne + 0.5);
     second = std::min(second, kOne - third); // Where both are rounded up.
     return {static_cast<float>((kOne - second - third) / kOne), static_cast<float>(second / kOne),
             static_cast<float>(third / kOne)};

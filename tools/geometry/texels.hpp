@@ -17,8 +17,8 @@ struct TextureSize {
     std::size_t texels() const { return std::size_t{width} * height; }
 };
 
-/// Takes four bytes for each texel. Texture coordinates are rounded to 1/256 texel, so that of
-/// faces side by side just one covers a centre on their edge.
+/// Takes four bytes for each texel. For what covers a centre, texture coordinates are rounded to
+/// 1/256 texel, so that of faces side by side just one covers a centre on their edge.
 class Texels {
   public:
     static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
@@ -33,8 +33,8 @@ class Texels {
     TextureSize size() const { return size_; }
     /// Returns the face of each texel or kNone, row by row; the first has the corner u = 0, v = 1.
     const std::vector<std::uint32_t>& faces() const { return faces_; }
-    /// Returns the weights of the face's corners at the centre of a texel with a face: multiples of
-    /// 2^-24 that sum to 1.
+    /// Returns the weights of the face's corners at the centre of a texel with a face, by texture
+    /// coordinates that are not rounded: multiples of 2^-24 that sum to 1.
     std::array<float, 3> weights(std::size_t texel) const;
 
     std::uint64_t covered() const { return covered_; }
