@@ -268,3 +268,92 @@ def test_records_that_cannot_be(obj, roof, tmp_path):
     flat = np.array(SQUARE)[:, :2]
     with pytest.raises(geodisk.InvalidArgument, match="3 coordinates"):
         geodisk.sample(flat, [[0, 1, 2, 3]], min_distance=0.2, frames=True)
+
+
+def own_attributes(samples):
+    n = len(samples)
+    return {
+        "label": np.arange(n) - 3,
+        "flag": np.arange(n) % 2 == 0,
+        "whole": np.ones(n),
+        "half": np.arange(n) / 2,
+        "far": np.where(np.arange(n) == 1, np.inf, 2.0),
+        "pair": np.arange(2 * n).reshape(n, 2),
+        "color": np.zeros((n, 3)),
+    }
+
+
+@pytest.mark.parametrize("kind", ["npz", "csv", "ply"])
+def test_attributes_keep_their_types_in_files(tmp_path, kind):
+    samples = geodisk.sample_box([1, 1], min_distance=0.2)
+    samples.attributes.update(own_attributes(samples))
+    samples.save(tmp_path / f"a.{kind}")
+    again = geodisk.read(tmp_path / f"a.{kind}").attributes
+    if kind != "npz":
+        pair = [again.pop("pair_0"), again.pop("pair_1")]
+        again["pair"] = np.stack(pair, axis=1)
+    assert set(again) == set(samples.attributes)
+    for name, values in own_attributes(samples).items():
+        assert np.array_equal(again[name], values), name
+        assert again[name].dtype == (np.float64 if values.dtype == float else np.int32), name
+
+
+def test_text_of_ply_has_the_types_of_its_header(tmp_path):
+    path = tmp_path / "a.ply"
+    path.write_text(
+        "ply\nformat ascii 1.0\ncomment box: 1.0 x 1.0\nelement vertex 2\n"
+        "property double x\nproperty double y\nproperty int label\nproperty double level_of\n"
+        "property uchar red\nproperty uchar green\nproperty uchar blue\n"
+        "end_header\n0 0 7 1 255 0 0\n1 1 8 2 0 255 51\n"
+    )
+    read = geodisk.read(path)
+    assert read.attributes["label"].dtype == np.int32
+    assert read.attributes["level_of"].dtype == np.float64
+    assert np.allclose(read.attributes["color"], [[1, 0, 0], [0, 1, 0.2]])
+
+
+@pytest.mark.parametrize("kind", ["npz", "csv", "ply"])
+@pytest.mark.parametrize(
+    "name, values, error, text",
+    [
+        ("a", [1.0, 2.0], ValueError, r"'a' has the shape \(2,\), not"),
+        ("a", 3.0, ValueError, r"'a' has the shape \(\), not"),
+        ("a", np.full(36, None), TypeError, "'a' has to be of numbers, not of object"),
+        ("a", np.full(36, "b"), TypeError, "'a' has to be of numbers"),
+        ("a", np.full(36, 1j), TypeError, "'a' has to be of numbers"),
+        ("a", np.full(36, -(2**63)), ValueError, "'a' has integers above 2"),
+        ("a", np.ma.masked_all(36), TypeError, "'a' has masked values"),
+        ("a", [[1], [2, 3]] * 18, TypeError, "'a' has to be an array"),
+        ("points", np.zeros(36), ValueError, "'points' has the name of a column"),
+        ("x", np.zeros(36), ValueError, "'x' has the name of a column"),
+        ("class", np.zeros(36), ValueError, "'class' has the name of a column"),
+        ("", np.zeros(36), TypeError, "the name of an attribute is ''"),
+        (3, np.zeros(36), TypeError, "the name of an attribute is 3"),
+    ],
+)
+def test_attributes_that_do_not_fit_are_not_saved(tmp_path, kind, name, values, error, text):
+    samples = geodisk.sample_box([1, 1], count=36, exact=True)
+    samples.attributes[name] = values
+    with pytest.raises(error, match=text):
+        samples.save(tmp_path / f"a.{kind}")
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_columns_that_do_not_fit_are_not_saved(tmp_path):
+    samples = geodisk.sample_box([1, 1], count=36, exact=True)
+    samples.attributes.update({"a b": np.zeros(36), "a_b": np.ones(36)})
+    with pytest.raises(geodisk.InvalidArgument, match="two attributes have the column 'a_b'"):
+        samples.save(tmp_path / "a.npz")
+    del samples.attributes["a_b"]
+    samples.save(tmp_path / "a.ply")
+    assert list(geodisk.read(tmp_path / "a.ply").attributes) == ["a_b"]
+    samples.columns["group"] = np.zeros(3, np.uint32)
+    with pytest.raises(geodisk.InvalidArgument, match="group has the shape"):
+        samples.save(tmp_path / "b.csv")
+    with pytest.raises(geodisk.InvalidArgument, match="group has the shape"):
+        samples[:2]
+    samples.columns["group"] = np.zeros(36, np.uint32)
+    samples.points[3, 0] = np.nan
+    with pytest.raises(geodisk.InvalidArgument, match="points.* is nan"):
+        samples.save(tmp_path / "b.csv")
+    assert [path.name for path in tmp_path.iterdir()] == ["a.ply"]

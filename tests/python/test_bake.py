@@ -117,10 +117,13 @@ def test_what_cannot_be_baked(pipe, tmp_path):
     corner = geodisk.Samples([[0, 0, 0]])
     with pytest.raises(geodisk.InvalidArgument, match="no texture coordinates"):
         geodisk.bake(bare, corner)
-    with pytest.raises(geodisk.InvalidArgument, match="texels"):
+    with pytest.raises(geodisk.InvalidArgument, match="size is 0, not from 1 to 16384"):
         geodisk.bake(pipe, samples, size=0)
-    with pytest.raises(geodisk.InvalidArgument, match="size"):
-        geodisk.bake(pipe, samples, size=20000)
+    for size in (20000, (16, -1), (1, 2, 3)):
+        with pytest.raises(geodisk.InvalidArgument, match="size is"):
+            geodisk.bake(pipe, samples, size=size)
+    with pytest.raises(TypeError, match="size is 1.5, not an integer"):
+        geodisk.bake(pipe, samples, size=1.5)
     with pytest.raises(TypeError, match="path"):
         geodisk.bake(geodisk.Mesh(pipe), samples)
     with pytest.raises(TypeError, match="Samples"):

@@ -281,7 +281,7 @@ def test_render(tmp_path):
         (lambda: geodisk.render(SAMPLES, VERTICES * 2, FACES), ValueError, "another mesh"),
         (lambda: geodisk.render(SAMPLES, style="oil"), ValueError, "is none of auto"),
         (lambda: geodisk.render(SAMPLES, view="above"), ValueError, "view takes"),
-        (lambda: geodisk.render(SAMPLES, size=(0, 1)), ValueError, "size takes"),
+        (lambda: geodisk.render(SAMPLES, size=(0, 1)), ValueError, "size is 0, not from 1 to 16384"),
         (lambda: geodisk.render(SAMPLES, size=(20, 20), legend=True), ValueError, "does not fit"),
         (lambda: geodisk.render(SAMPLES, device="nowhere"), geodisk.NoDevice, "nowhere"),
     ],
@@ -298,7 +298,7 @@ def test_arrays_that_changed_are_noticed():
     assert not geodisk.verify(samples)
     damaged = dataclasses.replace(SAMPLES, points=points)
     points[3, 0] = np.nan
-    with pytest.raises(geodisk.InvalidArgument, match="record 3: x"):
+    with pytest.raises(geodisk.InvalidArgument, match=r"points\[3, 0\] is nan"):
         geodisk.verify(damaged)
 
 

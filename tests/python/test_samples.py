@@ -2,12 +2,15 @@
 
 import copy
 import multiprocessing
+import os
 import pickle
+import subprocess
 
 import numpy as np
 import pytest
 
 import geodisk
+from geodisk._writing import digest_of
 from meshes import FACES, VERTICES
 from test_mesh_sources import CUBE, SIDES
 
@@ -107,3 +110,45 @@ def test_faces_as_given_are_saved(tmp_path, kind):
     again = geodisk.read(tmp_path / f"a.{kind}")
     assert again.polygon_index.dtype == np.uint32
     assert np.array_equal(again.polygon_index, SAMPLES.polygon_index)
+
+
+@pytest.mark.parametrize("kind", ["npz", "csv", "ply"])
+def test_files_of_some_samples_say_so(tmp_path, kind):
+    whole = geodisk.sample(VERTICES, FACES, min_distance=0.3, seed=5)
+    surface = {"vertices": VERTICES, "faces": FACES}
+    path = tmp_path / f"a.{kind}"
+    some = whole[whole.points[:, 0] > 0][:-3]
+    some.save(path)
+    read = geodisk.read(path)
+    assert read.report["options"] == ["selection"]
+    for one in (some, read, read[::-1], pickle.loads(pickle.dumps(some))):
+        with pytest.raises(geodisk.InvalidArgument, match="removed, added or changed; give all"):
+            geodisk.update(one, **surface)
+    assert geodisk.verify(read, VERTICES, FACES)
+    assert read._digest == digest_of(read.face_index, read.barycentric)
+    whole[::-1].save(path)  # All of them, in another order.
+    assert "options" not in geodisk.read(path).report
+    assert len(geodisk.update(geodisk.read(path), **surface)) == len(whole)
+
+
+def test_the_program_knows_files_of_some_samples(tmp_path):
+    mesh, path = tmp_path / "mesh.off", tmp_path / "some.csv"
+    rows = [" ".join(map(repr, row)) for row in VERTICES.tolist()]
+    rows += [f"3 {a} {b} {c}" for a, b, c in FACES.tolist()]
+    mesh.write_text("\n".join([f"OFF\n{len(VERTICES)} {len(FACES)} 0", *rows, ""]))
+    whole = geodisk.sample(mesh, min_distance=0.3)
+
+    def told(*arguments):
+        ended = subprocess.run(
+            [os.environ["GEODISK_COMMAND"], *map(str, arguments)], capture_output=True, text=True
+        )
+        return ended.returncode, ended.stderr
+
+    whole[whole.points[:, 0] > 0].save(path)
+    status, text = told("verify", mesh, path)
+    assert status == 0 and "digest" not in text and "removed" not in text
+    update = ["sample", mesh, "-d", 0.3, "--from", mesh, "-o", tmp_path / "b.csv", "--update", path]
+    status, text = told(*update)
+    assert status != 0 and "selection" in text
+    whole.save(path)
+    assert told(*update)[0] == 0

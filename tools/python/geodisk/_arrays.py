@@ -10,9 +10,20 @@ from numpy.typing import ArrayLike, NDArray
 from . import _errors as e
 
 
+def array_of(values: ArrayLike, name: str) -> NDArray[Any]:
+    """As an array. Raises TypeError for rows of different lengths and masked values."""
+    try:
+        array = np.asarray(values)
+    except Exception:  # Of numpy, or of the object.
+        raise TypeError(f"{name} has to be an array, with rows of one length") from None
+    if isinstance(values, np.ma.MaskedArray) and np.any(values.mask):
+        raise TypeError(f"{name} has masked values; fill them, such as by values.filled(0)")
+    return array
+
+
 def real(array: ArrayLike, name: str) -> NDArray[Any]:
     """As float64, or float32 where it is that."""
-    array = np.asarray(array)
+    array = array_of(array, name)
     if array.dtype.kind not in "fiu":
         raise TypeError(f"{name} has to be of real numbers, not of {array.dtype}")
     if array.dtype not in (np.float64, np.float32):
@@ -33,7 +44,7 @@ def indices(
     values: ArrayLike, name: str, error: type[e.Error] = e.InvalidArgument
 ) -> NDArray[Any]:
     """As uint32, or uint16 where it is that. Other numbers raise `error`."""
-    array = np.asarray(values)
+    array = array_of(values, name)
     if array.size == 0 and array.dtype.kind == "f":  # As numpy has [].
         array = array.astype(np.uint32)
     if array.dtype.kind not in "iu":

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
 from typing import Any
 
@@ -95,12 +96,14 @@ def columns_of_attributes(attributes: dict[str, NDArray[Any]]) -> dict[str, NDAr
     """Returns attributes as columns of one number each."""
     columns: dict[str, NDArray[Any]] = {}
     for name, array in attributes.items():
-        if array.ndim == 1:
-            columns[name] = array
-            continue
-        width = array.shape[1]
-        numbered = tuple(f"{name}_{i}" for i in range(width))
-        columns.update(zip(_COMPONENTS.get((name, width), numbered), array.T))
+        width = array.shape[1] if array.ndim == 2 else 1
+        own = tuple(f"{name}_{i}" for i in range(width)) if array.ndim == 2 else (name,)
+        # Files have no other characters in names.
+        own = tuple(re.sub(r"[^\w.-]", "_", one, flags=re.ASCII) for one in own)
+        own = _COMPONENTS.get((name, width), own)
+        if twice := columns.keys() & set(own):
+            raise e.invalid(f"two attributes have the column {twice.pop()!r}; rename one of them")
+        columns.update(zip(own, array.reshape(len(array), width).T))
     return columns
 
 

@@ -9,11 +9,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from . import _errors as e
 from ._inputs import write_samples
 from ._program import folder, run
 from ._samples import Samples
-from ._values import integer
+from ._values import pixels
 
 
 @dataclass(frozen=True, eq=False)
@@ -85,10 +84,7 @@ def bake(
         raise TypeError("bake needs the path of a mesh file, which has texture coordinates")
     if not isinstance(samples, Samples):
         raise TypeError(f"samples are a geodisk.Samples, not {type(samples).__name__}")
-    sides = (size, size) if np.ndim(size) == 0 else tuple(size)  # type: ignore[arg-type]
-    if len(sides) != 2:
-        raise e.invalid(f"size is {size}, neither a number nor (width, height)")
-    width, height = (integer(side, "size", 16384) for side in sides)
+    width, height = pixels((size, size) if np.ndim(size) == 0 else size)
     path = os.fspath(mesh)
     with folder() as place:
         files = [os.path.abspath(path), write_samples(place, samples)]

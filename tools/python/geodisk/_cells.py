@@ -114,7 +114,7 @@ def cells(
         samples=points.ctypes.data,
         sample_count=len(points),
         areas_only=int(not dual),
-        most_records=integer(most_records, "most_records", 2**64 - 1),
+        most_records=integer(most_records, "most_records", 2**64 - 1, 1),
     )
     handle = search("cells", "geodisk_find_cells", on, params, name_of(device), progress)
     told = s.CellArrays()

@@ -17,14 +17,15 @@ from ._mesh import Mesh
 from ._results import places_of
 from ._running import Runs
 from ._samples import Samples
+from ._values import number
 
 
 class Features:
     """The features of a run: edges where triangles meet at more than some degrees, and corners."""
 
     def __init__(self, degrees: float, mesh: Mesh, device: DeviceLike | None) -> None:
-        self._degrees = math.nan if isinstance(degrees, bool) else float(degrees)
-        if not (math.isfinite(self._degrees) and 1 <= self._degrees <= 180):
+        self._degrees = math.nan if isinstance(degrees, bool) else number(degrees, "features")
+        if not 1 <= self._degrees <= 180:
             raise e.invalid(f"features is {degrees!r}, not an angle from 1 to 180 degrees")
         self._mesh, self._device = mesh, device
         self._corners = c_size_t()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import pathlib
 from typing import Any
 
@@ -13,6 +14,7 @@ from ._mesh import mesh_of
 from ._protocols import Faces, MeshLike
 from ._samples import Samples
 from ._surface import Surface
+from ._values import weld_of
 from ._writing import columns_of, header_of, write_ply
 
 
@@ -34,7 +36,7 @@ def surface_of(
         if samples.face_index is None and samples.extents is not None:
             raise e.invalid("samples in a box lie on no mesh")
         return mesh_of(vertices, faces, edge_lengths, weld, keep_seams)._surface
-    if faces is not None or edge_lengths is not None or weld is not False or keep_seams:
+    if faces is not None or edge_lengths is not None or weld_of(weld) is not False or keep_seams:
         raise TypeError(
             "faces, edge_lengths, weld and keep_seams are of a mesh whose vertices are given"
         )
@@ -45,6 +47,7 @@ def surface_of(
 
 def write_samples(folder: pathlib.Path, samples: Samples) -> str:
     """Writes them to a file; its name."""
+    samples = dataclasses.replace(samples, attributes={})  # The program needs none.
     with open(folder / "samples.ply", "wb") as file:
         write_ply(file, samples, header_of(samples))
     return "samples.ply"

@@ -16,7 +16,7 @@ from ._existing import POINT
 from ._mesh import Mesh
 from ._results import copied, report_of
 from ._running import Made, Runs
-from ._values import integer
+from ._values import integer, number
 
 #: Parts of a report that add up over the levels.
 _SUMMED = (
@@ -60,7 +60,7 @@ def levels_of(
     count = 0 if levels is None else integer(levels, "levels", 2**32)
     if levels is not None and not 1 <= count <= 32:
         raise e.invalid(f"levels is {count}, not from 1 to 32")
-    return Levels(count, 2.0 if factor is None else float(factor))
+    return Levels(count, 2.0 if factor is None else number(factor, "level_factor"))
 
 
 def run_levels(

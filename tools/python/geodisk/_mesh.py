@@ -21,7 +21,7 @@ from ._protocols import Faces, MeshLike
 from ._record import NOTHING, Record, check_texture
 from ._source import Source, read_file, split
 from ._surface import Surface
-from ._values import flag
+from ._values import flag, names, weld_of
 
 
 class Mesh:
@@ -118,7 +118,10 @@ class Mesh:
         _record: Record = NOTHING,
     ) -> None:
         source: Source | None = None
-        flag(keep_seams, "keep_seams")
+        weld, keep_seams = weld_of(weld), flag(keep_seams, "keep_seams")
+        attributes, columns = names(attributes, "attributes"), names(columns, "columns")
+        if mesh_format is not None and not isinstance(mesh_format, str):
+            raise TypeError(f"mesh_format is {mesh_format!r}, not a name")
         if faces is None and isinstance(vertices, (str, os.PathLike)):
             if edge_lengths is not None:
                 raise TypeError("edge_lengths need faces given as arrays, not a file")
@@ -129,8 +132,8 @@ class Mesh:
                     stop,
                     weld=weld,
                     keep_seams=keep_seams,
-                    attributes=_names(attributes),
-                    columns=_names(columns),
+                    attributes=attributes,
+                    columns=columns,
                     mesh_format=mesh_format,
                     has_normals=_record.normals == "file",
                     has_uvs=_record.texture is not None,
@@ -151,7 +154,7 @@ class Mesh:
                 source = interruptible(lambda stop: split(points, polygons, weld, keep_seams, stop))
                 surface = _surface_of(source, vertices, keep_seams)
             else:
-                surface = Surface(vertices, given, edge_lengths, weld, bool(keep_seams))
+                surface = Surface(vertices, given, edge_lengths, weld, keep_seams)
         _record.check(surface)
         self._source = source.handle if source else None
         check_texture(self, _record)
@@ -237,17 +240,13 @@ def _surface_of(source: Source, vertices: Any, keep_seams: bool) -> Surface:
     return Surface(
         vertices,
         source.triangles,
-        keep_seams=bool(keep_seams),
+        keep_seams=keep_seams,
         polygons=source.polygons,
         attributes=source.attributes,
         joined=source.joined,
         columns=source.columns,
         corners=source.corners if source.joined is not None else None,
     )
-
-
-def _names(given: str | Sequence[str]) -> tuple[str, ...]:
-    return (given,) if isinstance(given, str) else tuple(given)
 
 
 def created(surface: Surface) -> c.Handle:
@@ -305,9 +304,9 @@ def mesh_of(
             attributes=attributes,
             _record=record,
         )
-    if faces is not None or edge_lengths is not None or weld is not False or keep_seams:
+    if faces is not None or edge_lengths is not None or weld_of(weld) is not False or keep_seams:
         raise TypeError("a geodisk.Mesh has its faces, lengths and welds already")
-    if columns or attributes or mesh_format is not None:
+    if names(columns, "columns") or names(attributes, "attributes") or mesh_format is not None:
         raise TypeError(
             "a geodisk.Mesh has its columns already; give columns, attributes and mesh_format to it"
         )

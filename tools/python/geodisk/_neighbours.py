@@ -136,7 +136,7 @@ def neighbours(
     mesh = mesh_of(vertices, faces, edge_lengths, weld, keep_seams, mesh_format=mesh_format)
     params = s.NeighbourParams(
         nearest=integer(nearest, "nearest", 2**32 - 1),
-        most_pairs=integer(most_pairs, "most_pairs", 2**64 - 1),
+        most_pairs=integer(most_pairs, "most_pairs", 2**64 - 1, 1),
     )
     kept: list[NDArray[Any]] = []  # What the library reads.
 
@@ -188,9 +188,15 @@ def _set_within(
             raise e.invalid("give within, the distance within which neighbours are, or nearest")
         return
     distances = real(within, "within").astype(np.float64)
+    wrong = ~((distances > 0) & np.isfinite(distances))
+    if wrong.any():
+        place = np.argwhere(wrong)[0]
+        at = f"[{', '.join(map(str, place))}]" if place.size else ""
+        raise e.invalid(
+            f"within{at} is {distances[tuple(place)]}, not positive and finite; leave it out to find "
+            "the nearest ones however far they are"
+        )
     if distances.ndim == 0:
-        if float(distances) == 0:  # Which the library takes for any distance.
-            raise e.invalid("within is 0, which is not positive and finite")
         params.within = float(distances)
         return
     if count is None:

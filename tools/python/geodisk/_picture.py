@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import os
-from typing import Sequence
+from typing import Any, Iterable, Sequence
 
+import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _errors as e
@@ -14,7 +15,7 @@ from ._inputs import surface_of, write_subject
 from ._program import folder, run
 from ._protocols import Faces, MeshLike
 from ._samples import Samples
-from ._values import flag
+from ._values import flag, number, pixels, text
 
 
 class Picture:
@@ -117,21 +118,34 @@ def render(
     <geodisk.Picture of 320 x 240 pixels>
     """
     surface = surface_of(samples, vertices, faces, None, weld, keep_seams)
-    options = ["--size", "x".join(map(str, size)), "--style", style, "--background", background]
-    for one in [view] if isinstance(view, (str, tuple)) else view:
-        name = one if isinstance(one, str) else ",".join(repr(float(angle)) for angle in one)
-        options.append(f"--view={name}")
+    width, height = pixels(size)
+    options = ["--size", f"{width}x{height}", f"--style={text(style, 'style')}"]
+    options += [f"--background={text(background, 'background')}", *_views(view)]
     if up is not None:
-        options += ["--up", up]
+        options.append(f"--up={text(up, 'up')}")
     if flag(cut, "cut"):
         options.append("--cut")
     if flag(legend, "legend"):
         options.append("--legend")
     if min_distance is not None:
-        options += ["--min-distance", repr(float(min_distance))]
+        options += ["--min-distance", repr(number(min_distance, "min_distance"))]
     if name_of(device):
         options += ["--device", name_of(device)]
     with folder() as place:
         files = write_subject(place, samples, surface)
         run(place, ["render", *files, *options, "--output", "picture.png"])
         return Picture((place / "picture.png").read_bytes())
+
+
+def _views(view: Any) -> list[str]:
+    """Returns the options of one or several views."""
+    is_one = isinstance(view, str) or (
+        isinstance(view, Sequence) and len(view) == 2 and not isinstance(view[0], (str, Sequence))
+    )
+    options = []
+    for one in [view] if is_one else view if isinstance(view, Iterable) else [view]:
+        if not isinstance(one, str) and np.shape(one) != (2,):
+            raise TypeError(f"view is {one!r}, neither a name nor azimuth and elevation")
+        angles = one if isinstance(one, str) else ",".join(repr(number(x, "view")) for x in one)
+        options.append(f"--view={angles}")
+    return options

@@ -14,16 +14,9 @@ from numpy.typing import NDArray
 from . import _errors as e
 from ._attributes import attributes_of_columns
 from ._samples import Samples
-from ._writing import WHOLE_COLUMNS, Header
+from ._writing import ARRAYS, OWN_COLUMNS, WHOLE_COLUMNS, Header, is_whole
 
 Columns = dict[str, NDArray[Any]]
-
-# Columns that are no attributes.
-_OWN_COLUMNS = {
-    *("x y z nx ny nz face_index bary_u bary_v bary_w radius polygon_index order").split(),
-    *(f"x{axis}" for axis in range(8)),
-    *WHOLE_COLUMNS,
-}
 
 
 def read(path: str | os.PathLike[str]) -> Samples:
@@ -127,16 +120,15 @@ def _class_distances(text: str, distance: float) -> NDArray[np.float64]:
 
 
 def _from_npz(file: BinaryIO) -> Samples:
-    names = ("points", "normals", "face_index", "barycentric", "radius", "polygon_index")
     if not zipfile.is_zipfile(file):
         raise ValueError("is not a numpy archive, or is cut short")
     file.seek(0)
     with np.load(file, allow_pickle=False) as archive:
         header = json.loads(str(archive["header"])) if "header" in archive else {}
         header.update({n: str(archive[n]) for n in ("min_distance", "seed") if n in archive})
-        arrays = {name: archive[name] for name in names if name in archive}
+        arrays = {name: archive[name] for name in ARRAYS if name in archive}
         columns = {name: archive[name] for name in WHOLE_COLUMNS if name in archive}
-        known = {*names, *WHOLE_COLUMNS, "header", "min_distance", "seed"}
+        known = {*ARRAYS, *WHOLE_COLUMNS, "header", "min_distance", "seed"}
         rows = len(next(iter(arrays.values()), ()))
         others = {name: archive[name] for name in archive if name not in known}
         attributes = {
@@ -179,7 +171,7 @@ def _of_columns(columns: Columns, header: Header) -> Samples:
         radius=columns.get("radius"),
         columns={name: _whole(columns, name) for name in WHOLE_COLUMNS if name in columns},
         attributes=attributes_of_columns(
-            {name: x for name, x in columns.items() if name not in _OWN_COLUMNS}
+            {name: x for name, x in columns.items() if name not in {*OWN_COLUMNS, *WHOLE_COLUMNS}}
         ),
     )
 
@@ -191,6 +183,17 @@ def _text_columns(lines: list[str], names: list[str], delimiter: str | None) -> 
     if rows.shape[1] != len(names):
         raise ValueError(f"has {rows.shape[1]} columns, but names of {len(names)}")
     return dict(zip(names, rows.T))
+
+
+def _with_integers(columns: Columns, lines: list[str]) -> Columns:
+    """Returns the columns of attributes as int32 where their text has integers alone."""
+    found = dict(columns)
+    for index, (name, column) in enumerate(columns.items()):
+        if name not in OWN_COLUMNS and is_whole(column):
+            texts = (line.split(",")[index].strip() for line in lines)
+            if all(text.removeprefix("-").isdigit() for text in texts):
+                found[name] = column.astype(np.int32)
+    return found
 
 
 def _add_entry(header: Header, text: str) -> None:
@@ -220,7 +223,8 @@ def _from_csv(file: BinaryIO) -> Samples:
     count = header.pop("samples", None)
     if count is not None and count != str(len(lines) - 1):
         raise ValueError(f"has {len(lines) - 1} samples, but its header says {count}")
-    return _of_columns(_text_columns(lines[1:], names, ","), header)
+    columns = _text_columns(lines[1:], names, ",")
+    return _of_columns(_with_integers(columns, lines[1:]), header)
 
 
 _TYPES = {
@@ -258,6 +262,7 @@ def _from_ply(file: BinaryIO) -> Samples:
     names = [name for name, _ in types]
     if order == "":
         columns = _text_columns(_lines(file), names, None)
+        columns.update({n: columns[n].astype(t) for n, t in types if not t.startswith("f")})
     else:
         kind = np.dtype([(name, order + scalar) for name, scalar in types])
         data = file.read()

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _errors as e
-from ._arrays import indices, real
+from ._arrays import array_of, indices, real
 from ._attributes import check_finite, interpolated, values_of
 from ._files import complete
 from ._job import Job
@@ -22,6 +22,7 @@ from ._surface import Surface
 from ._values import flag
 from ._writing import (
     WHOLE_COLUMNS,
+    check_names,
     columns_of,
     digest_of,
     header_of,
@@ -69,13 +70,21 @@ def _column(values: ArrayLike, name: str, n: int) -> NDArray[np.uint32]:
 
 def _attribute(values: ArrayLike, name: str, n: int) -> NDArray[Any]:
     """As int32 or float64, one or several numbers for each of n samples."""
-    array = np.asarray(values)
+    if not isinstance(name, str) or not name:
+        raise TypeError(f"the name of an attribute is {name!r}, not a text")
+    array = array_of(values, f"the attribute {name!r}")
     if array.dtype.kind not in "biuf":
-        raise TypeError(f"the attribute {name} has to be of numbers, not of {array.dtype}")
+        raise TypeError(f"the attribute {name!r} has to be of numbers, not of {array.dtype}")
     if array.ndim not in (1, 2) or len(array) != n:
-        raise e.invalid(f"the attribute {name} has the shape {array.shape}, not ({n},) or ({n}, k)")
-    is_whole = array.dtype.kind != "f" and (array.size == 0 or np.abs(array).max() < 2**31)
-    return array.astype(np.int32 if is_whole else np.float64, copy=False)
+        raise e.invalid(
+            f"the attribute {name!r} has the shape {array.shape}, not ({n},) or ({n}, k)"
+        )
+    if array.dtype.kind == "f":
+        return array.astype(np.float64, copy=False)
+    least, most = (int(array.min()), int(array.max())) if array.size > 0 else (0, 0)
+    if max(-least, most) > 2**53:
+        raise e.invalid(f"the attribute {name!r} has integers above 2^53, which float64 cannot hold")
+    return array.astype(np.int32 if -(2**31) < least and most < 2**31 else np.float64, copy=False)
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -253,8 +262,9 @@ class Samples:
         chosen: dict[str, Any] = {
             name: None if x is None else x[key] for name, x in columns.items()
         }
-        for name in ("columns", "attributes"):
-            chosen[name] = {column: x[key] for column, x in getattr(self, name).items()}
+        for name, checked in (("columns", _column), ("attributes", _attribute)):
+            own = getattr(self, name).items()
+            chosen[name] = {one: checked(x, one, len(self))[key] for one, x in own}
         return dataclasses.replace(self, **chosen, _digest=self._digest_of_set())
 
     def __iter__(self) -> Iterator[Sample]:
@@ -272,6 +282,12 @@ class Samples:
         return self._digest is None or (
             faces is not None and weights is not None and self._digest == digest_of(faces, weights)
         )
+
+    def _checked(self) -> Samples:
+        """Returns the samples; raises if what was assigned to their dicts and arrays does not fit."""
+        samples = dataclasses.replace(self)
+        check_names(samples.attributes)
+        return samples
 
     def _sample(self, i: int) -> Sample:
         def row(array: NDArray[Any] | None) -> Any:
@@ -398,9 +414,10 @@ class Samples:
             import pandas
         except ImportError:
             raise ImportError("to_dataframe() needs pandas (pip install pandas)") from None
-        columns = {**columns_of(self, as_box=True), "radius": self.radius, "order": self.order}
+        samples = self._checked()
+        columns = {**columns_of(samples, as_box=True), "radius": self.radius, "order": self.order}
         table = pandas.DataFrame({name: column.copy() for name, column in columns.items()})
-        table.attrs.update(header_of(self))
+        table.attrs.update(header_of(samples))
         return table
 
     def save(self, path: str | os.PathLike[str]) -> None:
@@ -418,14 +435,21 @@ class Samples:
         Raises
         ------
         ValueError
-            For another file extension.
+            For another file extension, and for attributes and columns that do not fit the samples,
+            or have the name of another one.
         OSError
             Where it cannot be written. What was there is kept.
+
+        Notes
+        -----
+        In CSV and PLY files a "_" replaces each character of the names of attributes that is no
+        letter, digit, "_", "." or "-".
         """
         path = os.fspath(path)
         writers = {".npz": write_npz, ".csv": write_csv, ".ply": write_ply}
         write = writers.get(os.path.splitext(path)[1].lower())
         if write is None:
             raise e.invalid(f"{path}: samples are saved as *.npz, *.csv or *.ply")
+        samples = self._checked()
         with complete(path) as file:
-            write(file, self, header_of(self))
+            write(file, samples, header_of(samples))

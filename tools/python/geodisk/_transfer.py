@@ -19,6 +19,7 @@ from ._protocols import Faces, MeshLike
 from ._reading import read
 from ._record import Record, recorded
 from ._samples import Samples
+from ._values import names
 
 _OF_ONE_POSE = frozenset({"cover", "frames"})
 
@@ -91,7 +92,7 @@ def transfer(
     if is_mesh(to):
         mesh = mesh_of(to, None, None, False, attributes=attributes, record=record)
     else:
-        if attributes:
+        if names(attributes, "attributes"):
             raise TypeError("attributes are for meshes from files")
         mesh = Mesh(
             to, source.faces, weld=source.weld, keep_seams=source.keep_seams, _record=record

@@ -26,6 +26,7 @@ from ._running import Made, ProgressCallback
 from ._samples import Samples
 from ._searching import searched
 from ._surface import Surface
+from ._writing import SELECTION
 
 
 def update(
@@ -107,8 +108,6 @@ def update(
         raise e.invalid("samples in a box have no mesh")
     if samples.seed is None or not samples.min_distance > 0:
         raise e.invalid("these samples do not know their seed and minimum distance")
-    if not samples._is_whole():
-        raise e.invalid("some samples of the set were removed, added or changed; give all of it")
     job = _job_of(samples, before)
     given = {
         "density": density,
@@ -199,6 +198,8 @@ class _Side:
 def _job_of(samples: Samples, before: Mapping[str, Any] | None) -> Job:
     """Returns what the samples were made with."""
     options = samples.report.get("options", [])
+    if SELECTION in options or not samples._is_whole():
+        raise e.invalid("some samples of the set were removed, added or changed; give all of it")
     if others := [name for name in options if name not in FOLLOWED]:
         raise e.invalid(
             f"samples made with {', '.join(others)} cannot be updated; sample the mesh again"

@@ -5,7 +5,8 @@ from __future__ import annotations
 import math
 import numbers
 import operator
-from typing import Any
+import reprlib
+from typing import Any, Iterable
 
 import numpy as np
 
@@ -15,16 +16,65 @@ from . import _errors as e
 def flag(value: object, name: str) -> bool:
     """Returns True or False. Raises for anything else, such as "no", which would count as true."""
     if not isinstance(value, (bool, np.bool_)):
-        raise TypeError(f"{name} is {value!r}, neither True nor False")
+        raise TypeError(f"{name} is {reprlib.repr(value)}, neither True nor False")
     return bool(value)
 
 
-def integer(value: Any, name: str, most: int) -> int:
-    """Returns a whole number from 0 to `most`."""
-    number = operator.index(value)
-    if not 0 <= number <= most:
-        raise e.invalid(f"{name} is {number}, not from 0 to {most}")
+def integer(value: Any, name: str, most: int, least: int = 0) -> int:
+    """Returns a whole number from `least` to `most`."""
+    try:
+        number = operator.index(value)
+    except TypeError:
+        raise TypeError(f"{name} is {reprlib.repr(value)}, not an integer") from None
+    if not least <= number <= most:
+        raise e.invalid(f"{name} is {number}, not from {least} to {most}")
     return number
+
+
+def number(value: Any, name: str) -> float:
+    """Returns a number as float. Raises TypeError for text, arrays of several and the like."""
+    try:
+        if isinstance(value, (str, bytes, bool, np.bool_)):
+            raise TypeError
+        return float(value)
+    except (TypeError, ValueError):
+        raise TypeError(f"{name} is {reprlib.repr(value)}, not a number") from None
+    except OverflowError:
+        raise e.invalid(f"{name} is above 1e308, which is too large") from None
+
+
+def weld_of(weld: Any) -> bool | float:
+    """Returns False, True, or the distance up to which vertices are joined."""
+    if isinstance(weld, (bool, np.bool_)):
+        return bool(weld)
+    distance = number(weld, "weld")
+    if not 0 <= distance < math.inf:
+        raise e.invalid(f"weld is {distance}, neither True nor a distance of 0 or more")
+    return distance
+
+
+def pixels(size: Any) -> tuple[int, int]:
+    """Returns a width and a height, each from 1 to 16384."""
+    if isinstance(size, str) or np.shape(size) != (2,):
+        raise e.invalid(f"size is {reprlib.repr(size)}, not (width, height)")
+    return integer(size[0], "size", 16384, 1), integer(size[1], "size", 16384, 1)
+
+
+def text(value: object, name: str) -> str:
+    """Returns a str. Raises TypeError for anything else."""
+    if not isinstance(value, str):
+        raise TypeError(f"{name} is {reprlib.repr(value)}, not a text")
+    return value
+
+
+def names(given: Any, name: str) -> tuple[str, ...]:
+    """Returns one or several names."""
+    if isinstance(given, str):
+        return (given,)
+    several = list(given) if isinstance(given, Iterable) else [None]
+    if not all(isinstance(one, str) for one in several):
+        raise TypeError(f"{name} is {reprlib.repr(given)}, neither a name nor a list of names")
+    return tuple(several)
 
 
 def check_exact(exact: bool, count: float | None, stop_count: int = 0) -> None:
@@ -41,7 +91,7 @@ def check_exact(exact: bool, count: float | None, stop_count: int = 0) -> None:
 
 def check_pool(count: float | None, pool_ratio: float, throws: int = 0) -> None:
     """Checks that the pool for a count is not too large."""
-    if not pool_ratio >= 1:
+    if not number(pool_ratio, "pool_ratio") >= 1:
         raise e.invalid(f"pool_ratio is {pool_ratio}, not from 1 to 10,000")
     candidates = float(count or 0) * float(pool_ratio)
     if throws == 0 and candidates >= 2**32:
@@ -63,9 +113,9 @@ def distance_of(
     if sum(given) != 1:
         raise e.invalid("give one of min_distance, radius and count")
     if min_distance is not None:
-        distance = float(min_distance)
+        distance = number(min_distance, "min_distance")
     elif radius is not None:
-        distance = 2 * float(radius)
+        distance = 2 * number(radius, "radius")
     else:
         return None
     if not (distance > 0 and math.isfinite(distance)):

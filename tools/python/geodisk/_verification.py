@@ -18,7 +18,7 @@ from ._program import folder, run
 from ._protocols import Faces, MeshLike
 from ._radii import one_of
 from ._samples import Samples
-from ._values import flag
+from ._values import flag, number
 from ._writing import has_own_radii
 
 
@@ -203,7 +203,7 @@ def verify(
     varying = one_of(density, radius_factor)
     surface = surface_of(samples, vertices, faces, edge_lengths, weld, keep_seams)
     if min_distance is not None:
-        min_distance = float(min_distance)
+        min_distance = number(min_distance, "min_distance")
         if not (min_distance > 0 and math.isfinite(min_distance)):
             raise e.invalid(f"the minimum distance is {min_distance}, not positive")
     elif (varying or not has_own_radii(samples)) and not samples.min_distance > 0:
@@ -224,7 +224,7 @@ def verify(
         if maximal:
             arguments.append("--maximal")
         if tolerance is not None:
-            arguments += ["--tolerance", repr(float(tolerance))]
+            arguments += ["--tolerance", repr(number(tolerance, "tolerance"))]
         values = radius_factor if density is None else density
         if varying and surface is not None and values is not None:
             arguments += write_density(place, surface, varying, values)

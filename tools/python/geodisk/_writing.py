@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, BinaryIO
 import numpy as np
 from numpy.typing import NDArray
 
+from . import _errors as e
 from . import _library as c
 from ._attributes import columns_of_attributes
 
@@ -16,6 +17,18 @@ if TYPE_CHECKING:
     from ._samples import Samples
 
 Header = dict[str, str]
+
+#: Columns of samples besides those of WHOLE_COLUMNS.
+OWN_COLUMNS = (
+    *("x y z nx ny nz face_index bary_u bary_v bary_w radius polygon_index order").split(),
+    *(f"x{axis}" for axis in range(8)),
+)
+
+#: Arrays of samples in NPZ files, besides those of WHOLE_COLUMNS.
+ARRAYS = ("points", "normals", "face_index", "barycentric", "radius", "polygon_index")
+
+#: Among the options of samples that are some of their set.
+SELECTION = "selection"
 
 #: Names of columns of whole numbers: what part of its file a triangle lies in, whether the sample
 #: was given, its class, its feature, and its level.
@@ -44,10 +57,13 @@ def header_of(samples: Samples) -> Header:
         header["classes"] = ";".join(rows) + (";" if len(rows) == 1 else "")
     if samples.seed is not None:
         header["seed"] = str(samples.seed)
-    if (digest := samples._digest_of_set()) is not None:
-        header["digest"] = digest
-    if samples.report.get("options"):
-        header["options"] = " ".join(samples.report["options"])
+    options = list(samples.report.get("options", []))
+    if samples.face_index is not None and samples.barycentric is not None:
+        header["digest"] = digest_of(samples.face_index, samples.barycentric)
+        if not samples._is_whole() and SELECTION not in options:
+            options.append(SELECTION)
+    if options:
+        header["options"] = " ".join(options)
     if samples.level_distances is not None:
         header["order"] = "progressive"
         header["level_distances"] = " ".join(map(repr, samples.level_distances))
@@ -68,6 +84,17 @@ def digest_of(faces: NDArray[np.uint32], weights: NDArray[np.float64]) -> str:
             hashes ^= word >> np.uint64(shift) & np.uint64(0xFF)
             hashes *= np.uint64(0x100000001B3)
     return f"{int(hashes.sum(dtype=np.uint64)):016x}"
+
+
+def check_names(attributes: dict[str, NDArray[Any]]) -> None:
+    """Raises if an attribute has the name of something else that files have."""
+    taken = {*OWN_COLUMNS, *ARRAYS, *WHOLE_COLUMNS, "header", "min_distance", "seed"}
+    for name in [*attributes, *columns_of_attributes(attributes)]:
+        if name in taken:
+            raise e.invalid(
+                f"the attribute {name!r} has the name of a column of samples; rename it, such as "
+                f"samples.attributes['my_{name}'] = samples.attributes.pop({name!r})"
+            )
 
 
 def has_own_radii(samples: Samples) -> bool:
@@ -120,8 +147,20 @@ def write_csv(file: BinaryIO, samples: Samples, header: Header) -> None:
     entries = {**header, "samples": str(len(samples))}
     lines = [f"# {key}: {value}\n" for key, value in entries.items()]
     file.write(("".join(lines) + ",".join(columns) + "\n").encode())
-    formats = ["%.17g" if column.dtype.kind == "f" else "%d" for column in columns.values()]
+    formats = [_format_of(name, column) for name, column in columns.items()]
     np.savetxt(file, np.stack(list(columns.values()), axis=1), fmt=formats, delimiter=",")
+
+
+def is_whole(column: NDArray[Any]) -> bool:
+    """Whether all numbers are integers that fit int32."""
+    return bool(((np.abs(column) < 2**31) & (np.rint(column) == column)).all())
+
+
+def _format_of(name: str, column: NDArray[Any]) -> str:
+    """Returns a format that keeps all digits, by which attributes of floats differ from integers."""
+    if column.dtype.kind != "f":
+        return "%d"
+    return "%.1f" if name not in OWN_COLUMNS and is_whole(column) else "%.17g"
 
 
 def write_ply(file: BinaryIO, samples: Samples, header: Header) -> None:

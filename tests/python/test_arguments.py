@@ -1,0 +1,55 @@
+"""Arguments of a wrong kind are refused by their names, in words of the package."""
+
+import numpy as np
+import pytest
+
+import geodisk
+from meshes import FACES, VERTICES
+
+SAMPLES = geodisk.sample(VERTICES, FACES, min_distance=0.3, seed=5)
+
+
+def near(**options):
+    return geodisk.neighbours(VERTICES, FACES, **options)
+
+
+@pytest.mark.parametrize(
+    "call, kind, text",
+    [
+        (lambda: geodisk.Mesh("builtin:cube", attributes=3), TypeError, "attributes is 3, neither"),
+        (lambda: geodisk.Mesh("builtin:cube", columns=["part", 3]), TypeError, "columns is"),
+        (lambda: geodisk.Mesh("builtin:cube", mesh_format=3), TypeError, "mesh_format is 3"),
+        (lambda: geodisk.Mesh(VERTICES, FACES, weld="yes"), TypeError, "weld is 'yes', not a num"),
+        (lambda: geodisk.Mesh(VERTICES, FACES, weld=-1), ValueError, "weld is -1.0, neither"),
+        (lambda: near(nearest=2.5), TypeError, "nearest is 2.5, not an integer"),
+        (lambda: near(within=np.inf), ValueError, "within is inf, not positive and finite"),
+        (lambda: near(sources=[0, 1], within=[1, np.nan]), ValueError, r"within\[1\] is nan"),
+        (lambda: near(within=1, most_pairs=0), ValueError, "most_pairs is 0, not from 1"),
+        (lambda: geodisk.cells((VERTICES, FACES), SAMPLES, most_records=0), (ValueError, TypeError), ""),
+        (lambda: geodisk.farthest_order(SAMPLES, count=1.5), TypeError, "count is 1.5, not an int"),
+        (lambda: geodisk.sample(VERTICES, FACES, min_distance="1"), TypeError, "min_distance is '1'"),
+        (lambda: geodisk.sample(VERTICES, FACES, radius=[1, 2]), TypeError, "radius is .*not a num"),
+        (lambda: geodisk.sample(VERTICES, FACES, radius=10**400), ValueError, "radius is above 1e308"),
+        (lambda: geodisk.sample(VERTICES, FACES, radius=1, pool_ratio="a"), TypeError, "pool_ratio is"),
+        (lambda: geodisk.sample(VERTICES, FACES, radius=1, features="a"), TypeError, "features is 'a'"),
+        (lambda: geodisk.verify(SAMPLES, min_distance="a"), TypeError, "min_distance is 'a', not"),
+        (lambda: geodisk.verify(SAMPLES, tolerance="a"), TypeError, "tolerance is 'a', not a number"),
+        (lambda: geodisk.render(SAMPLES, size=3), ValueError, r"size is 3, not \(width, height\)"),
+        (lambda: geodisk.render(SAMPLES, style=3), TypeError, "style is 3, not a text"),
+        (lambda: geodisk.render(SAMPLES, view=3), TypeError, "view is 3, neither a name"),
+        (lambda: geodisk.render(SAMPLES, view=[(1, 2, 3)]), TypeError, "view is .*, neither a name"),
+        (lambda: geodisk.render(SAMPLES, up=1), TypeError, "up is 1, not a text"),
+    ],
+)
+def test_what_is_refused(call, kind, text):
+    with pytest.raises(kind, match=text):
+        call()
+
+
+def test_booleans_of_numpy_are_booleans():
+    soup = VERTICES[FACES].reshape(-1, 3), np.arange(3 * len(FACES)).reshape(-1, 3)
+    welded = geodisk.Mesh(*soup, weld=np.bool_(True))
+    assert welded.info["components"] == geodisk.Mesh(*soup, weld=True).info["components"] == 1
+    far_apart = VERTICES[:3], [[0, 1, 2]]  # A distance of 1 would join them.
+    assert geodisk.Mesh(*far_apart, weld=np.bool_(True)).area > 0
+    assert geodisk.Mesh(*far_apart, weld=np.bool_(False)).area > 0
