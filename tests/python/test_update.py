@@ -8,6 +8,7 @@ import pytest
 
 import geodisk
 from meshes import FACES, SOUP, VERTICES, same, torus
+from test_attributes import write_png
 
 SAMPLES = geodisk.sample(VERTICES, FACES, min_distance=0.3, seed=5)
 MASK = np.arange(len(FACES)) % 3 != 0
@@ -113,6 +114,134 @@ def test_keys_find_faces_that_are_elsewhere():
     assert there.report["update"]["rounds"] == 0
 
 
+def test_what_the_samples_were_made_with_must_fit_other_faces():
+    place = ([3], [[0.25, 0.5, 0.25]])
+    for name, value, what in [
+        ("face_mask", MASK, "faces"),
+        ("face_mask", np.flatnonzero(MASK), "faces"),
+        ("face_keys", np.arange(len(FACES)), "faces"),
+        ("existing", place, "faces"),
+        ("avoid", (place, 0.5), "faces"),
+        ("radius_factor", np.full(len(VERTICES), 0.9), "vertices"),
+    ]:
+        made = whole(**{name: value})
+        for to in (torus(9, 9), torus(42, 20)):
+            with pytest.raises(geodisk.InvalidArgument, match=f"{name}.* other {what}; give {name}"):
+                geodisk.update(made, *to)
+    turned = np.asarray(FACES)[::-1].copy()
+    with pytest.raises(geodisk.InvalidArgument, match="other faces; give face_mask"):
+        geodisk.update(whole(face_mask=MASK), VERTICES, turned)
+    there = geodisk.update(whole(face_mask=MASK), VERTICES, turned, face_mask=MASK[::-1])
+    assert MASK[::-1][there.face_index].all()
+
+
+ROOF = (  # With normals that are not those of its faces.
+    "v 0 0 0\nv 1 0 1\nv 1 1 1\nv 0 1 0\nv 2 0 0\nv 2 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n"
+    "vn 0 0 1\nvn 1 0 1\nusemtl a\nf 1/1/1 2/2/1 3/3/1 4/4/1\nusemtl b\nf 2/1/2 5/2/2 6/3/2 3/4/2\n"
+)
+
+
+@pytest.fixture
+def roof(tmp_path):
+    """Paths of a mesh, of an edited one, and of an image."""
+    paths = tmp_path / "roof.obj", tmp_path / "moved.obj", tmp_path / "ramp.png"
+    paths[0].write_text(ROOF)
+    paths[1].write_text(ROOF.replace("v 1 1 1\n", "v 1 1 1.1\n"))
+    write_png(paths[2], np.arange(48, dtype=np.uint8).reshape(4, 4, 3) * 5)
+    return paths
+
+
+def equal(a, b):
+    assert same(a, b) and list(a.attributes) == list(b.attributes)
+    assert np.array_equal(a.normals, b.normals) and np.array_equal(a.points, b.points)
+    for name, values in b.attributes.items():
+        assert np.array_equal(a.attributes[name], values), name
+    assert a.columns.keys() == b.columns.keys()
+    for name, column in b.columns.items():
+        assert np.array_equal(a.columns[name], column), name
+
+
+@pytest.mark.filterwarnings("error::geodisk.GeodiskWarning")
+@pytest.mark.parametrize("normals", ["face", "smooth", "file"])
+def test_updates_keep_normals_frames_colours_and_attributes(roof, normals):
+    record = dict(
+        min_distance=0.2, seed=4, texture=roof[2], frames=True, attributes=["uv"], normals=normals
+    )
+    before, after = geodisk.sample(roof[0], **record), geodisk.sample(roof[1], **record)
+    equal(geodisk.update(before, roof[1]), after)
+    equal(geodisk.update(geodisk.update(before, roof[1]), roof[0]), before)
+    chosen = before.points[:, 0] < 1
+    mask = np.array([True, True, False, False])
+    masked = geodisk.sample(roof[0], **record, face_mask=mask)
+    equal(geodisk.update(before, face_mask=mask), masked)
+    assert len(masked) < len(chosen)
+    given = dict(texture=roof[2], frames=True, attributes=["uv"], normals=normals)
+    plain = geodisk.sample(roof[0], min_distance=0.2, seed=4)
+    equal(geodisk.update(plain, roof[1], **given), after)
+    less = geodisk.update(before, roof[1], normals="face", frames=False, attributes=())
+    assert list(less.attributes) == ["color"]
+
+
+@pytest.mark.filterwarnings("error::geodisk.GeodiskWarning")
+def test_moved_vertices_keep_what_the_faces_have(roof):
+    mesh = geodisk.Mesh(roof[0], attributes=["uv"], columns=["material"])
+    before = geodisk.sample(mesh, min_distance=0.2, seed=4, normals="smooth", frames=True)
+    moved = geodisk.Mesh(roof[1], attributes=["uv"], columns=["material"])
+    after = geodisk.sample(moved, min_distance=0.2, seed=4, normals="smooth", frames=True)
+    equal(geodisk.update(before, moved.vertices), after)
+    assert set(after.columns["material"]) == {0, 1}
+    coloured = dict(min_distance=0.2, seed=4, texture=roof[2])
+    there = geodisk.update(geodisk.sample(roof[0], **coloured), moved.vertices)
+    equal(there, geodisk.sample(roof[1], **coloured))
+    equal(geodisk.update(there, mesh.vertices), geodisk.sample(roof[0], **coloured))
+    # Polygons keep their numbers, so that a mask may go by them.
+    there = geodisk.update(before, moved.vertices, face_mask=[False, True])
+    assert set(there.polygon_index) == {1}
+
+
+def test_what_updates_cannot_keep_is_warned_of(roof):
+    own = geodisk.sample(roof[0], min_distance=0.2, seed=4)
+    own.attributes["own"] = np.arange(len(own))
+    with pytest.warns(geodisk.GeodiskWarning, match=r"lack attributes\['own'\]") as told:
+        assert same(geodisk.update(own, roof[1]), geodisk.sample(roof[1], min_distance=0.2, seed=4))
+    assert [(one.message.kind, one.message.count) for one in told] == [("not_kept", 1)]
+    assert told[0].filename == __file__
+    before = geodisk.sample(roof[0], min_distance=0.2, seed=4, normals="file", attributes=["uv"])
+    vertices = geodisk.Mesh(roof[1]).vertices
+    with pytest.warns(geodisk.GeodiskWarning, match=r"lack normals='file' of"):
+        there = geodisk.update(before, vertices)
+    assert "uv" in there.attributes
+    with pytest.warns(geodisk.GeodiskWarning, match=r"lack attributes\['uv'\], normals='file'"):
+        geodisk.update(before, geodisk.Mesh(roof[1]))
+    with pytest.raises(geodisk.InvalidArgument, match="has no attribute 'color'"):
+        geodisk.update(before, attributes=["color"])
+
+
+def test_samples_of_files_know_their_normals(roof, tmp_path):
+    before = geodisk.sample(roof[0], min_distance=0.2, seed=4, normals="smooth", frames=True)
+    after = geodisk.sample(roof[1], min_distance=0.2, seed=4, normals="smooth", frames=True)
+    for kind in ("npz", "csv", "ply"):
+        before.save(tmp_path / f"a.{kind}")
+        read = geodisk.read(tmp_path / f"a.{kind}")
+        assert read.attributes.keys() == {"frames"}
+        equal(geodisk.update(read, roof[1], vertices=roof[0]), after)
+        equal(geodisk.transfer(read, roof[0], roof[0]), geodisk.transfer(before, roof[0]))
+    equal(geodisk.update(pickle.loads(pickle.dumps(before)), roof[1], vertices=roof[0]), after)
+
+
+def test_transfers_keep_normals_and_frames(roof):
+    for normals in ("face", "smooth", "file"):
+        record = dict(normals=normals, frames=True)
+        before = geodisk.sample(roof[0], min_distance=0.2, seed=4, **record)
+        plain = geodisk.sample(roof[0], min_distance=0.2, seed=4)
+        equal(geodisk.transfer(before, roof[1]), geodisk.transfer(plain, roof[1], **record))
+    with pytest.warns(geodisk.GeodiskWarning, match=r"lack normals='file' of"):
+        there = geodisk.transfer(before, geodisk.Mesh(roof[1]).vertices)
+    equal(there, geodisk.transfer(plain, roof[1], frames=True))
+    with pytest.raises(geodisk.InvalidArgument, match="made with transfer cannot be updated"):
+        geodisk.update(there, roof[1])
+
+
 @pytest.mark.filterwarnings("ignore::geodisk.MeshWarning")
 def test_what_cannot_be_updated_is_refused():
     def refused(match, samples=SAMPLES, *arguments, kind=geodisk.InvalidArgument, **options):
@@ -130,13 +259,21 @@ def test_what_cannot_be_updated_is_refused():
     refused("made with sample_many cannot", many[0])
     refused("not made 0.2 apart", dataclasses.replace(SAMPLES, min_distance=0.2), edited)
     refused("made with maximal cannot", whole(maximal=True), edited)
-    refused("radii", SAMPLES, radius_factor=np.full(len(VERTICES), 0.5))
+    refused("made without density and radius_factor, so radius_factor changes all", SAMPLES,
+            radius_factor=np.full(len(VERTICES), 0.5))
     refused("not from 0.001 to 1|below 0.001|nan", whole(radius_factor=np.ones(len(VERTICES))),
             radius_factor=np.full(len(VERTICES), np.nan))
     refused("none of", kind=TypeError, before={"seed": 1})
     refused("to_faces", kind=TypeError, to_faces=FACES)
     refused("no mesh", geodisk.sample_box([1, 1], min_distance=0.2))
-    refused("edge", SAMPLES, VERTICES * [1, 1, 1000])
+    refused("the edited mesh has an edge that is longer", SAMPLES, VERTICES * [1, 1, 1000])
+    flap = np.concatenate([FACES, [[0, FACES[0, 1], 9]]])
+    refused("edges of more than two faces, and the mesh before has none", SAMPLES, VERTICES, flap)
+    density = 1 + (VERTICES[:, 0] > 0)
+    refused("another largest or least value", whole(density=density), density=density**2)
+    refused("with density, so radius_factor changes", whole(density=density), radius_factor=density)
+    refused("before is 3, not a dict", kind=TypeError, before=3)
+    refused("pool_ratio is 'a'", kind=TypeError, before={"pool_ratio": "a"})
     other = torus(9, 9)
     refused("face|mesh", SAMPLES, edited, vertices=other[0], faces=other[1])
     with pytest.raises(geodisk.Cancelled):

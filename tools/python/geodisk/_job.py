@@ -7,6 +7,8 @@ from typing import Any
 
 from numpy.typing import ArrayLike
 
+from . import _library as c
+
 
 @dataclass(frozen=True, eq=False)
 class Job:
@@ -20,6 +22,7 @@ class Job:
     face_mask: ArrayLike | None = None
     existing: Any = None
     avoid: Any = None
+    source: c.Handle | None = None  #: The file of the mesh, or what its faces were given as.
 
 
 #: Arguments of sample() that updates follow.

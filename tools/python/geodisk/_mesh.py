@@ -18,7 +18,7 @@ from ._objects import arrays_of, faces_of, is_object
 from ._oddities import oddities_of, warn
 from ._polygons import Polygons
 from ._protocols import Faces, MeshLike
-from ._record import NOTHING, Record, check_texture
+from ._record import NOTHING, Record, check_record
 from ._source import Source, read_file, split
 from ._surface import Surface
 from ._values import flag, names, weld_of
@@ -157,7 +157,7 @@ class Mesh:
                 surface = Surface(vertices, given, edge_lengths, weld, keep_seams)
         _record.check(surface)
         self._source = source.handle if source else None
-        check_texture(self, _record)
+        check_record(self, _record)
         self._prepare(surface, source.joined_edges if source else 0)
         self.warnings = oddities_of(self._handle, source.handle if source else None)
         warn(self.warnings)

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from . import _errors as e
 from ._attributes import attributes_of_columns
+from ._record import Record
 from ._samples import Samples
 from ._writing import ARRAYS, OWN_COLUMNS, WHOLE_COLUMNS, Header, is_whole
 
@@ -104,6 +105,10 @@ def _samples(header: Header, **arrays: Any) -> Samples:
     options += [name for key, name in _OPTIONS.items() if key in header and name not in options]
     if options:
         arrays["report"] = {"options": options}
+    if "version" in header:
+        arrays["_record"] = Record(
+            None, header.get("normals", "face"), "frames" in arrays.get("attributes", {})
+        )
     arrays["seed"] = int(header["seed"]) if "seed" in header else None
     return Samples(**arrays)
 

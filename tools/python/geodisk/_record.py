@@ -68,20 +68,39 @@ NOTHING = Record(None, "face", False)
 def recorded(samples: Samples, mesh: Mesh, record: Record) -> Samples:
     """Returns samples with what they get of their mesh, as the program writes it."""
     if record.is_nothing():
-        return samples
+        return dataclasses.replace(samples, _record=record)
     assert samples.face_index is not None and samples.barycentric is not None
     normals = np.array(samples.normals, np.float64, order="C")
     added = _record(
         mesh, record, samples.face_index, samples.barycentric, normals, samples.seed or 0
     )
     return dataclasses.replace(
-        samples, normals=normals, attributes={**samples.attributes, **added}
+        samples, normals=normals, attributes={**samples.attributes, **added}, _record=record
     )
 
 
-def check_texture(mesh: Mesh, record: Record) -> None:
-    """Raises for an image that cannot be read, before samples are made for it."""
-    if record.texture is not None:
+def coloured(samples: Samples, mesh: Mesh, texture: str | None) -> Samples:
+    """Returns samples with the colours of a texture, by the texture coordinates of a mesh."""
+    if texture is None or mesh._source is None or "color" in samples.attributes:
+        return samples
+    assert samples.face_index is not None and samples.barycentric is not None
+    normals = np.empty((len(samples), 3))
+    colours = Record(texture, "face", False)
+    try:
+        added = _record(mesh, colours, samples.face_index, samples.barycentric, normals, 0)
+    except e.InvalidArgument:  # The image is gone.
+        return samples
+    had = samples._record or NOTHING
+    return dataclasses.replace(
+        samples,
+        attributes={**samples.attributes, **added},
+        _record=Record(texture, had.normals, had.frames),
+    )
+
+
+def check_record(mesh: Mesh, record: Record) -> None:
+    """Raises for images and normals that cannot be read, before samples are made for them."""
+    if record.texture is not None or record.normals == "file":
         none = np.empty((0, 3))
         _record(mesh, record, np.empty(0, np.uint32), none, none, 0)
 

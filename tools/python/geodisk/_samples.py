@@ -35,6 +35,7 @@ if TYPE_CHECKING:
     import pandas
 
     from ._mesh import Mesh
+    from ._record import Record
 
 _COLUMNS = (
     "points",
@@ -178,6 +179,7 @@ class Samples:
     _surface: Surface | None = None
     _digest: str | None = None  # Of the set that these are of, if these may be a part.
     _job: Job | None = None  # What they were made with, for updates.
+    _record: Record | None = None  # What they have of their mesh; None if that is unknown.
 
     def __post_init__(self) -> None:
         def keep(name: str, value: Any) -> None:

@@ -307,7 +307,15 @@ def sample(
     }
     samples.report["options"] = [name for name, is_chosen in chosen.items() if is_chosen]
     job = Job(
-        run_distance, pool_ratio, density, radius_factor, face_keys, face_mask, existing, avoid
+        run_distance,
+        pool_ratio,
+        density,
+        radius_factor,
+        face_keys,
+        face_mask,
+        existing,
+        avoid,
+        mesh._source,
     )
     samples = dataclasses.replace(samples, _job=job)
     if order == "farthest":

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _errors as e
+from ._inherited import Wanted
 from ._inputs import surface_of, write_samples, write_surface
 from ._mesh import Mesh, is_mesh, mesh_of
 from ._program import folder, run
@@ -19,7 +20,6 @@ from ._protocols import Faces, MeshLike
 from ._reading import read
 from ._record import Record, recorded
 from ._samples import Samples
-from ._values import names
 
 _OF_ONE_POSE = frozenset({"cover", "frames"})
 
@@ -32,8 +32,8 @@ def transfer(
     *,
     attributes: str | Sequence[str] = (),
     texture: str | os.PathLike[str] | None = None,
-    normals: str = "face",
-    frames: bool = False,
+    normals: str | None = None,
+    frames: bool | None = None,
     edge_lengths: ArrayLike | None = None,
     weld: bool | float = False,
     keep_seams: bool = False,
@@ -52,19 +52,20 @@ def transfer(
     texture : str or path-like, optional
         PNG or JPEG image whose colours to add, as ``attributes["color"]``, at the texture
         coordinates that the file `to` has.
-    normals : {"face", "file", "smooth"}
-        Normals of triangles, those of the file `to`, or interpolated means at vertices.
-    frames : bool
+    normals : {"face", "file", "smooth"}, optional
+        Normals of triangles, those of the file `to`, or interpolated means at vertices. By default
+        as the samples have them.
+    frames : bool, optional
         Add ``attributes["frames"]``, shape (n, 4): quaternions (x, y, z, w) that turn z to the
-        normal, after a random angle about z.
+        normal, after a random angle about z. By default if the samples have them.
     vertices, faces, edge_lengths, weld, keep_seams
         Mesh of the samples, as for :func:`sample`. Needed for samples that were read from a file.
 
     Returns
     -------
     Samples
-        Samples with the same faces and weights, and their attributes but for ``frames`` and
-        ``cover``, which other poses change. `min_distance` is their smallest distance there,
+        Samples with the same faces and weights, and their attributes but for ``cover``, which other
+        poses change. `min_distance` is their smallest distance there,
         NaN if no path joins two samples, and `radius` is half of it.
 
     Raises
@@ -73,6 +74,11 @@ def transfer(
         For samples that are not on their mesh, and for different faces.
     MeshRejected, TypeError, NoProgram, KeyboardInterrupt
         As :func:`verify` does.
+
+    Warns
+    -----
+    GeodiskWarning
+        Where the samples have normals of a file, and `to` is none; theirs are those of triangles.
 
     Examples
     --------
@@ -87,16 +93,18 @@ def transfer(
     source = surface_of(samples, vertices, faces, edge_lengths, weld, keep_seams)
     if source is None:
         raise e.invalid("samples in a box have no mesh")
-    record = Record(texture, normals, frames)
+    wanted = Wanted(texture, normals, frames, attributes, has_colours=True)
     path = _path_of(to)
-    if is_mesh(to):
-        mesh = mesh_of(to, None, None, False, attributes=attributes, record=record)
-    else:
-        if names(attributes, "attributes"):
+    own_faces, own_weld, own_seams = source.faces, source.weld, source.keep_seams
+
+    def make(record: Record, read: Sequence[str]) -> Mesh:
+        if is_mesh(to):
+            return mesh_of(to, None, None, False, attributes=read, record=record)
+        if read:
             raise TypeError("attributes are for meshes from files")
-        mesh = Mesh(
-            to, source.faces, weld=source.weld, keep_seams=source.keep_seams, _record=record
-        )
+        return Mesh(to, own_faces, weld=own_weld, keep_seams=own_seams, _record=record)
+
+    mesh, record = wanted.mesh(samples, (), make)
     target = mesh._surface
     with folder() as place:
         # A file has the corners from before vertices were joined.
@@ -125,8 +133,9 @@ def transfer(
         normals=there.normals if dimension == 3 else None,
         radius=np.full(len(samples), distance / 2),
         min_distance=distance,
-        report={},
+        report={"options": ["transfer"]},
         _surface=target,
+        _job=None,
     )
     assert moved.face_index is not None and moved.barycentric is not None
     found = {
@@ -135,7 +144,9 @@ def transfer(
     }
     kept = {name: one for name, one in samples.attributes.items() if name not in _OF_ONE_POSE}
     moved = dataclasses.replace(moved, attributes={**kept, **found})
-    return recorded(moved, mesh, record)
+    moved = recorded(moved, mesh, record)
+    wanted.warn_of_lost(samples, moved)
+    return moved
 
 
 def _path_of(mesh: Any) -> str | None:

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import copy
 import ctypes
 import dataclasses
 import math
+import os
 from ctypes import byref
-from typing import Any, Mapping
+from typing import Any, Mapping, Sequence
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -14,18 +16,22 @@ from numpy.typing import ArrayLike, NDArray
 from . import _errors as e
 from . import _library as c
 from . import _structs as s
+from ._attributes import Attribute
 from ._devices import DeviceLike, name_of
 from ._existing import POINT, AvoidLike, ExistingLike, avoided_of, existing_of, points_of
+from ._inherited import Wanted
 from ._inputs import surface_of
 from ._job import FOLLOWED, Job
 from ._mesh import Mesh, is_mesh, keys_of, mask_of, mesh_of
 from ._protocols import Faces, MeshLike
-from ._radii import radii_of
+from ._radii import one_of, radii_of
+from ._record import Record, check_record, coloured, recorded
 from ._results import samples_of
 from ._running import Made, ProgressCallback
 from ._samples import Samples
 from ._searching import searched
 from ._surface import Surface
+from ._values import check_pool
 from ._writing import SELECTION
 
 
@@ -41,6 +47,10 @@ def update(
     existing: ExistingLike | None = None,
     avoid: AvoidLike | None = None,
     before: Mapping[str, Any] | None = None,
+    attributes: str | Sequence[str] | None = None,
+    texture: str | os.PathLike[str] | None = None,
+    normals: str | None = None,
+    frames: bool | None = None,
     vertices: ArrayLike | MeshLike | None = None,
     faces: Faces | None = None,
     weld: bool | float = False,
@@ -65,10 +75,14 @@ def update(
     density, radius_factor, face_keys, face_mask, existing, avoid
         Parameters of :func:`sample` on the edited mesh. By default those of the mesh before, to which
         samples of :func:`sample` refer. A density must keep its largest and least value. An empty
-        pair as `existing` or as points of `avoid` removes those before.
+        pair as `existing` or as points of `avoid` removes those before. Needed for an edited mesh
+        of other faces, or of another number of vertices, if the samples were made with them.
     before : mapping, optional
         The same parameters on the mesh before, and `pool_ratio`, by name. Needed for samples that
         were read from a file, if they were made with any.
+    attributes, texture, normals, frames
+        As for :func:`sample`. By default what the samples have. Where only positions change,
+        attributes and colours are those of the mesh before.
     vertices, faces, weld, keep_seams
         Mesh before the edit, as for :func:`sample`. Needed for samples that were read from a file.
     device, progress
@@ -87,6 +101,12 @@ def update(
         an edge that became too long.
     Others as :func:`sample`.
 
+    Warns
+    -----
+    GeodiskWarning
+        For attributes, columns and normals that samples of the edited mesh cannot have, such as
+        attributes of your own.
+
     Examples
     --------
     >>> import geodisk, numpy as np
@@ -103,9 +123,9 @@ def update(
     >>> int(masked.face_index.max())
     2
     """
-    source = surface_of(samples, vertices, faces, None, weld, keep_seams)
-    if source is None:
-        raise e.invalid("samples in a box have no mesh")
+    wanted = Wanted(texture, normals, frames, attributes)
+    wanted.given()  # Raises for what is wrong.
+    before_edit = _mesh_before(samples, vertices, faces, weld, keep_seams, wanted)
     if samples.seed is None or not samples.min_distance > 0:
         raise e.invalid("these samples do not know their seed and minimum distance")
     job = _job_of(samples, before)
@@ -117,14 +137,18 @@ def update(
         "existing": existing,
         "avoid": avoid,
     }
-    edited = dataclasses.replace(job, **{k: x for k, x in given.items() if x is not None})
+    _check_radii(job, density, radius_factor)
+    chosen = {name: x for name, x in given.items() if x is not None}
+    edited = dataclasses.replace(job, **chosen)
     if existing is None:
         edited = dataclasses.replace(edited, existing=_places(job.existing))
     if avoid is None and job.avoid is not None:
         edited = dataclasses.replace(edited, avoid=(_places(job.avoid[0]), job.avoid[1]))
-    old = _Side(_mesh_on(source), job, samples)
-    new = _Side(_target(source, to, to_faces) or old.mesh, edited, samples)
-    points = points_of(source, samples, "samples", True)
+    old = _Side(before_edit, job, samples)
+    mesh, record, is_moved = _edited_mesh(samples, old.mesh, to, to_faces, wanted)
+    _check_inherited(old.mesh, mesh, job, chosen)
+    new = _Side(mesh, edited, samples, old)
+    points = points_of(old.mesh._surface, samples, "samples", True)
     info = s.UpdateInfo()
 
     def find(sampler: ctypes.c_void_p, hear: Any) -> c.Handle:
@@ -150,21 +174,49 @@ def update(
         )
         return c.Handle("samples", "geodisk_updater_samples", updater.value)
 
-    made = Made(searched(name_of(device), progress, find))
-    there = samples_of(made, samples.seed, new.mesh._surface, given=samples.min_distance)
+    try:
+        made = Made(searched(name_of(device), progress, find))
+    except e.InvalidArgument as error:
+        raise e.invalid(_in_words_of_edits(str(error))) from None
+    there = samples_of(made, samples.seed, mesh._surface, given=samples.min_distance)
     there.report["options"] = [
         name for name in FOLLOWED if _is_chosen(name, getattr(edited, name))
     ]
     there.report["update"] = {
         name: getattr(info, name) for name in ("rounds", "faces", "uploaded", "removed", "added")
     }
-    return dataclasses.replace(there, _job=edited)
+    file = old.mesh._source if is_moved else mesh._source
+    there = dataclasses.replace(there, _job=dataclasses.replace(edited, source=file))
+    there = recorded(there, mesh, record)
+    if is_moved:
+        there = coloured(there, old.mesh, wanted.inherited(samples).texture)
+    wanted.warn_of_lost(samples, there)
+    return there
+
+
+#: What the library says of frames, and what it means for an edit.
+_OF_FRAMES = {
+    "its mesh has no edge as long": "has an edge that is longer than edits may make one",
+    "its mesh has no edges of more": "has edges of more than two faces, and the mesh before has none",
+    "its mesh has coordinates": "is given by edge lengths, and the mesh before by coordinates",
+    "its unit": "has longer paths than the mesh before",
+}
+
+
+def _in_words_of_edits(message: str) -> str:
+    """Returns the error of the library without the frame of a job, which it is about."""
+    for told, meant in _OF_FRAMES.items():
+        if f"for another job: {told}" in message:
+            return f"the edited mesh {meant}; sample it again"
+    return message
 
 
 class _Side:
     """A mesh and its parameters as the library takes them."""
 
-    def __init__(self, mesh: Mesh, job: Job, samples: Samples) -> None:
+    def __init__(
+        self, mesh: Mesh, job: Job, samples: Samples, before: _Side | None = None
+    ) -> None:
         self.mesh = mesh
         radii = radii_of(mesh, job.density, job.radius_factor)
         keys = None if job.face_keys is None else keys_of(mesh, job.face_keys)
@@ -173,6 +225,12 @@ class _Side:
         avoided, avoid_radii = _avoided(mesh._surface, job.avoid)
         self._kept_alive = (radii, keys, mask, kept, avoided, avoid_radii)
         distance = samples.min_distance / (1.0 if radii is None else radii.distance_part)
+        if radii is not None and before is not None and before.part != radii.distance_part:
+            raise e.invalid(
+                "the density has another largest or least value than before, by which all radii go, so "
+                "all samples change; sample the mesh again"
+            )
+        self.part: float = 1.0 if radii is None else radii.distance_part
         if job.distance is not None:
             if not math.isclose(job.distance, distance, rel_tol=1e-12):
                 raise e.invalid(f"these samples were not made {samples.min_distance} apart")
@@ -205,8 +263,11 @@ def _job_of(samples: Samples, before: Mapping[str, Any] | None) -> Job:
             f"samples made with {', '.join(others)} cannot be updated; sample the mesh again"
         )
     if before is not None:
+        if not isinstance(before, Mapping):
+            raise TypeError(f"before is {before!r}, not a dict such as {{'pool_ratio': 10}}")
         if unknown := [name for name in before if name not in FOLLOWED]:
             raise TypeError(f"before has {unknown[0]!r}, none of {', '.join(FOLLOWED)}")
+        check_pool(None, before.get("pool_ratio", 20))
         return Job(**before)
     if samples._job is None and options:
         raise e.invalid(
@@ -248,22 +309,114 @@ def _avoided(
     return avoided_of(surface, avoid)
 
 
-def _mesh_on(surface: Surface) -> Mesh:
+def _check_radii(job: Job, density: ArrayLike | None, radius_factor: ArrayLike | None) -> None:
+    """Raises if radii vary in another way than before."""
+    before, now = one_of(job.density, job.radius_factor), one_of(density, radius_factor)
+    if now is not None and now != before:
+        made = f"with {before}" if before else "without density and radius_factor"
+        raise e.invalid(
+            f"the samples were made {made}, so {now} changes all of them; sample the mesh with {now}, "
+            "and update those samples"
+        )
+
+
+def _check_inherited(old: Mesh, new: Mesh, job: Job, chosen: Mapping[str, Any]) -> None:
+    """Raises for what the samples were made with, if it does not belong to the edited mesh."""
+
+    def fail(name: str, what: str) -> None:
+        raise e.invalid(
+            f"the samples were made with {name}, and the edited mesh has other {what}; give {name} "
+            "for them"
+        )
+
+    if not np.array_equal(old._surface.own_corners(), new._surface.own_corners()):
+        for name in ("face_keys", "face_mask", "existing", "avoid"):
+            value = getattr(job, name)
+            is_none = name in ("existing", "avoid") and value is not None and _is_empty(
+                value if name == "existing" else value[0]
+            )
+            if value is not None and not is_none and name not in chosen:
+                fail(name, "faces")
+    if old._surface.vertex_count() != new._surface.vertex_count():
+        for name in ("density", "radius_factor"):
+            if getattr(job, name) is not None and name not in chosen:
+                fail(name, "vertices")
+
+
+def _mesh_before(
+    samples: Samples,
+    vertices: ArrayLike | MeshLike | None,
+    faces: Faces | None,
+    weld: bool | float,
+    keep_seams: bool,
+    wanted: Wanted,
+) -> Mesh:
+    """Returns the mesh before, with what its file has for samples."""
+    is_path = isinstance(vertices, (str, os.PathLike)) and faces is None
+    if vertices is not None and is_path and isinstance(samples, Samples):
+        path = vertices
+        mesh, _ = wanted.mesh(
+            samples,
+            tuple(name for name in samples.attributes if name not in ("frames", "cover")),
+            lambda record, read: mesh_of(
+                path, None, None, weld, keep_seams, attributes=read, record=record
+            ),
+        )
+        return mesh
+    surface = surface_of(samples, vertices, faces, None, weld, keep_seams)
+    if surface is None:
+        raise e.invalid("samples in a box have no mesh")
+    if isinstance(vertices, Mesh):
+        return vertices
     mesh = Mesh.__new__(Mesh)
     mesh._prepare(surface)
     mesh.warnings = ()  # They were shown when the samples were made.
+    if vertices is None and samples._job is not None:
+        mesh._source = samples._job.source
     return mesh
 
 
-def _target(
-    source: Surface, to: ArrayLike | MeshLike | None, to_faces: Faces | None
-) -> Mesh | None:
-    """Returns the edited mesh; None for the one before."""
+def _edited_mesh(
+    samples: Samples,
+    old: Mesh,
+    to: ArrayLike | MeshLike | None,
+    to_faces: Faces | None,
+    wanted: Wanted,
+) -> tuple[Mesh, Record, bool]:
+    """Returns the edited mesh, what to add to samples, and whether only positions are given."""
+    source = old._surface
     if to is None:
         if to_faces is not None:
             raise TypeError("to_faces are of an edited mesh whose vertices are given")
-        return None
-    if is_mesh(to):
-        return mesh_of(to, to_faces, None, False)
-    corners = source.own_corners() if to_faces is None else to_faces
-    return Mesh(to, corners, weld=source.weld, keep_seams=source.keep_seams)
+    is_moved = to is not None and not is_mesh(to) and to_faces is None
+
+    def make(record: Record, read: Sequence[str]) -> Mesh:
+        if to is not None and is_mesh(to):
+            return mesh_of(to, to_faces, None, False, attributes=read, record=record)
+        own = _named(source, read)
+        if to is None:
+            check_record(old, record)
+            mesh = copy.copy(old)
+            mesh._surface = dataclasses.replace(source, attributes=own)
+            return mesh
+        corners = source.own_corners() if to_faces is None else to_faces
+        mesh = Mesh(
+            to, corners, weld=source.weld, keep_seams=source.keep_seams, _record=record
+        )
+        if to_faces is None:
+            columns = {name: x for name, x in source.columns.items() if name != "part"}
+            mesh._surface = dataclasses.replace(
+                mesh._surface, polygons=source.polygons, attributes=own, columns=columns
+            )
+        return mesh
+
+    mesh, record = wanted.mesh(samples, tuple(source.attributes), make)
+    return mesh, record, is_moved
+
+
+def _named(surface: Surface, attributes: Sequence[str]) -> dict[str, Attribute]:
+    """Returns attributes of a surface by name."""
+    wanted = surface.attributes if "all" in attributes else attributes
+    if missing := [name for name in wanted if name not in surface.attributes]:
+        raise e.invalid(f"the mesh before has no attribute {missing[0]!r}; give the path of its file")
+    return {name: surface.attributes[name] for name in wanted}

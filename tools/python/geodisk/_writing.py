@@ -64,6 +64,8 @@ def header_of(samples: Samples) -> Header:
             options.append(SELECTION)
     if options:
         header["options"] = " ".join(options)
+    if samples._record is not None and samples._record.normals != "face":
+        header["normals"] = samples._record.normals
     if samples.level_distances is not None:
         header["order"] = "progressive"
         header["level_distances"] = " ".join(map(repr, samples.level_distances))
