@@ -66,7 +66,8 @@ def test_wrong_ones_are_refused():
         with pytest.raises(error, match=text):
             geodisk.sample(VERTICES, FACES, existing=existing, **{"min_distance": 0.3, **options})
 
-    refuses("have no face_index", geodisk.Samples(whole.points))
+    refuses("existing: 5 points lie farther off the mesh", geodisk.Samples(whole.points[:5] + 1))
+    refuses("existing: samples in a box", geodisk.sample_box([1, 1, 1], min_distance=0.5))
     refuses("has no samples", whole[:0])
     refuses("a geodisk.Samples, or a pair", whole.points, TypeError)
     refuses("given sample 1 is in face 1000000", ([0, 1000000], [[1, 0, 0], [1, 0, 0]]))
@@ -113,3 +114,35 @@ def test_points_are_avoided():
             geodisk.sample(VERTICES, FACES, min_distance=0.2, avoid=wrong)
     with pytest.raises(TypeError, match="a pair: points"):
         geodisk.sample(VERTICES, FACES, min_distance=0.2, avoid=1.0)
+
+
+def test_points_of_other_programs_are_put_on_the_nearest_faces():
+    whole = geodisk.sample(VERTICES, FACES, min_distance=0.4, seed=2)[:40]
+    normals = whole.normals * np.where(np.arange(40) % 2, 1, -1)[:, None]
+    points = geodisk.Samples(whole.points + 1e-3 * normals)
+    placed = geodisk.transfer(points, VERTICES, VERTICES, FACES)
+    assert np.array_equal(placed.face_index, whole.face_index)
+    assert np.allclose(placed.barycentric, whole.barycentric, atol=0.02)
+    mesh = geodisk.Mesh(VERTICES, FACES)
+
+    def equal(call, *fields):
+        for name in fields:
+            assert np.array_equal(getattr(call(points), name), getattr(call(placed), name)), name
+
+    places = "face_index", "barycentric"
+    equal(lambda x: geodisk.sample(mesh, min_distance=0.4, existing=x), *places)
+    equal(lambda x: geodisk.sample(mesh, min_distance=0.4, avoid=(x, 0.5)), *places)
+    equal(lambda x: geodisk.sample_many([mesh], min_distance=0.4, existing=[x])[0], *places)
+    equal(lambda x: geodisk.neighbours(mesh, sources=x, within=0.7), "indices", "distances")
+    equal(lambda x: geodisk.neighbours(mesh, among=x, nearest=2), "indices", "distances")
+    equal(lambda x: geodisk.cells(mesh, x), "area", "triangles")
+    equal(lambda x: geodisk.farthest_order(x, mesh), "indices", "distances")
+    equal(lambda x: geodisk.verify(whole, mesh, avoid=(x, 0.01)), "within_avoided")
+    kept = geodisk.sample(mesh, min_distance=0.4, existing=points, avoid=(points, 0.5))
+    moved = VERTICES * 1.0
+    moved[0] *= 1.1
+    there = geodisk.update(kept, moved)
+    assert np.array_equal(there.face_index[:40], whole.face_index)
+    assert geodisk.transfer(geodisk.Samples(whole.points + 0.01), VERTICES, mesh, tolerance=0.1)
+    with pytest.raises(geodisk.InvalidArgument, match="farther off"):
+        geodisk.transfer(geodisk.Samples(whole.points + 0.01), VERTICES, mesh)

@@ -78,7 +78,8 @@ def cells(
     mesh : Mesh, path, or a mesh of another package
         The mesh that the samples lie on.
     samples : Samples, or a pair of face_index and barycentric
-        At least one. Of samples in the same place the first has the cell.
+        At least one; also points of other programs, as for :func:`verify`. Of samples in the same
+        place the first has the cell.
     dual : bool
         Find edges and triangles too.
     most_records : int

@@ -9,17 +9,15 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _errors as e
 from ._arrays import indices, real
+from ._placing import placed_on
 from ._samples import Samples
 from ._surface import Surface
 
-#: Samples of the mesh, or their triangles and weights.
+#: Samples of the mesh, points of other programs, or triangles and weights.
 ExistingLike = Union[Samples, Tuple[ArrayLike, ArrayLike]]
 
 #: Points, as of ExistingLike, and their radius or radii.
 AvoidLike = Tuple[ExistingLike, ArrayLike]
-
-# Of other arguments than those of sample().
-_COMMANDS = {"sources": "neighbours", "among": "neighbours --among", "samples": "cells"}
 
 #: geodisk_surface_point.
 POINT = np.dtype([("face", np.uint32), ("weights", np.float32, 3)])
@@ -52,12 +50,8 @@ def points_of(
 ) -> NDArray[Any]:
     """Returns points as the library takes them."""
     if isinstance(given, Samples):
-        if given.face_index is None or given.barycentric is None:
-            command = f"sample --{name}" if name in ("existing", "avoid") else _COMMANDS[name]
-            raise e.invalid(
-                f"{name}: these samples have no face_index and barycentric; the program puts "
-                f"points without them on a mesh (geodisk {command})"
-            )
+        given = placed_on(surface, given, name)
+        assert given.face_index is not None and given.barycentric is not None
         faces, weights = given.face_index, given.barycentric
         _check_places(surface, given, faces, weights, name)
     else:

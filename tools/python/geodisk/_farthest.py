@@ -79,7 +79,7 @@ def farthest_order(
     Parameters
     ----------
     samples : Samples
-        Samples on a mesh.
+        Samples on a mesh, or points of other programs as for :func:`verify`.
     vertices, faces, edge_lengths, weld, keep_seams
         Mesh of the samples, as for :func:`sample`. Needed for samples that were read from a file.
     count : int, optional
@@ -124,10 +124,6 @@ def order_on(
     progress: bool | ProgressCallback,
 ) -> FarthestOrder:
     """Returns the order of samples on the library's mesh."""
-    if samples.face_index is None:
-        raise e.invalid(
-            "these samples have no face_index and barycentric; geodisk transfer puts points on a mesh"
-        )
     points = points_of(surface, samples, "samples", True)
     if count is not None and not 1 <= integer(count, "count", 2**32 - 1) <= len(points):
         raise e.invalid(f"count is {count}, not from 1 to {len(points)}, the number of samples")

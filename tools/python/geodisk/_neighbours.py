@@ -96,12 +96,14 @@ def neighbours(
     vertices, faces, edge_lengths, weld, keep_seams, mesh_format
         The mesh, as for :class:`Mesh`.
     sources : array_like of int, Samples, or a pair of face_index and barycentric, optional
-        Vertices by their indices, or points. By default all vertices that a triangle uses.
+        Vertices by their indices, or points. By default all vertices that a triangle uses. Samples
+        without `face_index` are put on the nearest triangles; they must not be farther off the mesh
+        than a thousandth of its bounding-box diagonal.
     within : float, or array_like of float, shape (n,), optional
         Distance in units of the mesh: one, or one for each source. Without it, the `nearest` ones
         are found however far they are.
     among : {"vertices", "sources"}, Samples, or a pair of face_index and barycentric
-        What to find: vertices of the mesh, the other sources, or points. Where seams are joined,
+        What to find: vertices of the mesh, the other sources, or points, as for `sources`. Where seams are joined,
         all vertices of a place are found.
     nearest : int
         If not 0, keep only so many of each source: the nearest ones, in the order of their

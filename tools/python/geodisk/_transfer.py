@@ -20,6 +20,7 @@ from ._protocols import Faces, MeshLike
 from ._reading import read
 from ._record import Record, recorded
 from ._samples import Samples
+from ._values import number
 
 _OF_ONE_POSE = frozenset({"cover", "frames"})
 
@@ -37,6 +38,7 @@ def transfer(
     edge_lengths: ArrayLike | None = None,
     weld: bool | float = False,
     keep_seams: bool = False,
+    tolerance: float | None = None,
 ) -> Samples:
     """Returns the same samples on another pose of their mesh, with identical faces.
 
@@ -60,6 +62,9 @@ def transfer(
         normal, after a random angle about z. By default if the samples have them.
     vertices, faces, edge_lengths, weld, keep_seams
         Mesh of the samples, as for :func:`sample`. Needed for samples that were read from a file.
+    tolerance : float, optional
+        Maximum distance of points of other programs from the mesh, by default a thousandth of the
+        bounding-box diagonal.
 
     Returns
     -------
@@ -115,6 +120,8 @@ def transfer(
         )
         files = [write_samples(place, samples), from_mesh, to_mesh]
         outputs = ["--output", "there.npz", "--json", "report.json"]
+        if tolerance is not None:
+            outputs += ["--tolerance", repr(number(tolerance, "tolerance"))]
         run(place, ["transfer", *files, *from_options, *to_options, *outputs])
         there = read(place / "there.npz")
         closest = json.loads((place / "report.json").read_text("utf-8"))["smallest"]

@@ -140,11 +140,11 @@ def update(
     _check_radii(job, density, radius_factor)
     chosen = {name: x for name, x in given.items() if x is not None}
     edited = dataclasses.replace(job, **chosen)
-    if existing is None:
-        edited = dataclasses.replace(edited, existing=_places(job.existing))
-    if avoid is None and job.avoid is not None:
-        edited = dataclasses.replace(edited, avoid=(_places(job.avoid[0]), job.avoid[1]))
     old = _Side(before_edit, job, samples)
+    if existing is None:
+        edited = dataclasses.replace(edited, existing=old.existing)
+    if avoid is None:
+        edited = dataclasses.replace(edited, avoid=old.avoid)
     mesh, record, is_moved = _edited_mesh(samples, old.mesh, to, to_faces, wanted)
     _check_inherited(old.mesh, mesh, job, chosen)
     new = _Side(mesh, edited, samples, old)
@@ -223,6 +223,11 @@ class _Side:
         mask = None if job.face_mask is None else mask_of(mesh._surface, job.face_mask)
         kept = _existing(mesh._surface, job.existing)
         avoided, avoid_radii = _avoided(mesh._surface, job.avoid)
+        #: By faces and weights, since positions are those before an edit.
+        self.existing = None if job.existing is None else (kept["face"], kept["weights"])
+        self.avoid: AvoidLike | None = None
+        if job.avoid is not None:
+            self.avoid = (avoided["face"], avoided["weights"]), avoid_radii
         self._kept_alive = (radii, keys, mask, kept, avoided, avoid_radii)
         distance = samples.min_distance / (1.0 if radii is None else radii.distance_part)
         if radii is not None and before is not None and before.part != radii.distance_part:
@@ -283,14 +288,6 @@ def _is_chosen(name: str, value: Any) -> bool:
 
 def _is_empty(points: ExistingLike) -> bool:
     return (len(points) if isinstance(points, Samples) else np.size(points[0])) == 0
-
-
-def _places(points: ExistingLike | None) -> ExistingLike | None:
-    """Returns faces and weights without positions, which are those before an edit."""
-    if isinstance(points, Samples):
-        assert points.face_index is not None and points.barycentric is not None
-        return points.face_index, points.barycentric
-    return points
 
 
 def _existing(surface: Surface, existing: ExistingLike | None) -> NDArray[Any]:

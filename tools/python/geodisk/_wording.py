@@ -9,7 +9,7 @@ _PARAMETERS = {
     option: option.replace("-", "_")
     for option in (
         "attributes avoid background columns count cut density device edge-lengths face-keys keep-seams mesh-format "
-        "metric min-distance pool-ratio radius radius-factor seed size stop-count style up view weld"
+        "metric min-distance tolerance pool-ratio radius radius-factor seed size stop-count style up view weld"
     ).split()
 } | {"darts": "throws"}
 # With the suffix of the options of two meshes. Not within the name of a file.
