@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <mutex>
 #include <thread>
 #include <utility>
 
@@ -15,56 +16,97 @@ constexpr std::chrono::microseconds kLongestNap{2000};
 
 } // namespace
 
+struct MpiExchange::Channel {
+    explicit Channel(MPI_Comm duplicate) : own(duplicate) {}
+    ~Channel() {
+        if (!is_broken) { // Else others might never free it.
+            MPI_Comm_free(&own);
+        }
+    }
+
+    MPI_Comm own;
+    std::mutex calls; ///< Guards calls of MPI, and all below.
+    std::mutex turns;
+    bool is_broken = false; ///< A lane stopped while others went on.
+    // Of the sum that lanes add up to, one after another.
+    std::uint64_t added = 0, summed = 0;
+    std::uint32_t lanes_added = 0;
+    std::uint64_t sums = 0; ///< Sums that are complete.
+};
+
 Result<std::unique_ptr<MpiExchange>> MpiExchange::create(MPI_Comm communicator, GoesOn goes_on) {
+    auto lanes = create_lanes(communicator, 1, goes_on);
+    return lanes ? Result<std::unique_ptr<MpiExchange>>(std::move(lanes->front())) : lanes.error();
+}
+
+Result<std::vector<std::unique_ptr<MpiExchange>>>
+MpiExchange::create_lanes(MPI_Comm communicator, std::uint32_t lanes, const GoesOn& goes_on) {
     MPI_Comm own = MPI_COMM_NULL;
     if (MPI_Comm_dup(communicator, &own) != MPI_SUCCESS) {
         return Error{Status::internal, "MPI cannot duplicate the communicator"};
     }
-    return std::unique_ptr<MpiExchange>(new MpiExchange(own, std::move(goes_on)));
-}
-
-MpiExchange::MpiExchange(MPI_Comm own, GoesOn goes_on) : own_(own), goes_on_(std::move(goes_on)) {
-    int rank = 0, size = 1;
-    MPI_Comm_rank(own_, &rank);
-    MPI_Comm_size(own_, &size);
-    rank_ = static_cast<std::uint32_t>(rank);
-    size_ = static_cast<std::uint32_t>(size);
-}
-
-MpiExchange::~MpiExchange() {
-    if (!is_broken_) { // Else others might never free it.
-        MPI_Comm_free(&own_);
+    const auto channel = std::make_shared<Channel>(own);
+    std::vector<std::unique_ptr<MpiExchange>> all;
+    for (std::uint32_t lane = 0; lane < lanes; ++lane) {
+        all.push_back(std::unique_ptr<MpiExchange>(new MpiExchange(channel, goes_on, lane, lanes)));
     }
+    return all;
+}
+
+MpiExchange::MpiExchange(std::shared_ptr<Channel> channel, GoesOn goes_on, std::uint32_t lane,
+                         std::uint32_t lanes)
+    : channel_(std::move(channel)), goes_on_(std::move(goes_on)), lane_(lane), lanes_(lanes) {
+    int rank = 0, size = 1;
+    MPI_Comm_rank(channel_->own, &rank);
+    MPI_Comm_size(channel_->own, &size);
+    process_ = static_cast<std::uint32_t>(rank);
+    processes_ = static_cast<std::uint32_t>(size);
+}
+
+MpiExchange::~MpiExchange() = default;
+
+std::unique_lock<std::mutex> MpiExchange::turn() {
+    return takes_turns() ? std::unique_lock(channel_->turns) : std::unique_lock<std::mutex>();
 }
 
 Result<Done> MpiExchange::wait_until(const std::function<bool()>& is_done) {
     auto nap = kShortestNap;
-    while (!is_done()) {
+    for (;;) {
+        {
+            const std::scoped_lock lock(channel_->calls);
+            if (is_done()) {
+                return Done{};
+            }
+        }
         if (goes_on_ && !goes_on_()) {
-            is_broken_ = true;
+            const std::scoped_lock lock(channel_->calls);
+            channel_->is_broken = true;
             return Error{Status::cancelled, "stopped while waiting for other processes"};
         }
         std::this_thread::sleep_for(nap);
-        nap = std::min(2 * nap, kLongestNap);
+        nap = std::min(2 * nap, lanes_ * kLongestNap);
     }
-    return Done{};
 }
 
 void MpiExchange::send(const Bytes& message, std::uint32_t other,
                        std::vector<MPI_Request>& requests) const {
+    const int tag = kTag + static_cast<int>(lane_ * lanes_ + other % lanes_);
     // The last chunk is the one that is not full.
     for (std::size_t first = 0; first <= message.size(); first += kChunk) {
         const std::size_t count = std::min(kChunk, message.size() - first);
         MPI_Isend(message.data() + first, static_cast<int>(count), MPI_BYTE,
-                  static_cast<int>(other), kTag, own_, &requests.emplace_back());
+                  static_cast<int>(process_of(other)), tag, channel_->own,
+                  &requests.emplace_back());
     }
 }
 
 bool MpiExchange::receive_chunk(std::uint32_t other, Bytes& message) const {
+    const int tag = kTag + static_cast<int>(other % lanes_ * lanes_ + lane_);
     int has_come = 0;
     MPI_Message handle;
     MPI_Status status;
-    MPI_Improbe(static_cast<int>(other), kTag, own_, &has_come, &handle, &status);
+    MPI_Improbe(static_cast<int>(process_of(other)), tag, channel_->own, &has_come, &handle,
+                &status);
     if (has_come == 0) {
         return false;
     }
@@ -79,8 +121,11 @@ bool MpiExchange::receive_chunk(std::uint32_t other, Bytes& message) const {
 Result<std::vector<Bytes>> MpiExchange::swap(std::span<const std::uint32_t> others,
                                              std::span<const Bytes> messages) {
     std::vector<MPI_Request> requests;
-    for (std::size_t i = 0; i < others.size(); ++i) {
-        send(messages[i], others[i], requests);
+    {
+        const std::scoped_lock lock(channel_->calls);
+        for (std::size_t i = 0; i < others.size(); ++i) {
+            send(messages[i], others[i], requests);
+        }
     }
     std::vector<Bytes> received(others.size());
     std::vector<bool> is_complete(others.size());
@@ -101,18 +146,37 @@ Result<std::vector<Bytes>> MpiExchange::swap(std::span<const std::uint32_t> othe
 }
 
 Result<std::uint64_t> MpiExchange::sum(std::uint64_t value) {
-    std::uint64_t all = 0;
-    MPI_Request request;
-    MPI_Iallreduce(&value, &all, 1, MPI_UINT64_T, MPI_SUM, own_, &request);
+    Channel& channel = *channel_;
+    std::uint64_t own = 0, all = 0, before = 0;
+    bool is_last = false;
+    MPI_Request request = MPI_REQUEST_NULL;
+    {
+        const std::scoped_lock lock(channel.calls);
+        before = channel.sums;
+        channel.added += value;
+        is_last = ++channel.lanes_added == lanes_;
+        if (is_last) { // It asks the other processes.
+            own = std::exchange(channel.added, 0);
+            channel.lanes_added = 0;
+            MPI_Iallreduce(&own, &all, 1, MPI_UINT64_T, MPI_SUM, channel.own, &request);
+        }
+    }
     const auto is_done = [&] {
         int flag = 0;
-        MPI_Test(&request, &flag, MPI_STATUS_IGNORE);
-        return flag != 0;
+        if (is_last) {
+            MPI_Test(&request, &flag, MPI_STATUS_IGNORE);
+            if (flag != 0) {
+                channel.summed = all;
+                ++channel.sums;
+            }
+        }
+        return channel.sums != before;
     };
     if (auto waited = wait_until(is_done); !waited) {
         return waited.error();
     }
-    return all;
+    const std::scoped_lock lock(channel.calls);
+    return channel.summed;
 }
 
 } // namespace geodisk

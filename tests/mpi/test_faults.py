@@ -5,6 +5,7 @@ import os
 import pytest
 
 from launching import ENVIRONMENT, alone, run
+from surfaces import torus, write_ply
 
 FAILING = os.environ["GEODISK_FAILING_MESSAGES"]
 
@@ -29,6 +30,18 @@ def test_no_memory_for_a_message_of_sampling(tmp_path, rank, message):
     named = "" if rank == 0 else f"process {rank}: "
     assert (code, without_signal(errors)) == (6, f"geodisk_mpi: {named}out of memory\n")
     assert not list(tmp_path.iterdir())
+
+
+# From the arguments of all, by messages of ranges, to the last ones of several parts.
+@pytest.mark.parametrize("rank, message", [(0, 60), (1, 9), (2, 400), (1, 3000)])
+def test_no_memory_for_a_message_of_a_part(tmp_path, rank, message):
+    mesh = tmp_path / "torus.ply"
+    write_ply(mesh, *torus(30, 16))
+    code, _, errors = run_failing(rank, message, "sample", str(mesh), "--min-distance", "4%", "-o",
+                                  str(tmp_path / "out.ply"), "--parts", "3", "--quiet")
+    named = "" if rank == 0 else f"process {rank}: "
+    assert (code, without_signal(errors)) == (6, f"geodisk_mpi: {named}out of memory\n")
+    assert list(tmp_path.iterdir()) == [mesh]
 
 
 @pytest.mark.parametrize("rank, message", [(0, 3), (2, 2)])

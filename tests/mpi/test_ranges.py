@@ -11,49 +11,7 @@ import threading
 import pytest
 
 from launching import alone, run
-
-
-def write_ply(path, vertices, faces, order="<", real="d"):
-    """A binary PLY file; faces of any size."""
-    name = {"f": "float", "d": "double"}[real]
-    form = {"<": "binary_little_endian", ">": "binary_big_endian"}[order]
-    with open(path, "wb") as file:
-        file.write(f"ply\nformat {form} 1.0\nelement vertex {len(vertices)}\n".encode())
-        file.write("".join(f"property {name} {axis}\n" for axis in "xyz").encode())
-        file.write(f"element face {len(faces)}\n".encode())
-        file.write(b"property list uchar int vertex_indices\nend_header\n")
-        for vertex in vertices:
-            file.write(struct.pack(f"{order}3{real}", *vertex))
-        for face in faces:
-            file.write(struct.pack(f"{order}B{len(face)}i", len(face), *face))
-
-
-def grid(columns, rows, place=lambda u, v: (u, v, 0.3 * math.sin(3 * u) * math.cos(2 * v))):
-    """A sheet with a border."""
-    vertices = [place(i / columns, j / rows) for i in range(columns + 1) for j in range(rows + 1)]
-    faces = []
-    for i in range(columns):
-        for j in range(rows):
-            at = i * (rows + 1) + j
-            faces += [(at, at + rows + 1, at + rows + 2), (at, at + rows + 2, at + 1)]
-    return vertices, faces
-
-
-def torus(columns, rows):
-    """A closed surface."""
-    def place(i, j):
-        a, b = 2 * math.pi * i / columns, 2 * math.pi * j / rows
-        r = 0.4 * (1 + 0.2 * math.sin(5 * a) * math.cos(3 * b))
-        return ((1 + r * math.cos(b)) * math.cos(a), (1 + r * math.cos(b)) * math.sin(a),
-                r * math.sin(b))
-    vertices = [place(i, j) for i in range(columns) for j in range(rows)]
-    number = lambda i, j: i % columns * rows + j % rows
-    faces = []
-    for i in range(columns):
-        for j in range(rows):
-            a, b, c, d = number(i, j), number(i + 1, j), number(i + 1, j + 1), number(i, j + 1)
-            faces += [(a, b, c), (a, c, d)]
-    return vertices, faces
+from surfaces import grid, torus, write_ply
 
 
 def shuffled(vertices, faces, seed=1):
@@ -71,13 +29,14 @@ def shuffled(vertices, faces, seed=1):
     return places, turned
 
 
-def check_same(tmp_path, arguments, counts, name="samples.ply"):
-    """Any number of processes writes the file of one, and says nothing but what is odd."""
+def check_same(tmp_path, arguments, counts, name="samples.ply", more=()):
+    """Any number of processes writes the file of one, and says nothing but what is odd. `more` are
+    arguments of theirs alone."""
     expected = tmp_path / f"alone-{name}"
     alone(*arguments, "-o", str(expected))
     for count in counts:
         found = tmp_path / f"{count}-{name}"
-        code, _, errors = run(count, "sample", *arguments, "-o", str(found), "--quiet")
+        code, _, errors = run(count, "sample", *arguments, "-o", str(found), "--quiet", *more)
         assert code == 0, errors
         assert all(line.startswith("geodisk: warning: ") for line in errors.splitlines())
         assert found.read_bytes() == expected.read_bytes(), count
@@ -96,6 +55,30 @@ def test_same_file_for_any_number_of_processes(tmp_path):
     write_ply(mesh, *shuffled(*torus(60, 24)))
     assert is_read_in_ranges(tmp_path, mesh, "--min-distance", "5%")
     check_same(tmp_path, [str(mesh), "--min-distance", "3%", "--seed", "3"], [1, 2, 3, 4, 7])
+
+
+def test_same_file_for_any_number_of_parts(tmp_path):
+    mesh = tmp_path / "torus.ply"
+    write_ply(mesh, *shuffled(*torus(60, 24)))
+    arguments = [str(mesh), "--min-distance", "3%", "--seed", "3"]
+    for processes, parts in [(1, 3), (2, 2), (3, 5)]:
+        report = tmp_path / "report.json"
+        check_same(tmp_path, arguments, [processes], more=["--parts", str(parts), "--json",
+                                                           str(report)])
+        told = json.loads(report.read_text())["processes"]
+        assert [p["parts"] for p in told] == [parts] * processes
+        assert sum(p["own_faces"] for p in told) == 2880
+    darts = [str(mesh), "--count", "80", "--min-distance", "4%", "--method", "darts"]
+    check_same(tmp_path, darts, [2], "darts.ply", ["--parts", "3"])
+    check_same(tmp_path, [str(mesh), "--count", "200", "--exact"], [2], "exact.ply",
+               ["--parts", "3"])
+    # Parts of a few distances, and a distance that is as wide as the surface.
+    check_same(tmp_path, [str(mesh), "--min-distance", "60%"], [2], "wide.ply", ["--parts", "4"])
+    # No more parts than faces, and none where process 0 reads the whole.
+    few = tmp_path / "few.ply"
+    write_ply(few, *grid(2, 1))
+    check_same(tmp_path, [str(few), "--min-distance", "0.3"], [3], "few.ply", ["--parts", "128"])
+    check_same(tmp_path, [str(few), "--count", "20"], [2], "whole.ply", ["--parts", "2"])
 
 
 def test_same_file_of_other_runs(tmp_path):
@@ -202,6 +185,15 @@ def test_bad_files_are_told_once(tmp_path, spoil, message):
     code, _, errors = run(3, "sample", str(mesh), "--count", "20", "-o", str(out), "--quiet")
     assert code == 3 and message in errors and not out.exists()
     assert errors.count("\n") == 1, errors
+
+
+@pytest.mark.parametrize("name", ["missing.ply", "folder.ply"])
+def test_unreadable_files_are_told_in_one_line(tmp_path, name):
+    (tmp_path / "folder.ply").mkdir()
+    out = tmp_path / "s.ply"
+    code, _, errors = run(2, "sample", str(tmp_path / name), "--count", "20", "-o", str(out))
+    assert code == 3 and not out.exists()
+    assert errors.count("\n") == 1 and "process 0 reads" not in errors, errors
 
 
 def test_more_processes_than_faces(tmp_path):

@@ -7,6 +7,10 @@
 
 #include <mpi.h>
 
+#if defined(__GLIBC__)
+#include <malloc.h>
+#endif
+
 #include <geodisk/version.hpp>
 
 #include "geodisk/commands/commands.hpp"
@@ -70,10 +74,22 @@ int run(int argc, char** argv) {
     return 0;
 }
 
+/// Makes the C library return what is freed to the system at once. Parts of a process would each
+/// keep it otherwise.
+void return_freed_memory() {
+#if defined(__GLIBC__)
+    constexpr int kLargest = 1 << 20; // Larger blocks are never kept.
+    mallopt(M_MMAP_THRESHOLD, kLargest);
+    mallopt(M_ARENA_MAX, 1);
+#endif
+}
+
 } // namespace
 
 int main(int argc, char** argv) {
-    MPI_Init(&argc, &argv);
+    return_freed_memory();
+    int level = MPI_THREAD_SINGLE;
+    MPI_Init_thread(&argc, &argv, MPI_THREAD_SERIALIZED, &level);
     int status = 0;
     try {
         status = run(argc, argv);

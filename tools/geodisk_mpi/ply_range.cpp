@@ -225,6 +225,14 @@ MeshRange read_range(const Path& path, const PlyLayout& layout, std::uint32_t pr
 
 } // namespace
 
+std::uint64_t ply_faces(const Path& path) {
+    try {
+        return layout_of(path, state_of(path).size).faces.count;
+    } catch (const NeedsWhole&) {
+        return 0;
+    }
+}
+
 Result<MeshRange> read_ply_range(Exchange& exchange, const Path& path) {
     return caught([&]() -> Result<MeshRange> {
         Talk talk(exchange);

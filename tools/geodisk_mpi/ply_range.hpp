@@ -1,6 +1,8 @@
 // Reads a range of a binary PLY file of triangles, as one of many processes.
 #pragma once
 
+#include <cstdint>
+
 #include <geodisk/status.hpp>
 
 #include "parts/exchange.hpp"
@@ -8,6 +10,9 @@
 #include "program/path.hpp"
 
 namespace geodisk::tools {
+
+/// Returns the number of faces by the header of a file; 0 if it has to be read as a whole.
+std::uint64_t ply_faces(const Path& path);
 
 /// Reads the range of this process; all call it. Errors, the same on all: `mesh_rejected` for a
 /// file that has to be read as a whole, with the reason; `invalid_argument` if the file changes

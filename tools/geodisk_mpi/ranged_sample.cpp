@@ -1,6 +1,8 @@
 #include "ranged_sample.hpp"
 
 #include <algorithm>
+#include <filesystem>
+#include <fstream>
 #include <iostream>
 #include <optional>
 #include <string>
@@ -35,6 +37,14 @@ bool takes_ranges(const SampleJob& job) {
     const bool has_more = job.features || job.method.has_levels || job.method.is_farthest ||
                           !job.picture.empty() || !job.columns.empty();
     return is_plain && !has_more && lower_extension(job.mesh.mesh) == ".ply";
+}
+
+/// Returns true for what nobody can read, of which reading the whole tells.
+bool is_unreadable(const Path& path) {
+    std::error_code error;
+    const std::filesystem::file_status status = std::filesystem::status(path, error);
+    return !std::filesystem::exists(status) || std::filesystem::is_directory(status) ||
+           (std::filesystem::is_regular_file(status) && !std::ifstream(path));
 }
 
 /// Returns a mesh of the statistics of all, whose file has no faces yet.
@@ -148,18 +158,18 @@ void print_note(const SampleJob& job, const std::string& why) {
 
 } // namespace
 
-bool sample_ranges_to_files(const SampleOptions& options, Session& session) {
+bool sample_ranges_to_files(const SampleOptions& options, std::uint32_t parts, Session& session) {
     check_output_or_dry_run(options.out);
     const SampleJob job = parse_job(options);
-    if (!takes_ranges(job)) {
+    const std::string& path = job.mesh.mesh;
+    if (!takes_ranges(job) || is_unreadable(path)) {
         return false;
     }
-    const std::string& path = job.mesh.mesh;
     check_outputs(job.out, "the samples", files_read(job));
     ProgressLine progress(job.out.quiet);
     progress.begin_stage("reading the mesh");
     const Stopwatch watch;
-    const auto why = session.read_ranges(path);
+    const auto why = session.read_ranges(path, parts);
     progress.clear();
     if (why) {
         print_note(job, *why);

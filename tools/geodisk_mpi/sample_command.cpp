@@ -1,5 +1,6 @@
 #include "sample_command.hpp"
 
+#include <cstdint>
 #include <memory>
 #include <string>
 
@@ -44,9 +45,9 @@ void check_shared(const SampleOptions& options) {
 
 /// Samples as the first process.
 void sample_here(const SampleOptions& options, const CheckpointOptions& checkpoints,
-                 Session& session) {
+                 std::uint32_t parts, Session& session) {
     if (checkpoints.folder.empty()) {
-        if (!sample_ranges_to_files(options, session)) {
+        if (!sample_ranges_to_files(options, parts, session)) {
             sample_to_files(options, {}, &session);
         }
         return;
@@ -69,10 +70,17 @@ void add_shared_sample_command(Command app, Session& session) {
     command.has_footer(help_footer(kExamples));
     const auto checkpoints = std::make_shared<CheckpointOptions>();
     add_checkpoint_options(command, *checkpoints);
-    command.calls([options, checkpoints, &session] {
+    const auto parts = std::make_shared<std::uint32_t>(0);
+    command
+        .add_option("--parts", *parts, "N",
+                    "Parts of each process, of which it holds one mesh at a time, where a mesh is "
+                    "read in ranges (default: one for each million faces)",
+                    "Many processes")
+        .takes_range(1, MpiExchange::kMostLanes);
+    command.calls([options, checkpoints, parts, &session] {
         check_shared(*options);
         if (session.is_first()) {
-            sample_here(*options, *checkpoints, session);
+            sample_here(*options, *checkpoints, *parts, session);
         } else {
             const SampleJob job = parse_job(*options);
             session.help(&job);

@@ -28,10 +28,9 @@ Bytes to_bytes(const std::string& text) {
     return {bytes.begin(), bytes.end()};
 }
 
-struct FaceCorners {
-    std::uint32_t face;
-    double corners[9];
-};
+bool goes_on() {
+    return !is_interrupted();
+}
 
 Error unlike(std::size_t process) {
     return Error{Status::invalid_argument,
@@ -82,40 +81,9 @@ struct RangedJob {
     }
 };
 
-/// Reads a range, and makes a surface of those of all processes.
-Result<RangedSurface> read_surface(Exchange& exchange, const Path& path) {
-    auto range = read_ply_range(exchange, path);
-    return range ? RangedSurface::create(exchange, std::move(*range)) : range.error();
-}
-
-/// The corners of own faces among some, at the first process those of all.
-std::vector<FaceCorners> corners_of(Exchange& exchange, const RangedSurface& surface,
-                                    std::span<const std::uint32_t> wanted) {
-    std::vector<std::uint32_t> own;
-    for (const WholeFace& face : surface.faces()) {
-        if (std::ranges::binary_search(wanted, face.face)) {
-            own.push_back(face.face);
-        }
-    }
-    const std::vector<double> corners = take(surface.corners(exchange, own));
-    ByProcess<FaceCorners> told(exchange.size());
-    for (std::size_t i = 0; i < own.size(); ++i) {
-        FaceCorners& one = told[0].emplace_back();
-        one.face = own[i];
-        std::copy_n(&corners[9 * i], 9, one.corners);
-    }
-    std::vector<FaceCorners> all;
-    for (const auto& some : Talk(exchange).swap(std::move(told))) {
-        all.insert(all.end(), some.begin(), some.end());
-    }
-    std::ranges::sort(all, {}, &FaceCorners::face);
-    return all;
-}
-
 } // namespace
 
-Session::Session()
-    : exchange_(take(MpiExchange::create(MPI_COMM_WORLD, [] { return !is_interrupted(); }))) {}
+Session::Session() : exchange_(take(MpiExchange::create(MPI_COMM_WORLD, goes_on))) {}
 
 Session::~Session() {
     if (is_first() && !is_interrupted()) {
@@ -147,14 +115,30 @@ void Session::check_arguments(const std::vector<std::string>& arguments) {
     take(std::move(alike));
 }
 
-std::optional<std::string> Session::read_ranges(const Path& path) {
+Result<Done> Session::read_together(const Path& path, std::uint32_t of_first) {
+    const auto parts = all_hear(*exchange_, of_first);
+    if (!parts) {
+        return parts.error();
+    }
+    auto ranges = RangedParts::read(
+        MPI_COMM_WORLD, goes_on, [this](const std::exception_ptr& failure) { fail(failure); },
+        *parts, path);
+    if (!ranges) {
+        return ranges.error();
+    }
+    ranges_ = std::move(*ranges);
+    return Done{};
+}
+
+std::optional<std::string> Session::read_ranges(const Path& path, std::uint32_t parts) {
     next(Task::read);
-    auto surface = together([&] { return read_surface(*exchange_, path); });
-    if (surface) {
-        surface_ = std::move(*surface);
+    auto well = together([&] {
+        return read_together(path, parts_of_process(ply_faces(path), exchange_->size(), parts));
+    });
+    if (well) {
         return std::nullopt;
     }
-    const Error& error = surface.error();
+    const Error& error = well.error();
     if (error.status == Status::mesh_rejected) {
         return error.message;
     }
@@ -162,8 +146,13 @@ std::optional<std::string> Session::read_ranges(const Path& path) {
         fail_input(path, error.message);
     }
     check_interrupted();
-    take(std::move(surface));
+    take(std::move(well));
     return std::nullopt;
+}
+
+void Session::forget_ranges() {
+    next(Task::forget);
+    ranges_.reset();
 }
 
 std::vector<double> Session::corners(const std::vector<std::uint32_t>& faces) {
@@ -171,25 +160,23 @@ std::vector<double> Session::corners(const std::vector<std::uint32_t>& faces) {
     const auto bytes = std::as_bytes(std::span(faces));
     take(exchange_->scatter(
         std::vector<Bytes>(exchange_->size(), Bytes(bytes.begin(), bytes.end()))));
-    std::vector<double> corners;
-    for (const FaceCorners& one : corners_of(*exchange_, *surface_, faces)) {
-        corners.insert(corners.end(), one.corners, one.corners + 9);
-    }
-    return corners;
+    auto corners = together([&] { return ranges_->corners(faces); });
+    check_interrupted();
+    return take(std::move(corners));
 }
 
 Result<SampleSet> Session::sample(Runner& runner, const SurfaceTask& surface,
                                   const ProgressCallback& progress) {
     const Checkpoints* const checkpoints =
         checkpoints_ != nullptr ? &checkpoints_->begin(*surface.mesh, surface.params) : nullptr;
-    next(surface_ ? Task::sample_ranges : Task::sample_whole);
+    next(ranges_ ? Task::sample_ranges : Task::sample_whole);
     auto result = together([&]() -> Result<PartsResult> {
         if (auto well = exchange_->check_all(nullptr); !well) {
             return well.error();
         }
-        if (surface_) {
+        if (ranges_) {
             const auto job = all_hear(*exchange_, RangedJob(surface.params));
-            return job ? sample_ranges(*exchange_, runner, *surface_, job->params(), progress)
+            return job ? ranges_->sample(runner, job->params(), progress)
                        : Result<PartsResult>(job.error());
         }
         const Cut cut = cut_surface;
@@ -214,6 +201,16 @@ std::vector<NotedPair> Session::note(const PairSearch& search, ProgressLine& pro
     return take(std::move(noted));
 }
 
+void Session::fail(const std::exception_ptr& failure) const {
+    try {
+        std::rethrow_exception(failure);
+    } catch (const std::bad_alloc&) {
+        abort(ExitCode::out_of_memory, "out of memory");
+    } catch (const std::exception& error) {
+        abort(ExitCode::internal, error.what());
+    }
+}
+
 void Session::abort(ExitCode code, const std::string& message) const {
     const std::uint32_t rank = exchange_->rank();
     // In one piece, since others may write as well.
@@ -225,13 +222,6 @@ void Session::abort(ExitCode code, const std::string& message) const {
     std::_Exit(static_cast<int>(code));
 }
 
-void Session::help_to_read(const Path& path) {
-    surface_.reset();
-    if (auto surface = read_surface(*exchange_, path)) {
-        surface_ = std::move(*surface);
-    }
-}
-
 void Session::help_to_sample(RunDevice* device, bool has_ranges) {
     ProgressLine quiet(true);
     const Error no_job{Status::internal, "its arguments are none"};
@@ -239,12 +229,11 @@ void Session::help_to_sample(RunDevice* device, bool has_ranges) {
     if (!exchange_->check_all(opened ? nullptr : &opened.error())) {
         return; // The first process tells of errors.
     }
-    const ProgressCallback goes_on = [](const Progress&) { return !is_interrupted(); };
+    const ProgressCallback progress = [](const Progress&) { return goes_on(); };
     if (!has_ranges) {
-        surface_.reset();
-        (void)sample_parts(*exchange_, device->runner(), nullptr, goes_on);
+        (void)sample_parts(*exchange_, device->runner(), nullptr, progress);
     } else if (const auto job = all_hear(*exchange_, RangedJob(SampleParams()))) {
-        (void)sample_ranges(*exchange_, device->runner(), *surface_, job->params(), goes_on);
+        (void)ranges_->sample(device->runner(), job->params(), progress);
     }
 }
 
@@ -252,11 +241,14 @@ void Session::do_task(Task task, const SampleJob* job, RunDevice* device) {
     ProgressLine quiet(true);
     switch (task) {
     case Task::read:
-        help_to_read(job != nullptr ? Path(job->mesh.mesh) : Path());
+        (void)read_together(job != nullptr ? Path(job->mesh.mesh) : Path(), 0);
+        break;
+    case Task::forget:
+        ranges_.reset();
         break;
     case Task::corners:
         if (const auto faces = exchange_->scatter({})) {
-            (void)corners_of(*exchange_, *surface_, Talk::records_of<std::uint32_t>(*faces));
+            (void)ranges_->corners(Talk::records_of<std::uint32_t>(*faces));
         }
         break;
     case Task::note:

@@ -14,9 +14,9 @@
 #include "geodisk/device_run.hpp"
 #include "geodisk/options/sample_options.hpp"
 #include "mpi_exchange.hpp"
-#include "parts/ranges/ranged_surface.hpp"
 #include "program/failure.hpp"
 #include "program/path.hpp"
+#include "ranged_parts.hpp"
 
 namespace geodisk::tools {
 
@@ -38,13 +38,14 @@ class Session : public SurfaceSampler {
     // On the first process.
 
     /// Reads a mesh file by all processes, each a range of it; from then on sample() samples that
-    /// surface. Returns the reason if the first process has to read the whole. Throws
-    /// UserError(bad_input) if the file changes meanwhile.
-    std::optional<std::string> read_ranges(const Path& path);
+    /// surface. Each process has so many parts of it, or as parts_of_process() chooses for 0.
+    /// Returns the reason if the first process has to read the whole. Throws UserError(bad_input)
+    /// if the file changes meanwhile.
+    std::optional<std::string> read_ranges(const Path& path, std::uint32_t parts);
     /// Returns the surface that was read in ranges, or null.
-    const RangedSurface* ranges() const { return surface_ ? &*surface_ : nullptr; }
-    /// Frees it.
-    void forget_ranges() { surface_.reset(); }
+    const RangedSurface* ranges() const { return ranges_ ? &ranges_->surface() : nullptr; }
+    /// Frees it, on all processes.
+    void forget_ranges();
     /// Returns the corners of its faces, in ascending order: nine coordinates each.
     std::vector<double> corners(const std::vector<std::uint32_t>& faces);
 
@@ -64,12 +65,21 @@ class Session : public SurfaceSampler {
 
   private:
     /// What the others are to do.
-    enum class Task : std::uint8_t { nothing, read, sample_whole, sample_ranges, corners, note };
+    enum class Task : std::uint8_t {
+        nothing,
+        read,
+        forget,
+        sample_whole,
+        sample_ranges,
+        corners,
+        note
+    };
 
     /// Tells the others what to do, or hears of it.
     Task next(Task of_first);
     void do_task(Task task, const SampleJob* job, RunDevice* device);
-    void help_to_read(const Path& path);
+    /// Reads ranges; the first process says how many parts each has.
+    Result<Done> read_together(const Path& path, std::uint32_t of_first);
     void help_to_sample(RunDevice* device, bool has_ranges);
 
     /// Does what all processes do together. What it throws, the others never hear of: that ends all
@@ -78,16 +88,15 @@ class Session : public SurfaceSampler {
     auto together(const Body& body) const {
         try {
             return body();
-        } catch (const std::bad_alloc&) {
-            abort(ExitCode::out_of_memory, "out of memory");
-        } catch (const std::exception& error) {
-            abort(ExitCode::internal, error.what());
+        } catch (...) {
+            fail(std::current_exception());
         }
     }
+    [[noreturn]] void fail(const std::exception_ptr& failure) const;
     [[noreturn]] void abort(ExitCode code, const std::string& message) const;
 
     std::unique_ptr<MpiExchange> exchange_;
-    std::optional<RangedSurface> surface_;
+    std::optional<RangedParts> ranges_;
     std::vector<ProcessReport> processes_;
     CheckpointFolder* checkpoints_ = nullptr;
     bool has_ended_ = false;

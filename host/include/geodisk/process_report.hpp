@@ -7,6 +7,8 @@ namespace geodisk {
 
 /// Work and messages of one process.
 struct ProcessReport {
+    std::uint32_t parts = 0;      ///< Parts that it decides, one after another. Other counts add
+                                  ///< up over them.
     std::uint64_t own_faces = 0;  ///< Faces whose candidates it decides.
     std::uint64_t faces = 0;      ///< Faces that it holds: those, and the surface around them.
     std::uint64_t candidates = 0; ///< Candidates of its own faces.
@@ -15,7 +17,7 @@ struct ProcessReport {
     std::uint64_t messages = 0;   ///< Messages to its neighbours.
     std::uint64_t bytes = 0;      ///< Size of those, in bytes.
     std::uint32_t rounds = 0; ///< Exchanges with all its neighbours, the same for all processes.
-    std::uint32_t neighbours = 0;  ///< Processes that it exchanges samples with.
+    std::uint32_t neighbours = 0;  ///< Parts that it exchanges samples with.
     std::uint32_t whole_runs = 0;  ///< Times it decided all its candidates.
     std::uint64_t peak_bytes = 0;  ///< Peak memory of the process so far; 0 where the system does
                                    ///< not tell.

@@ -1,9 +1,11 @@
 #include "parts/decide_stages.hpp"
 
 #include <algorithm>
+#include <optional>
 
 #include "constants.h"
 #include "engine/job/order_cut.hpp"
+#include "parts/mesh_turn.hpp"
 #include "support/guard.hpp"
 
 namespace geodisk {
@@ -27,9 +29,10 @@ Result<std::uint64_t> keep_first(Exchange& exchange, PartRun& run, std::uint32_t
 }
 
 /// Draws the candidates of stages. Returns how many all processes have that take part.
-Result<std::uint64_t> draw(Exchange& exchange, PartRun& run, const Stages& stages,
-                           std::uint64_t drawn, std::uint32_t first, std::uint32_t count) {
+Result<std::uint64_t> draw(Exchange& exchange, Part& part, PartRun& run, std::uint64_t drawn,
+                           std::uint32_t first, std::uint32_t count) {
     const auto begun = guarded([&]() -> Result<Done> {
+        const MeshTurn turn(exchange, part);
         run.begin(first, count);
         return Done{};
     });
@@ -37,17 +40,27 @@ Result<std::uint64_t> draw(Exchange& exchange, PartRun& run, const Stages& stage
         return well.error();
     }
     const auto all = exchange.sum(run.own_candidates());
-    const std::uint64_t wanted = stages.still_wanted(drawn);
+    const std::uint64_t wanted = run.stages().still_wanted(drawn);
     return all && *all > wanted ? keep_first(exchange, run, first, *all, wanted) : all;
+}
+
+Result<Darts> decide(Exchange& exchange, Part& part, PartRun& run, const Darts* near) {
+    return guarded([&] {
+        std::optional<MeshTurn> turn;
+        if (run.has_to_decide(near)) {
+            turn.emplace(exchange, part);
+        }
+        return run.decide(near);
+    });
 }
 
 } // namespace
 
-Result<StagesReport> decide_stages(Exchange& exchange, const Part& part, PartRun& run,
+Result<StagesReport> decide_stages(Exchange& exchange, Part& part, PartRun& run,
                                    Checkpoint& reached, const SaveCheckpoint& save) {
     StagesReport report;
     report.candidates = part.candidates_before;
-    const Stages stages = part.draw().stages();
+    const Stages& stages = run.stages();
     std::uint64_t accepted = part.all_given + part.samples_before;
     std::uint32_t first = part.first_stage;
     const auto is_enough = [&] { return part.stop_count != 0 && accepted >= part.stop_count; };
@@ -57,13 +70,12 @@ Result<StagesReport> decide_stages(Exchange& exchange, const Part& part, PartRun
     while (has_more()) {
         const std::uint32_t count =
             std::min(part.most_stages, stages.left(first, report.candidates));
-        const auto drawn = draw(exchange, run, stages, report.candidates, first, count);
+        const auto drawn = draw(exchange, part, run, report.candidates, first, count);
         if (!drawn) {
             return drawn.error();
         }
         const auto own = agree(
-            exchange, part,
-            [&](const Darts* near) { return guarded([&] { return run.decide(near); }); },
+            exchange, part, [&](const Darts* near) { return decide(exchange, part, run, near); },
             report.agreement);
         if (!own) {
             return own.error();

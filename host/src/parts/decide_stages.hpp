@@ -27,7 +27,7 @@ struct StagesReport {
 /// darts, or until there are enough samples. All processes call it. `reached` is the checkpoint
 /// that the job goes on from, on the first process; there it is saved by `save` after some stages,
 /// unless they are the last. Errors: those of agree() and save_stages().
-Result<StagesReport> decide_stages(Exchange& exchange, const Part& part, PartRun& run,
+Result<StagesReport> decide_stages(Exchange& exchange, Part& part, PartRun& run,
                                    Checkpoint& reached, const SaveCheckpoint& save);
 
 } // namespace geodisk

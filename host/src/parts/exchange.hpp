@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <mutex>
 #include <span>
 #include <vector>
 
@@ -24,6 +25,16 @@ class GEODISK_API Exchange {
 
     virtual std::uint32_t rank() const = 0;
     virtual std::uint32_t size() const = 0;
+
+    // A process may stand for several of those counted above, each a thread that decides a part.
+
+    /// Returns the process that one of them belongs to.
+    virtual std::uint32_t process_of(std::uint32_t rank) const { return rank; }
+    /// Returns true if there are others in this process.
+    virtual bool takes_turns() const { return false; }
+    /// Returns a lock that only one of this process holds at a time, for work that needs much
+    /// memory or the device. Its holder must not wait for others.
+    virtual std::unique_lock<std::mutex> turn() { return {}; }
 
     /// Sends a message to each of some processes, not this one, and returns what each of them sent,
     /// in the same order. Those must name this process too.

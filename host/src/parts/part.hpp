@@ -33,13 +33,21 @@ struct Neighbour {
     std::vector<std::uint32_t> faces;
 };
 
+/// Faces by the places of their vertices, from which a mesh is made.
+struct FacePlaces {
+    std::vector<double> positions;        ///< Three coordinates per vertex.
+    std::vector<std::uint32_t> triangles; ///< Three vertices per face.
+};
+
 /// Own faces of a process, and the surface around them: faces whose samples matter to them, and
 /// all that paths from those cross within the same distance. So disks are as on the whole. Faces
 /// and vertices are in the order of the whole.
 struct Part {
-    JobFrame frame;   ///< Frame of the whole.
-    double reach = 0; ///< No samples farther away than this conflict.
-    PreparedMesh mesh;
+    JobFrame frame;       ///< Frame of the whole.
+    double reach = 0;     ///< No samples farther away than this conflict.
+    PreparedMesh mesh;    ///< See MeshTurn.
+    FacePlaces places;    ///< What the mesh is made from; empty once it is held for good.
+    MeshStatistics whole; ///< Of the whole, likewise.
     std::optional<RadiusField> radii;
     std::vector<std::uint32_t> faces; ///< Number in the whole of each face.
     std::vector<FaceRole> roles;

@@ -139,12 +139,13 @@ Result<Darts> PartRun::accepted_of(const Darts& candidates, std::span<const Samp
     return accepted;
 }
 
+bool PartRun::has_to_decide(const Darts* near) const {
+    return own_count_ != 0 && (near == nullptr || *near != near_);
+}
+
 Result<Darts> PartRun::decide(const Darts* near) {
-    if (own_count_ == 0) {
+    if (!has_to_decide(near)) {
         near_ = near != nullptr ? *near : Darts();
-        return Darts();
-    }
-    if (near != nullptr && *near == near_) {
         return own_;
     }
     Result<Darts> all = Darts();

@@ -15,7 +15,8 @@ namespace geodisk {
 
 class PartRun {
   public:
-    /// The part and the runner must outlive it.
+    /// The part and the runner must outlive it. The part has its mesh where this, begin() and
+    /// decide() are called, unless decide() has nothing to do.
     PartRun(const Part& part, Runner& runner, ProgressCallback progress);
 
     /// Draws the candidates of own and near faces in some stages. Samples of the stages before,
@@ -30,7 +31,11 @@ class PartRun {
     /// anew, or all if that changes samples farther away. Errors: those of listed_domain() and
     /// Runner::sample_and_wait().
     Result<Darts> decide(const Darts* near);
+    /// Returns true if decide() is not sure to give what it gave before.
+    bool has_to_decide(const Darts* near) const;
 
+    /// Returns the stages of the job.
+    const Stages& stages() const { return draw_.stages(); }
     /// Returns own samples of all stages, in dart order.
     Darts samples() const;
     /// Returns the number of own candidates of these stages.

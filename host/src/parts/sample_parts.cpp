@@ -9,6 +9,7 @@
 
 #include "engine/domain/given.hpp"
 #include "parts/decide_stages.hpp"
+#include "parts/mesh_turn.hpp"
 #include "parts/part.hpp"
 #include "parts/part_run.hpp"
 #include "parts/peak_memory.hpp"
@@ -63,17 +64,36 @@ std::vector<Sample> merged(const SampleParams& params, const Darts& darts) {
     return samples;
 }
 
-/// Puts together what the processes tell; the first of `darts` are samples.
-PartsResult put_together(const SampleParams& params, const std::vector<Bytes>& messages,
-                         Darts& darts) {
+/// Adds the share of a part to that of its process.
+void add(ProcessReport& process, const ProcessReport& part) {
+    process.parts += part.parts;
+    process.own_faces += part.own_faces;
+    process.faces += part.faces;
+    process.candidates += part.candidates;
+    process.samples += part.samples;
+    process.part_bytes += part.part_bytes;
+    process.messages += part.messages;
+    process.bytes += part.bytes;
+    process.rounds = part.rounds;
+    process.neighbours += part.neighbours;
+    process.whole_runs += part.whole_runs;
+    process.border_runs += part.border_runs;
+    process.peak_bytes = std::max(process.peak_bytes, part.peak_bytes);
+}
+
+/// Puts together what the parts tell; the first of `darts` are samples.
+PartsResult put_together(const Exchange& exchange, const SampleParams& params,
+                         const std::vector<Bytes>& messages, Darts& darts) {
     PartsResult result;
+    result.processes.resize(exchange.process_of(exchange.size() - 1) + 1);
     RunReport& run = result.set.report;
-    for (const Bytes& message : messages) {
+    for (std::uint32_t rank = 0; rank < exchange.size(); ++rank) {
+        const Bytes& message = messages[rank];
         Summary summary;
         std::memcpy(&summary, message.data(), sizeof summary);
         const Darts own = darts_of(std::span(message).subspan(sizeof summary));
         darts.insert(darts.end(), own.begin(), own.end());
-        if (result.processes.empty()) {
+        if (rank == 0) {
             run = summary.run;
         } else {
             const RunSeconds seconds = run.seconds;
@@ -81,7 +101,7 @@ PartsResult put_together(const SampleParams& params, const std::vector<Bytes>& m
             run.seconds = seconds;
             run.starts += summary.run.starts;
         }
-        result.processes.push_back(summary.process);
+        add(result.processes[exchange.process_of(rank)], summary.process);
     }
     std::ranges::sort(darts, DartOrder{!params.face_keys.empty()});
     const std::size_t given = params.given.size();
@@ -113,12 +133,14 @@ Result<PartsResult> sample_all(Exchange& exchange, Runner& runner,
                                const SampleParams* params, const Checkpoints* given,
                                const ProgressCallback& progress) {
     Summary summary;
+    summary.process.parts = 1;
     summary.process.part_bytes = part_bytes;
     std::optional<PartRun> run;
     const auto begun = guarded([&]() -> Result<Done> {
         if (!part) {
             return part.error();
         }
+        const MeshTurn turn(exchange, **part);
         run.emplace(**part, runner, progress);
         return Done{};
     });
@@ -157,7 +179,7 @@ Result<PartsResult> sample_all(Exchange& exchange, Runner& runner,
     PartsResult result;
     Darts darts;
     if (params != nullptr) {
-        result = put_together(*params, *all, darts);
+        result = put_together(exchange, *params, *all, darts);
     }
     std::uint64_t candidates = stages->candidates;
     if (stages->is_stopped) {

@@ -10,7 +10,8 @@ namespace {
 Json processes_json(const std::vector<ProcessReport>& processes) {
     Json all = Json::array();
     for (const ProcessReport& process : processes) {
-        all.push_back({{"own_faces", process.own_faces},
+        all.push_back({{"parts", process.parts},
+                       {"own_faces", process.own_faces},
                        {"faces", process.faces},
                        {"candidates", process.candidates},
                        {"samples", process.samples},

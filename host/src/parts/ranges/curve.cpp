@@ -158,19 +158,23 @@ Place place_of(const MeshRange& range, const RangeFaces& faces, const RangeFindi
 
 } // namespace
 
-std::vector<std::uint32_t> divide_by_curve(Talk& talk, const MeshRange& range,
-                                           const RangeFaces& faces, const RangeFindings& findings) {
+std::vector<std::uint32_t> divide_by_curve(Talk& talk, const MeshRange& range, RangeFaces faces,
+                                           const RangeFindings& findings) {
     const std::size_t count = faces.areas.size();
     const auto first = static_cast<std::uint32_t>(range.faces.first(talk.rank()));
     Sorted own;
+    own.places.reserve(count);
     for (std::size_t face = 0; face < count; ++face) {
         own.places.push_back(place_of(range, faces, findings, first, face));
     }
+    const std::vector<double> areas = std::move(faces.areas);
+    faces = {VertexNumbers({}), {}, {}};
     std::sort(own.places.begin(), own.places.end());
+    own.work.reserve(count + 1);
     own.work.assign(1, 0);
     for (const Place& place : own.places) {
         own.work.push_back(own.work.back() +
-                           work_of(faces.areas[place.face - first], findings.statistics));
+                           work_of(areas[place.face - first], findings.statistics));
     }
     std::vector<std::uint32_t> owners(count);
     const std::vector<Place> ends = ends_of_parts(talk, own, range.faces.count);

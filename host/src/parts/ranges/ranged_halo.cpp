@@ -123,7 +123,10 @@ class Halo {
             faces.push_back(one.face);
         }
         std::ranges::sort(faces, {}, &WholeFace::face);
-        const PreparedMesh mesh = piece_of(talk_, known_, faces);
+        const FacePlaces places = places_of(talk_, known_, faces);
+        const auto turn = talk_.exchange().turn();
+        const PreparedMesh mesh =
+            MeshPieces::piece(MeshView{places.positions, places.triangles, 3}, known_.statistics);
         std::vector<std::uint8_t> is_own(faces.size());
         for (std::size_t i = 0; i < faces.size(); ++i) {
             is_own[i] = seen_.contains(faces[i].face) ? 0 : 1;
@@ -320,18 +323,17 @@ class Halo {
 
 } // namespace
 
-PreparedMesh piece_of(Talk& talk, const KnownSurface& known, std::span<const WholeFace> faces) {
+FacePlaces places_of(Talk& talk, const KnownSurface& known, std::span<const WholeFace> faces) {
+    FacePlaces places;
     const VertexNumbers numbers = numbers_of(faces);
-    const std::vector<double> positions =
-        fetch_positions(talk, known.vertices, known.positions, numbers.vertices());
-    std::vector<std::uint32_t> triangles;
-    triangles.reserve(3 * faces.size());
+    places.positions = fetch_positions(talk, known.vertices, known.positions, numbers.vertices());
+    places.triangles.reserve(3 * faces.size());
     for (const WholeFace& face : faces) {
         for (const std::uint32_t vertex : face.corners) {
-            triangles.push_back(numbers.of(vertex));
+            places.triangles.push_back(numbers.of(vertex));
         }
     }
-    return MeshPieces::piece(MeshView{positions, triangles, 3}, known.statistics);
+    return places;
 }
 
 // Every path out of a piece leaves it at a vertex, or between two, whose faces are not all known.

@@ -7,6 +7,7 @@
 
 #include <geodisk/mesh.hpp>
 
+#include "parts/part.hpp"
 #include "parts/ranges/directory.hpp"
 #include "parts/ranges/mesh_range.hpp"
 #include "parts/ranges/talk.hpp"
@@ -33,7 +34,7 @@ struct KnownSurface {
 /// ascending order. All processes call it.
 std::vector<HaloFace> find_halo(Talk& talk, const KnownSurface& known, double reach);
 
-/// Returns the mesh of faces, in ascending order. All processes call it, perhaps with none.
-PreparedMesh piece_of(Talk& talk, const KnownSurface& known, std::span<const WholeFace> faces);
+/// Returns the places of faces, in ascending order. All processes call it, perhaps with none.
+FacePlaces places_of(Talk& talk, const KnownSurface& known, std::span<const WholeFace> faces);
 
 } // namespace geodisk

@@ -21,6 +21,15 @@ std::vector<WholeFace> own_faces_of(Talk& talk, const MeshRange& range,
     const std::uint64_t turns = turns_for(range.faces.each() * sizeof(WholeFace));
     const std::uint64_t first = range.faces.first(talk.rank());
     std::vector<WholeFace> own;
+    ByProcess<std::uint64_t> counts(talk.size(), {0});
+    for (const std::uint32_t owner : owners) {
+        ++counts[owner].front();
+    }
+    std::uint64_t count = 0;
+    for (const auto& some : talk.swap(std::move(counts))) {
+        count += some.front();
+    }
+    own.reserve(count);
     for (std::uint64_t turn = 0; turn < turns; ++turn) {
         ByProcess<WholeFace> sent(talk.size());
         const std::size_t end = owners.size() * (turn + 1) / turns;
@@ -33,7 +42,6 @@ std::vector<WholeFace> own_faces_of(Talk& talk, const MeshRange& range,
             own.insert(own.end(), some.begin(), some.end());
         }
     }
-    own.shrink_to_fit();
     std::ranges::sort(own, {}, &WholeFace::face);
     return own;
 }
@@ -78,8 +86,7 @@ Result<RangedSurface> RangedSurface::create(Exchange& exchange, MeshRange range)
             const RangeFindings findings = examine(talk, range, faces);
             surface.statistics_ = {findings.statistics, findings.largest_area, 0,
                                    findings.turned_edges};
-            const auto owners = divide_by_curve(talk, range, faces, findings);
-            faces = {VertexNumbers({}), {}, {}};
+            const auto owners = divide_by_curve(talk, range, std::move(faces), findings);
             surface.faces_ = own_faces_of(talk, range, owners);
         }
         range.triangles = {};
@@ -141,7 +148,8 @@ Result<std::unique_ptr<Part>> RangedSurface::part(Exchange& exchange, const Samp
             add(*own, FaceRole::own);
         }
         part->keys = part->faces;
-        part->mesh = piece_of(talk, known, faces);
+        part->whole = statistics_.mesh;
+        part->places = places_of(talk, known, faces);
         link(talk, std::move(near), *part);
         return part;
     });

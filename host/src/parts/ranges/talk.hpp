@@ -1,6 +1,7 @@
 // Talk: records that processes send each other in the midst of work.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <cstring>
 #include <span>
@@ -28,6 +29,7 @@ class Talk {
   public:
     explicit Talk(Exchange& exchange) : exchange_(exchange) {}
 
+    Exchange& exchange() const { return exchange_; }
     std::uint32_t rank() const { return exchange_.rank(); }
     std::uint32_t size() const { return exchange_.size(); }
 
@@ -123,11 +125,13 @@ std::invoke_result_t<Work> caught(const Work& work) {
     }
 }
 
-/// Records are sent in so many turns of which none takes much memory. `bytes` are those of the
-/// process that has most.
+/// Records are sent in so many turns of which none takes much memory beside all. `bytes` are those
+/// of the process that has most.
 inline std::uint64_t turns_for(std::uint64_t bytes) {
-    constexpr std::uint64_t kAtOnce = std::uint64_t{1} << 26;
-    return bytes / kAtOnce + 1;
+    constexpr std::uint64_t kShare = 16;
+    const std::uint64_t at_once =
+        std::clamp(bytes / kShare, std::uint64_t{1} << 20, std::uint64_t{1} << 26);
+    return bytes / at_once + 1;
 }
 
 } // namespace geodisk

@@ -1,0 +1,23 @@
+#include "parts/mesh_turn.hpp"
+
+#include "mesh/mesh_pieces.hpp"
+
+namespace geodisk {
+
+MeshTurn::MeshTurn(Exchange& exchange, Part& part) : turn_(exchange.turn()), part_(part) {
+    if (!part.places.triangles.empty()) {
+        part.mesh = MeshPieces::piece(MeshView{part.places.positions, part.places.triangles, 3},
+                                      part.whole);
+        if (!turn_) {
+            part.places = {};
+        }
+    }
+}
+
+MeshTurn::~MeshTurn() {
+    if (turn_) {
+        part_.mesh = {};
+    }
+}
+
+} // namespace geodisk

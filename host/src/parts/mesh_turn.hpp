@@ -1,0 +1,25 @@
+// MeshTurn: parts of one process hold their meshes, and use the device, one after another.
+#pragma once
+
+#include <mutex>
+
+#include "parts/exchange.hpp"
+#include "parts/part.hpp"
+
+namespace geodisk {
+
+/// Part::mesh is there while this lives, which must not wait for other parts. A process with one
+/// part keeps its mesh from then on. Throws std::bad_alloc.
+class MeshTurn {
+  public:
+    MeshTurn(Exchange& exchange, Part& part);
+    ~MeshTurn();
+    MeshTurn(const MeshTurn&) = delete;
+    MeshTurn& operator=(const MeshTurn&) = delete;
+
+  private:
+    std::unique_lock<std::mutex> turn_;
+    Part& part_;
+};
+
+} // namespace geodisk

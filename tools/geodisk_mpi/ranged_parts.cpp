@@ -1,0 +1,127 @@
+#include "ranged_parts.hpp"
+
+#include <algorithm>
+#include <exception>
+#include <thread>
+#include <utility>
+
+#include "parts/ranges/talk.hpp"
+#include "ply_range.hpp"
+
+namespace geodisk::tools {
+namespace {
+
+// With the buffers of the device, a part of so many faces takes about 300 MB, and it fits the
+// bindings of all devices.
+constexpr std::uint64_t kFacesOfPart = std::uint64_t{1} << 20;
+
+struct FaceCorners {
+    std::uint32_t face;
+    double corners[9];
+};
+
+/// Returns the corners of own faces among some, at the first part those of all.
+Result<std::vector<double>> corners_of(Exchange& exchange, const RangedSurface& surface,
+                                       std::span<const std::uint32_t> wanted) {
+    std::vector<std::uint32_t> own;
+    for (const WholeFace& face : surface.faces()) {
+        if (std::ranges::binary_search(wanted, face.face)) {
+            own.push_back(face.face);
+        }
+    }
+    const auto corners = surface.corners(exchange, own);
+    if (!corners) {
+        return corners.error();
+    }
+    ByProcess<FaceCorners> told(exchange.size());
+    for (std::size_t i = 0; i < own.size(); ++i) {
+        FaceCorners& one = told[0].emplace_back();
+        one.face = own[i];
+        std::copy_n(&(*corners)[9 * i], 9, one.corners);
+    }
+    return caught([&]() -> Result<std::vector<double>> {
+        std::vector<FaceCorners> all;
+        for (const auto& some : Talk(exchange).swap(std::move(told))) {
+            all.insert(all.end(), some.begin(), some.end());
+        }
+        std::ranges::sort(all, {}, &FaceCorners::face);
+        std::vector<double> of_all;
+        of_all.reserve(9 * all.size());
+        for (const FaceCorners& one : all) {
+            of_all.insert(of_all.end(), one.corners, one.corners + 9);
+        }
+        return of_all;
+    });
+}
+
+} // namespace
+
+std::uint32_t parts_of_process(std::uint64_t faces, std::uint32_t processes, std::uint32_t asked) {
+    int level = MPI_THREAD_SINGLE;
+    MPI_Query_thread(&level);
+    if (level < MPI_THREAD_SERIALIZED) {
+        return 1;
+    }
+    const std::uint64_t own = faces / processes;
+    const std::uint64_t wanted = asked != 0 ? asked : (own + kFacesOfPart - 1) / kFacesOfPart;
+    const std::uint64_t most = std::min<std::uint64_t>(own, MpiExchange::kMostLanes);
+    return static_cast<std::uint32_t>(std::max<std::uint64_t>(1, std::min(wanted, most)));
+}
+
+template <class Work>
+auto RangedParts::all(const Work& work) {
+    std::vector<std::optional<decltype(work(lanes_.front()))>> results(lanes_.size());
+    const auto work_at = [&](std::size_t i) {
+        try {
+            results[i].emplace(work(lanes_[i]));
+        } catch (...) {
+            fails_(std::current_exception());
+        }
+    };
+    {
+        std::vector<std::jthread> threads;
+        for (std::size_t i = 1; i < lanes_.size(); ++i) {
+            threads.emplace_back(work_at, i);
+        }
+        work_at(0);
+    }
+    return std::move(*results.front());
+}
+
+Result<RangedParts> RangedParts::read(MPI_Comm communicator, const MpiExchange::GoesOn& goes_on,
+                                      Fails fails, std::uint32_t parts, const Path& path) {
+    auto exchanges = MpiExchange::create_lanes(communicator, parts, goes_on);
+    if (!exchanges) {
+        return exchanges.error();
+    }
+    RangedParts made(std::move(fails));
+    for (auto& exchange : *exchanges) {
+        made.lanes_.push_back({std::move(exchange), std::nullopt});
+    }
+    const auto well = made.all([&](Lane& lane) -> Result<Done> {
+        auto range = read_ply_range(*lane.exchange, path);
+        if (!range) {
+            return range.error();
+        }
+        auto surface = RangedSurface::create(*lane.exchange, std::move(*range));
+        if (!surface) {
+            return surface.error();
+        }
+        lane.surface = std::move(*surface);
+        return Done{};
+    });
+    return well ? Result<RangedParts>(std::move(made)) : well.error();
+}
+
+Result<PartsResult> RangedParts::sample(Runner& runner, const SampleParams& params,
+                                        const ProgressCallback& progress) {
+    return all([&](Lane& lane) {
+        return sample_ranges(*lane.exchange, runner, *lane.surface, params, progress);
+    });
+}
+
+Result<std::vector<double>> RangedParts::corners(std::span<const std::uint32_t> faces) {
+    return all([&](Lane& lane) { return corners_of(*lane.exchange, *lane.surface, faces); });
+}
+
+} // namespace geodisk::tools
