@@ -1,5 +1,9 @@
 """Arguments of a wrong kind are refused by their names, in words of the package."""
 
+import inspect
+import linecache
+import traceback
+
 import numpy as np
 import pytest
 
@@ -53,3 +57,87 @@ def test_booleans_of_numpy_are_booleans():
     far_apart = VERTICES[:3], [[0, 1, 2]]  # A distance of 1 would join them.
     assert geodisk.Mesh(*far_apart, weld=np.bool_(True)).area > 0
     assert geodisk.Mesh(*far_apart, weld=np.bool_(False)).area > 0
+
+
+class Hostile:
+    def __float__(self):
+        raise RuntimeError
+
+    def __repr__(self):
+        return "<Hostile>"
+
+
+NASTY = [
+    "a\0b",
+    "\ud800",
+    b"abc",
+    "",
+    Hostile(),
+    [[1], [1, 2]],
+    np.array(["a", "b"]),
+    np.array([None, 3]),
+    np.array([2.5, np.nan]),
+    np.array(0.5),
+    10**400,
+    1j,
+    {"a": 1},
+    np.full((2, 3), -1),
+]
+MESH = geodisk.Mesh(VERTICES, FACES)
+
+
+def save(path):
+    SAMPLES.save(path)
+
+
+def choose(key):
+    return SAMPLES[key]
+
+
+def interpolate(values=VERTICES, of="vertices", nearest=None, mesh=None):
+    return SAMPLES.interpolate(values, of=of, nearest=nearest, mesh=mesh)
+
+
+CALLS = [
+    (geodisk.Mesh, dict(vertices=VERTICES, faces=FACES)),
+    (geodisk.Mesh, dict(vertices="builtin:cube")),
+    (geodisk.Samples, dict(points=SAMPLES.points)),
+    (geodisk.sample, dict(vertices=MESH, min_distance=0.5)),
+    (geodisk.sample_many, dict(meshes=[MESH], min_distance=0.5)),
+    (geodisk.sample_box, dict(min_distance=0.3)),
+    (geodisk.neighbours, dict(vertices=MESH, within=0.2)),
+    (geodisk.cells, dict(mesh=MESH, samples=SAMPLES)),
+    (geodisk.farthest_order, dict(samples=SAMPLES, count=3)),
+    (geodisk.update, dict(samples=SAMPLES, face_mask=[0])),
+    (geodisk.verify, dict(samples=SAMPLES)),
+    (geodisk.transfer, dict(samples=SAMPLES, to=VERTICES)),
+    (geodisk.render, dict(samples=SAMPLES, size=(16, 16))),
+    (geodisk.bake, dict(mesh="builtin:cube", samples=SAMPLES)),
+    (geodisk.read, dict(path="a.npz")),
+    (save, dict(path="a.npz")),
+    (choose, dict(key=0)),
+    (interpolate, {}),
+]
+
+
+@pytest.mark.filterwarnings("ignore")
+@pytest.mark.parametrize("function, good", CALLS, ids=lambda one: getattr(one, "__name__", ""))
+def test_no_argument_makes_numpy_or_python_complain(function, good, tmp_path, monkeypatch):
+    """What fails is raised by the package itself, by a statement of its own."""
+    monkeypatch.chdir(tmp_path)
+    found = []
+    for name, parameter in inspect.signature(function).parameters.items():
+        if name.startswith("_") or name == "progress" or parameter.kind == parameter.VAR_KEYWORD:
+            continue
+        for value in NASTY:
+            try:
+                function(**{**good, name: value})
+            except Exception as error:
+                last = traceback.extract_tb(error.__traceback__)[-1]
+                is_ours = "geodisk" in last.filename and isinstance(
+                    error, (geodisk.Error, TypeError, IndexError, OSError)
+                )
+                statement = linecache.getline(last.filename, last.lineno).strip()
+                if not (is_ours and (statement.startswith("raise") or isinstance(error, OSError))):
+                    found.append(f"{name}={value!r}: {type(error).__name__}: {error}")
+    assert found == []

@@ -55,8 +55,9 @@ def indices(
         view = array.view(np.uint32)
         if array.size == 0 or array.min() >= 0:
             return view
-    bad = (array < 0) | (array > 2**32 - 1) if array.size else np.zeros(0, bool)
+    bad = np.atleast_1d((array < 0) | (array > 2**32 - 1)) if array.size else np.zeros(0, bool)
     if bad.any():
+        array = np.atleast_1d(array)
         place = np.argwhere(bad)[0]
         raise error(
             f"{name}[{', '.join(map(str, place))}] is {array[tuple(place)]}, which is no index",

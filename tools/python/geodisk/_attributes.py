@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _errors as e
+from ._arrays import array_of
 
 
 @dataclass(frozen=True, eq=False)
@@ -68,7 +69,7 @@ def interpolated(
 
 def values_of(values: ArrayLike, count: int, what: str) -> NDArray[Any]:
     """Returns values as an array with one for each of `count` vertices or faces."""
-    array = np.asarray(values)
+    array = array_of(values, "values")
     if array.dtype.kind not in "biufSU":
         raise TypeError(f"values have to be of numbers or text, not of {array.dtype}")
     if array.ndim == 0 or len(array) != count:

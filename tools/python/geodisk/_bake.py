@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from ._inputs import write_samples
 from ._program import folder, run
 from ._samples import Samples
-from ._values import pixels
+from ._values import path_of, pixels
 
 
 @dataclass(frozen=True, eq=False)
@@ -84,8 +84,8 @@ def bake(
         raise TypeError("bake needs the path of a mesh file, which has texture coordinates")
     if not isinstance(samples, Samples):
         raise TypeError(f"samples are a geodisk.Samples, not {type(samples).__name__}")
-    width, height = pixels((size, size) if np.ndim(size) == 0 else size)
-    path = os.fspath(mesh)
+    width, height = pixels(size if isinstance(size, (tuple, list, np.ndarray)) else (size, size))
+    path = path_of(mesh, "mesh")
     with folder() as place:
         files = [os.path.abspath(path), write_samples(place, samples)]
         options = ["--size", f"{width}x{height}", "--json", "report.json", "--output", "map.npz"]

@@ -18,7 +18,7 @@ from ._protocols import MeshLike
 from ._running import ProgressCallback
 from ._searching import search
 from ._source import view_of
-from ._values import integer
+from ._values import flag, integer
 
 
 @dataclass(frozen=True)
@@ -114,7 +114,7 @@ def cells(
     params = s.CellParams(
         samples=points.ctypes.data,
         sample_count=len(points),
-        areas_only=int(not dual),
+        areas_only=int(not flag(dual, "dual")),
         most_records=integer(most_records, "most_records", 2**64 - 1, 1),
     )
     handle = search("cells", "geodisk_find_cells", on, params, name_of(device), progress)

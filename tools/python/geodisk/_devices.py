@@ -6,6 +6,7 @@ import contextlib
 import ctypes
 import operator
 import os
+import reprlib
 import threading
 from dataclasses import dataclass
 from typing import Iterator, Union
@@ -14,6 +15,7 @@ from . import _cpu
 from . import _errors as e
 from . import _library as c
 from . import _structs as s
+from ._values import text
 
 
 @dataclass(frozen=True)
@@ -90,8 +92,13 @@ def name_of(device: DeviceLike | None) -> str:
     if isinstance(device, Device):
         return device.uuid if int(device.uuid, 16) != 0 else str(device.index)
     if isinstance(device, str):
-        return device
-    return str(operator.index(device))
+        return text(device, "device")
+    try:
+        return str(operator.index(device))
+    except TypeError:
+        raise TypeError(
+            f"device is {reprlib.repr(device)}, none of devices(), nor an index, a UUID or a name"
+        ) from None
 
 
 _lock = threading.Lock()

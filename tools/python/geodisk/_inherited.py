@@ -30,7 +30,7 @@ class Wanted:
     def given(self) -> Record:
         """Returns what the caller asks for."""
         frames = False if self.frames is None else self.frames
-        return Record(self.texture, self.normals or "face", frames)
+        return Record(self.texture, "face" if self.normals is None else self.normals, frames)
 
     def inherited(self, samples: Samples) -> Record:
         """Returns what the caller asks for, and else what the samples had."""

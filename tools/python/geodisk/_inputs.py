@@ -14,7 +14,7 @@ from ._mesh import mesh_of
 from ._protocols import Faces, MeshLike
 from ._samples import Samples
 from ._surface import Surface
-from ._values import weld_of
+from ._values import flag, weld_of
 from ._writing import columns_of, header_of, write_ply
 
 
@@ -36,7 +36,8 @@ def surface_of(
         if samples.face_index is None and samples.extents is not None:
             raise e.invalid("samples in a box lie on no mesh")
         return mesh_of(vertices, faces, edge_lengths, weld, keep_seams)._surface
-    if faces is not None or edge_lengths is not None or weld_of(weld) is not False or keep_seams:
+    is_joined = weld_of(weld) is not False or flag(keep_seams, "keep_seams")
+    if faces is not None or edge_lengths is not None or is_joined:
         raise TypeError(
             "faces, edge_lengths, weld and keep_seams are of a mesh whose vertices are given"
         )

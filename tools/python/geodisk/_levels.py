@@ -44,8 +44,6 @@ def levels_of(
     order: str, levels: int | None, factor: float | None, metric: str, throws: int
 ) -> Levels | None:
     """Returns the levels of a progressive order, None for other orders."""
-    if order not in ("dart", "progressive", "farthest"):
-        raise e.invalid(f"order is {order!r}, none of dart, progressive, farthest")
     if order == "farthest" and metric != "geodesic":
         raise e.invalid(f"order='farthest' goes by distances along the surface, not {metric}")
     if order != "progressive":

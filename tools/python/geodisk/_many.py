@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ctypes
 import os
+import reprlib
 from collections.abc import Sequence
 from ctypes import byref, c_double
 from typing import Any, Iterable
@@ -24,7 +25,7 @@ from ._record import Record, recorded
 from ._results import first_of, samples_of_parts
 from ._running import CountSearch, ProgressCallback, Runs
 from ._samples import Samples
-from ._values import check_exact, check_pool, distance_of, integer
+from ._values import check_exact, check_pool, distance_of, integer, listed
 
 
 class _Job:
@@ -184,7 +185,10 @@ def sample_many(
     """
     _refuse(others)
     record = Record(texture, normals, frames)
-    given = list(meshes)
+    several = listed(meshes)
+    if several is None:
+        raise TypeError(f"meshes is {reprlib.repr(meshes)}, not a list of meshes")
+    given = several
     n = len(given)
     distances = [
         _each(values, name, n)
@@ -214,7 +218,8 @@ def sample_many(
             pool_ratio,
         )
 
-    for each in distances[2]:
+    for i, each in enumerate(distances[2]):
+        distance_of(distances[0][i], distances[1][i], each)
         check_exact(exact, each)
         check_pool(each, pool_ratio)
     jobs = [_named(i, job_at) for i in range(n)]
@@ -327,6 +332,9 @@ def _each_array(arrays: Any, name: str, n: int) -> list[Any]:
     """Returns one array, or None, for each of n meshes."""
     if arrays is None:
         return [None] * n
-    if len(arrays) != n:
-        raise e.invalid(f"{name} has {len(arrays)} arrays for {n} meshes")
-    return list(arrays)
+    several = listed(arrays)
+    if several is None:
+        raise TypeError(f"{name} is {reprlib.repr(arrays)}, not a list with one array for each mesh")
+    if len(several) != n:
+        raise e.invalid(f"{name} has {len(several)} arrays for {n} meshes")
+    return several

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from . import _errors as e
 from . import _library as c
 from . import _structs as s
-from ._arrays import indices
+from ._arrays import array_of, indices
 from ._background import interruptible
 from ._objects import arrays_of, faces_of, is_object
 from ._oddities import oddities_of, warn
@@ -21,7 +21,7 @@ from ._protocols import Faces, MeshLike
 from ._record import NOTHING, Record, check_record
 from ._source import Source, read_file, split
 from ._surface import Surface
-from ._values import flag, names, weld_of
+from ._values import flag, names, text, weld_of
 
 
 class Mesh:
@@ -120,8 +120,8 @@ class Mesh:
         source: Source | None = None
         weld, keep_seams = weld_of(weld), flag(keep_seams, "keep_seams")
         attributes, columns = names(attributes, "attributes"), names(columns, "columns")
-        if mesh_format is not None and not isinstance(mesh_format, str):
-            raise TypeError(f"mesh_format is {mesh_format!r}, not a name")
+        if mesh_format is not None:
+            text(mesh_format, "mesh_format")
         if faces is None and isinstance(vertices, (str, os.PathLike)):
             if edge_lengths is not None:
                 raise TypeError("edge_lengths need faces given as arrays, not a file")
@@ -304,7 +304,8 @@ def mesh_of(
             attributes=attributes,
             _record=record,
         )
-    if faces is not None or edge_lengths is not None or weld_of(weld) is not False or keep_seams:
+    is_joined = weld_of(weld) is not False or flag(keep_seams, "keep_seams")
+    if faces is not None or edge_lengths is not None or is_joined:
         raise TypeError("a geodisk.Mesh has its faces, lengths and welds already")
     if names(columns, "columns") or names(attributes, "attributes") or mesh_format is not None:
         raise TypeError(
@@ -317,7 +318,7 @@ def mesh_of(
 
 def mask_of(surface: Surface, face_mask: ArrayLike) -> NDArray[np.uint8]:
     """Returns which triangles take samples, as the library takes it."""
-    given = np.asarray(face_mask)
+    given = array_of(face_mask, "face_mask")
     triangles, polygons = len(surface.indices()), surface.polygons
     if given.dtype.kind != "b":
         chosen = indices(given, "face_mask")

@@ -21,7 +21,7 @@ from ._running import ProgressCallback
 from ._samples import Samples
 from ._searching import search
 from ._source import view_of
-from ._values import integer
+from ._values import choice, integer
 
 #: Vertices, by their indices, or points as of ExistingLike.
 SourcesLike = Union[ArrayLike, ExistingLike]
@@ -60,9 +60,11 @@ class Neighbours:
         return len(self.offsets) - 1
 
     def __getitem__(self, source: int) -> tuple[NDArray[np.uint32], NDArray[np.float32]]:
+        if not isinstance(source, (int, np.integer)) or isinstance(source, bool):
+            raise IndexError("the neighbours of a source are chosen by its index")
         if not -len(self) <= source < len(self):
             raise IndexError(f"source {source} of {len(self)}")
-        row = source % len(self)
+        row = int(source) % len(self)
         part = slice(int(self.offsets[row]), int(self.offsets[row + 1]))
         return self.indices[part], self.distances[part]
 
@@ -149,9 +151,7 @@ def neighbours(
     count = _set_sources(params, mesh, sources, address)
     _set_within(params, within, count, address)
     if isinstance(among, str):
-        if among not in s.AMONG:
-            raise e.invalid(f"among is {among!r}, none of {', '.join(s.AMONG)}, nor points")
-        params.kind = s.AMONG[among]
+        params.kind = s.AMONG[choice(among, "among", s.AMONG)]
     else:
         points = points_of(mesh._surface, among, "among")
         params.kind = s.AMONG_POINTS

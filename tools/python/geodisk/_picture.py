@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import os
-from typing import Any, Iterable, Sequence
+import reprlib
+from numbers import Real
+from typing import Any, Sequence
 
-import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _errors as e
@@ -15,7 +16,7 @@ from ._inputs import surface_of, write_subject
 from ._program import folder, run
 from ._protocols import Faces, MeshLike
 from ._samples import Samples
-from ._values import flag, number, pixels, text
+from ._values import flag, listed, number, path_of, pixels, text
 
 
 class Picture:
@@ -37,7 +38,7 @@ class Picture:
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Writes it to a file, ``*.png``, completely or not at all."""
-        path = os.fspath(path)
+        path = path_of(path)
         if os.path.splitext(path)[1].lower() != ".png":
             raise e.invalid(f"{path}: pictures are saved as *.png")
         with complete(path) as file:
@@ -139,13 +140,15 @@ def render(
 
 def _views(view: Any) -> list[str]:
     """Returns the options of one or several views."""
-    is_one = isinstance(view, str) or (
-        isinstance(view, Sequence) and len(view) == 2 and not isinstance(view[0], (str, Sequence))
-    )
+    several = listed(view)
+    if several is None or (len(several) == 2 and all(isinstance(x, Real) for x in several)):
+        several = [view]
     options = []
-    for one in [view] if is_one else view if isinstance(view, Iterable) else [view]:
-        if not isinstance(one, str) and np.shape(one) != (2,):
-            raise TypeError(f"view is {one!r}, neither a name nor azimuth and elevation")
-        angles = one if isinstance(one, str) else ",".join(repr(number(x, "view")) for x in one)
-        options.append(f"--view={angles}")
+    for one in several:
+        angles = one if isinstance(one, str) else listed(one)
+        if angles is None or (angles is not one and len(angles) != 2):
+            raise TypeError(f"view is {reprlib.repr(one)}, neither a name nor azimuth and elevation")
+        if not isinstance(angles, str):
+            angles = ",".join(repr(number(angle, "view")) for angle in angles)
+        options.append(f"--view={text(angles, 'view')}")
     return options

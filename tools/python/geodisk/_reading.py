@@ -15,6 +15,7 @@ from . import _errors as e
 from ._attributes import attributes_of_columns
 from ._record import Record
 from ._samples import Samples
+from ._values import path_of
 from ._writing import ARRAYS, OWN_COLUMNS, WHOLE_COLUMNS, Header, is_whole
 
 Columns = dict[str, NDArray[Any]]
@@ -56,7 +57,7 @@ def read(path: str | os.PathLike[str]) -> Samples:
     >>> bool((again.points == samples.points).all()), again.extents, again.periodic
     (True, (1.0, 2.0), True)
     """
-    path = os.fspath(path)
+    path = path_of(path)
     readers = {".npz": _from_npz, ".csv": _from_csv, ".ply": _from_ply}
     reader = readers.get(os.path.splitext(path)[1].lower())
     if reader is None:

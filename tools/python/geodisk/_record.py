@@ -17,7 +17,7 @@ from ._background import interruptible
 from ._polygons import from_rows
 from ._source import split
 from ._surface import Surface
-from ._values import flag
+from ._values import choice, flag, path_of
 
 if TYPE_CHECKING:
     from ._mesh import Mesh
@@ -38,10 +38,8 @@ class Record:
     def __init__(
         self, texture: str | os.PathLike[str] | None, normals: str, frames: bool
     ) -> None:
-        self.texture = None if texture is None else os.fspath(texture)
-        if normals not in s.NORMALS:
-            raise e.invalid(f"normals is {normals!r}, none of {', '.join(s.NORMALS)}")
-        self.normals = normals
+        self.texture = None if texture is None else path_of(texture, "texture")
+        self.normals = choice(normals, "normals", s.NORMALS)
         self.frames = flag(frames, "frames")
 
     def check_no_file(self) -> None:

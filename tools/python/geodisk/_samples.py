@@ -6,6 +6,7 @@ import copy
 import dataclasses
 import math
 import os
+import reprlib
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Iterator, overload
 
@@ -19,7 +20,7 @@ from ._files import complete
 from ._job import Job
 from ._sample import Sample
 from ._surface import Surface
-from ._values import flag
+from ._values import choice, flag, integer, number, numbers_of, path_of
 from ._writing import (
     WHOLE_COLUMNS,
     check_names,
@@ -188,9 +189,15 @@ class Samples:
         some = self.points if self.points is not None else self.face_index
         if some is None or (self.face_index is None) != (self.barycentric is None):
             raise e.invalid("samples have points, or face_index and barycentric, or all of them")
-        n = len(some)
+        for name in ("columns", "attributes", "report"):
+            if not isinstance(getattr(self, name), dict):
+                raise TypeError(f"{name} is {getattr(self, name)!r}, not a dict")
+        name = "face_index" if self.points is None else "points"
+        shape = array_of(some, name).shape
+        if len(shape) == 0:
+            raise e.invalid(f"{name} is a single number, not an array")
+        n = shape[0]
         if self.points is not None:
-            shape = np.shape(self.points)
             if len(shape) != 2 or not 1 <= shape[1] <= 8:
                 raise e.invalid(f"points have the shape {shape}, not (n, 1) to (n, 8)")
             keep("points", _table(self.points, "points", (n, shape[1])))
@@ -201,32 +208,45 @@ class Samples:
             if faces.shape != (n,):
                 raise e.invalid(f"face_index have the shape {faces.shape}, not {(n,)}")
             keep("face_index", faces)
-            if self.polygon_index is not None:
-                polygons = indices(self.polygon_index, "polygon_index")
-                if polygons.shape != (n,):
-                    raise e.invalid(f"polygon_index has the shape {polygons.shape}, not {(n,)}")
-                keep("polygon_index", polygons.astype(np.uint32, copy=False))
             keep("barycentric", _table(self.barycentric, "barycentric", (n, 3)))
+        if self.polygon_index is not None:
+            polygons = indices(self.polygon_index, "polygon_index")
+            if polygons.shape != (n,):
+                raise e.invalid(f"polygon_index has the shape {polygons.shape}, not {(n,)}")
+            keep("polygon_index", polygons.astype(np.uint32, copy=False))
         keep("columns", {name: _column(x, name, n) for name, x in self.columns.items()})
         keep("attributes", {name: _attribute(x, name, n) for name, x in self.attributes.items()})
-        distance = float(self.min_distance)
+        distance = number(self.min_distance, "min_distance")
         if distance < 0 or math.isinf(distance):
             raise e.invalid(f"the minimum distance is {distance}, not positive")
         keep("min_distance", distance)
-        if self.radius is None or np.isnan(self.radius).all():
+        radii = real(math.nan if self.radius is None else self.radius, "radius")
+        if radii.shape in ((), (n,)) and np.isnan(radii).all():
             keep("radius", np.full(n, distance / 2))
         else:
             keep("radius", _table(self.radius, "radius", (n,)))
             if (self.radius < 0).any():
                 raise e.invalid(f"a radius is {self.radius.min()}, not positive")
-        order = np.arange(n) if self.order is None else np.asarray(self.order, np.int64)
+        order = np.arange(n)
+        if self.order is not None:
+            order = indices(self.order, "order").astype(np.int64)
         if order.shape != (n,):
             raise e.invalid(f"order has the shape {order.shape}, not {(n,)}")
         keep("order", order)
         if self.level_distances is not None:
-            keep("level_distances", tuple(float(each) for each in self.level_distances))
+            levels = numbers_of(self.level_distances, "level_distances")
+            if not all(distance > 0 and math.isfinite(distance) for distance in levels):
+                raise e.invalid(f"level_distances are {levels}, not all positive")
+            keep("level_distances", levels)
+        if self.seed is not None:
+            keep("seed", integer(self.seed, "seed", 2**64 - 1))
+        keep("periodic", flag(self.periodic, "periodic"))
+        if self.class_distances is not None:
+            table = array_of(self.class_distances, "class_distances")
+            k = len(table) if table.ndim == 2 else 0
+            keep("class_distances", _table(table, "class_distances", (k, k)))
         if self.extents is not None:
-            sides = tuple(float(side) for side in self.extents)
+            sides = numbers_of(self.extents, "extents")
             if not all(side > 0 and math.isfinite(side) for side in sides):
                 raise e.invalid(f"extents are {sides}, not all positive")
             if self.points is None or self.points.shape[1] != len(sides):
@@ -254,9 +274,14 @@ class Samples:
     ) -> Samples: ...
     def __getitem__(self, key: Any) -> Sample | Samples:
         if isinstance(key, (int, np.integer)) and not isinstance(key, bool):
-            return self._sample(range(len(self))[key])
+            if not -len(self) <= key < len(self):
+                raise IndexError(f"sample {key} of {len(self)}")
+            return self._sample(int(key) % len(self))
         if not isinstance(key, slice):
-            key = np.asarray(key)
+            try:
+                key = np.asarray(key)
+            except ValueError:
+                key = np.empty((0, 0))
             if key.ndim != 1 or (key.dtype.kind not in "iub" and key.size > 0):
                 raise IndexError("samples are chosen by an index, a slice, a mask or indices")
             key = key if key.size > 0 else key.astype(np.int64)
@@ -366,6 +391,9 @@ class Samples:
         >>> sorted(set(samples.interpolate(["a", "b", "c"]).tolist()))
         ['a', 'b', 'c']
         """
+        if mesh is not None and not hasattr(mesh, "_surface"):
+            raise TypeError(f"mesh is {reprlib.repr(mesh)}, not a geodisk.Mesh")
+        choice(of, "of", ("vertices", "corners", "faces"))
         surface = self._surface if mesh is None else mesh._surface
         faces, weights = self.face_index, self.barycentric
         if faces is None or weights is None:
@@ -383,13 +411,11 @@ class Samples:
             return np.asarray(values_of(values, len(corners), "faces")[faces])
         if of == "vertices":
             found = values_of(values, surface.vertex_count(), "vertices")[corners[faces]]
-        elif of == "corners":
+        else:
             array = values_of(values, len(corners), "triangles")
             if array.ndim < 2 or array.shape[1] != 3:
                 raise e.invalid(f"values of corners have the shape {array.shape}, not (f, 3, ...)")
             found = array[faces]
-        else:
-            raise e.invalid(f"of is {of!r}, not 'vertices', 'corners' or 'faces'")
         check_finite(found, faces)
         is_nearest = found.dtype.kind != "f" if nearest is None else flag(nearest, "nearest")
         if not is_nearest and found.dtype.kind in "SU":
@@ -447,7 +473,7 @@ class Samples:
         In CSV and PLY files a "_" replaces each character of the names of attributes that is no
         letter, digit, "_", "." or "-".
         """
-        path = os.fspath(path)
+        path = path_of(path)
         writers = {".npz": write_npz, ".csv": write_csv, ".ply": write_ply}
         write = writers.get(os.path.splitext(path)[1].lower())
         if write is None:

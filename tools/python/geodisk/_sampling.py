@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike
 from . import _errors as e
 from . import _library as c
 from . import _structs as s
+from ._arrays import real
 from ._classes import Classes, ClassesLike
 from ._devices import DeviceLike
 from ._existing import AvoidLike, ExistingLike, avoided_of, existing_of
@@ -29,7 +30,7 @@ from ._record import Record, recorded
 from ._results import first_of, report_of, samples_of
 from ._running import Made, ProgressCallback, Runs, sampled
 from ._samples import Samples
-from ._values import check_exact, check_pool, distance_of, flag, integer
+from ._values import check_exact, check_pool, choice, distance_of, flag, integer
 
 
 def sample(
@@ -204,8 +205,8 @@ def sample(
     stop_count = integer(stop_count, "stop_count", 2**32 - 1)
     check_exact(exact, count, stop_count)
     check_pool(count, pool_ratio, throws)
-    if metric not in s.METRICS:
-        raise e.invalid(f"metric is {metric!r}, none of {', '.join(s.METRICS)}")
+    choice(metric, "metric", s.METRICS)
+    choice(order, "order", ("dart", "progressive", "farthest"))
     record = Record(texture, normals, frames)
     mesh = mesh_of(
         vertices, faces, edge_lengths, weld, keep_seams, columns, mesh_format, attributes, record
@@ -361,7 +362,7 @@ def sample_box(
     throws = integer(throws, "throws", 2**32 - 1)
     distance = distance_of(min_distance, radius, count, throws)
     periodic = flag(periodic, "periodic")
-    sides = np.ascontiguousarray(extents, dtype=np.float64)
+    sides = np.array(real(extents, "extents"), np.float64, order="C")
     if sides.ndim != 1:
         raise e.invalid("extents must be one number per dimension")
     seed = integer(seed, "seed", 2**64 - 1)

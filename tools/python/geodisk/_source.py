@@ -15,6 +15,7 @@ from . import _structs as s
 from ._arrays import real
 from ._attributes import Attribute
 from ._polygons import Polygons
+from ._values import path_of
 
 _BUILTIN = "builtin:"
 
@@ -72,7 +73,7 @@ def read_file(
     MeshRejected
         For a file that holds no mesh, or a damaged one.
     """
-    name = os.fspath(path)
+    name = path_of(path)
     if not name.startswith(_BUILTIN):
         os.stat(name)  # Raises Python's own errors.
         if not os.access(name, os.R_OK):

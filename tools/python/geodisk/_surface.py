@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import operator
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -10,15 +9,15 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _errors as e
-from ._arrays import indices, real, rows
+from ._arrays import array_of, indices, real, rows
 from ._attributes import Attribute
+from ._values import integer
 
 
 def vertex_number(value: Any) -> int:
-    number = operator.index(value)
-    if not 0 <= number <= 2**32 - 1:
-        raise e.invalid(f"there are {number} vertices, not from 0 to {2**32 - 1}")
-    return number
+    if np.ndim(value) > 0:
+        raise TypeError("with edge_lengths, vertices is the number of vertices, not an array")
+    return integer(value, "vertices", 2**32 - 1)
 
 
 @dataclass(frozen=True, eq=False)
@@ -94,7 +93,7 @@ class Surface:
 
     def vertex_values(self, values: ArrayLike, name: str) -> NDArray[Any]:
         """Returns the values as float64 or float32, one for each vertex."""
-        array = np.asarray(values)
+        array = array_of(values, name)
         if array.dtype == bool and name == "density":  # A mask.
             array = array.astype(np.float64)
         array = np.ascontiguousarray(real(array, name))

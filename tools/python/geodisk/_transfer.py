@@ -20,7 +20,7 @@ from ._protocols import Faces, MeshLike
 from ._reading import read
 from ._record import Record, recorded
 from ._samples import Samples
-from ._values import number
+from ._values import number, path_of
 
 _OF_ONE_POSE = frozenset({"cover", "frames"})
 
@@ -160,5 +160,5 @@ def _path_of(mesh: Any) -> str | None:
     """Returns the path of a mesh file as the program takes it in any folder; None for others."""
     if not isinstance(mesh, (str, os.PathLike)):
         return None
-    path = os.fspath(mesh)
+    path = path_of(mesh, "to")
     return path if path.startswith("builtin:") else os.path.abspath(path)

@@ -31,7 +31,7 @@ from ._running import Made, ProgressCallback
 from ._samples import Samples
 from ._searching import searched
 from ._surface import Surface
-from ._values import check_pool
+from ._values import check_pool, listed
 from ._writing import SELECTION
 
 
@@ -287,7 +287,9 @@ def _is_chosen(name: str, value: Any) -> bool:
 
 
 def _is_empty(points: ExistingLike) -> bool:
-    return (len(points) if isinstance(points, Samples) else np.size(points[0])) == 0
+    is_pair = isinstance(points, (tuple, list)) and len(points) == 2
+    faces = points if isinstance(points, Samples) else listed(points[0]) if is_pair else None
+    return faces is not None and len(faces) == 0
 
 
 def _existing(surface: Surface, existing: ExistingLike | None) -> NDArray[Any]:

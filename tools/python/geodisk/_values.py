@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import numbers
 import operator
+import os
 import reprlib
 from typing import Any, Iterable
 
@@ -34,13 +35,31 @@ def integer(value: Any, name: str, most: int, least: int = 0) -> int:
 def number(value: Any, name: str) -> float:
     """Returns a number as float. Raises TypeError for text, arrays of several and the like."""
     try:
-        if isinstance(value, (str, bytes, bool, np.bool_)):
+        if isinstance(value, (str, bytes, bool, np.bool_, complex)):
             raise TypeError
         return float(value)
-    except (TypeError, ValueError):
-        raise TypeError(f"{name} is {reprlib.repr(value)}, not a number") from None
     except OverflowError:
         raise e.invalid(f"{name} is above 1e308, which is too large") from None
+    except Exception:  # Of any object.
+        raise TypeError(f"{name} is {reprlib.repr(value)}, not a number") from None
+
+
+def listed(values: Any) -> list[Any] | None:
+    """Returns what a sequence has; None for text, dicts and single values."""
+    if isinstance(values, (str, bytes, dict, set)):
+        return None
+    try:
+        return list(values)
+    except Exception:  # Of any object.
+        return None
+
+
+def numbers_of(values: Any, name: str) -> tuple[float, ...]:
+    """Returns a sequence of numbers as float."""
+    several = listed(values)
+    if several is None:
+        raise TypeError(f"{name} is {reprlib.repr(values)}, not a sequence of numbers")
+    return tuple(number(value, name) for value in several)
 
 
 def weld_of(weld: Any) -> bool | float:
@@ -55,26 +74,50 @@ def weld_of(weld: Any) -> bool | float:
 
 def pixels(size: Any) -> tuple[int, int]:
     """Returns a width and a height, each from 1 to 16384."""
-    if isinstance(size, str) or np.shape(size) != (2,):
+    sides = listed(size)
+    if sides is None or len(sides) != 2:
         raise e.invalid(f"size is {reprlib.repr(size)}, not (width, height)")
-    return integer(size[0], "size", 16384, 1), integer(size[1], "size", 16384, 1)
+    return integer(sides[0], "size", 16384, 1), integer(sides[1], "size", 16384, 1)
 
 
 def text(value: object, name: str) -> str:
     """Returns a str. Raises TypeError for anything else."""
     if not isinstance(value, str):
         raise TypeError(f"{name} is {reprlib.repr(value)}, not a text")
+    if "\0" in value or any("\ud800" <= letter <= "\udfff" for letter in value):
+        raise e.invalid(f"{name} is {reprlib.repr(value)}, which no name can be")
     return value
+
+
+def choice(value: object, name: str, options: Iterable[str]) -> str:
+    """Returns one of several words. Raises for anything else."""
+    if not isinstance(value, str) or value not in options:
+        raise e.invalid(f"{name} is {reprlib.repr(value)}, none of {', '.join(options)}")
+    return value
+
+
+def path_of(path: object, name: str = "path") -> str:
+    """Returns a path as str. Raises for anything else."""
+    if not isinstance(path, (str, os.PathLike)):
+        raise TypeError(f"{name} is {reprlib.repr(path)}, not a path")
+    found = os.fsdecode(path)
+    try:
+        os.fsencode(found)
+    except UnicodeEncodeError:
+        found = "\0"
+    if "\0" in found:
+        raise e.invalid(f"{name} is {reprlib.repr(path)}, which no path can be")
+    return found
 
 
 def names(given: Any, name: str) -> tuple[str, ...]:
     """Returns one or several names."""
     if isinstance(given, str):
-        return (given,)
-    several = list(given) if isinstance(given, Iterable) else [None]
-    if not all(isinstance(one, str) for one in several):
+        return (text(given, name),)
+    several = listed(given)
+    if several is None or not all(isinstance(one, str) for one in several):
         raise TypeError(f"{name} is {reprlib.repr(given)}, neither a name nor a list of names")
-    return tuple(several)
+    return tuple(text(one, name) for one in several)
 
 
 def check_exact(exact: bool, count: float | None, stop_count: int = 0) -> None:
@@ -105,7 +148,7 @@ def distance_of(
     min_distance: float | None, radius: float | None, count: float | None, throws: int = 0
 ) -> float | None:
     """Returns the minimum distance, or None where a count chooses it."""
-    if count is not None and not (isinstance(count, numbers.Real) and 1 <= count < math.inf):
+    if count is not None and not (isinstance(count, numbers.Real) and 1 <= count <= 1e300):
         raise e.invalid(f"count is {count!r}, not a number of at least 1")
     if count is not None and 0 < throws < count:
         raise e.invalid(f"{throws} throws cannot give {count} samples; raise throws")
