@@ -45,3 +45,31 @@ def test_wrong_ones_are_refused():
     ):
         with pytest.raises(geodisk.InvalidArgument, match=text):
             geodisk.sample(CORNERS, SIDES, min_distance=0.1, **options)
+
+
+def test_many_meshes_have_the_features_of_each():
+    fold = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 1, 1], [1, 1, 1]]
+    meshes = [geodisk.Mesh(CORNERS, SIDES), geodisk.Mesh(fold, [[0, 1, 2, 3], [3, 2, 5, 4]])]
+    own = geodisk.sample(meshes[0], min_distance=0.1)[50:53]
+    factors = np.linspace(0.5, 1, 8)
+    for options, each in (
+        (dict(min_distance=[0.1, 0.07], seed=[1, 2]), {}),
+        (dict(count=[300, 200]), {}),
+        (dict(count=[300, 200], exact=True), {}),
+        (dict(min_distance=[0.1, 0.1]), dict(existing=[own, None], radius_factor=[factors, None])),
+    ):
+        found = geodisk.sample_many(meshes, features=30, **options, **each)
+        for i, (mesh, there) in enumerate(zip(meshes, found)):
+            of_mesh = {name: x if x is True else x[i] for name, x in {**options, **each}.items()}
+            alone = geodisk.sample(mesh, features=30, **of_mesh)
+            assert np.array_equal(there.points, alone.points) and len(there) > 100
+            assert there.min_distance == alone.min_distance
+            assert there.columns.keys() == alone.columns.keys()
+            for name, column in alone.columns.items():
+                assert np.array_equal(there.columns[name], column), name
+            assert 0 < np.count_nonzero(there.columns["feature"]) < len(there)
+            assert there.report["corners"] == alone.report["corners"]
+    with pytest.raises(geodisk.InvalidArgument, match="not an angle from 1 to 180"):
+        geodisk.sample_many(meshes, min_distance=0.1, features=0)
+    with pytest.raises(geodisk.InvalidArgument, match="mesh 0: features take no density"):
+        geodisk.sample_many(meshes, min_distance=0.1, features=30, density=[np.ones(8), None])

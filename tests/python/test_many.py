@@ -45,7 +45,7 @@ def test_counts_densities_and_keys():
 
 
 def test_what_is_of_one_mesh_is_refused():
-    for name, value in (("classes", 2), ("maximal", True), ("stop_count", 9), ("features", 30)):
+    for name, value in (("classes", 2), ("maximal", True), ("stop_count", 9), ("order", "progressive")):
         with pytest.raises(TypeError, match=f"takes no {name}; call sample.. for each mesh"):
             geodisk.sample_many(MESHES, min_distance=0.5, **{name: value})
     with pytest.raises(TypeError, match="unexpected keyword argument 'min_dist'"):

@@ -54,12 +54,15 @@ class Features:
         params.given, params.given_count = settled.ctypes.data, len(settled)
         return settled
 
-    def marked(self, samples: Samples, kept: int) -> Samples:
-        """Returns the samples of the run with the column `feature`; `kept` are the caller's own."""
+    def marked(self, samples: Samples, kept: int, settled: int) -> Samples:
+        """Returns the samples of the run with the column `feature`.
+
+        The first `kept` are the caller's own, and the first `settled` these and those on features.
+        """
         assert samples.barycentric is not None
         kinds = np.count_nonzero(samples.barycentric == 0, axis=1).astype(np.uint32)
         place = np.arange(len(samples))
-        kinds[(place < kept) | (place >= samples.report["given"])] = 0
+        kinds[(place < kept) | (place >= settled)] = 0
         columns = {name: x for name, x in samples.columns.items() if name != "given"}
         if kept > 0:
             columns["given"] = (place < kept).astype(np.uint32)

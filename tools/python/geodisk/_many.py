@@ -17,6 +17,7 @@ from . import _library as c
 from . import _structs as s
 from ._devices import DeviceLike
 from ._existing import AvoidLike, ExistingLike, avoided_of, existing_of
+from ._features import Features
 from ._mesh import Mesh, keys_of, mask_of, mesh_of
 from ._oddities import oddities_of_set, warn
 from ._protocols import MeshLike
@@ -45,12 +46,14 @@ class _Job:
         existing: ExistingLike | None,
         avoid: AvoidLike | None,
         pool_ratio: float,
+        features: Features | None,
     ) -> None:
         self.mesh, self.seed = mesh, seed
         self._radii = radii_of(mesh, density, radius_factor)
         self.distance_part = 1.0 if self._radii is None else self._radii.distance_part
         self._keys = None if face_keys is None else keys_of(mesh, face_keys)
         self._mask = None if face_mask is None else mask_of(mesh._surface, face_mask)
+        self._settled: object = None  # What the library reads.
         self.existing = existing_of(mesh._surface, existing)
         self._avoided, self._avoided_radii = avoided_of(mesh._surface, avoid)
         if count is not None and len(self.existing) >= count:
@@ -69,6 +72,9 @@ class _Job:
             avoid_radii=self._avoided_radii.ctypes.data,
             avoid_count=len(self._avoided),
         )
+        if features is not None and density is not None:
+            raise e.invalid("features take no density; give radius_factor to vary the distance")
+        self._features = features
         self.search: CountSearch | None = None
         if distance is None:
             first = c_double()
@@ -93,8 +99,19 @@ class _Job:
         """Returns the distance as :func:`sample` has it, see Radii."""
         return float(self.params.min_distance) * self.distance_part
 
+    def settle(self) -> None:
+        """Adds samples on features to the given ones, at the distance of the next run."""
+        self.params.given, self.params.given_count = (
+            self.existing.ctypes.data,
+            len(self.existing),
+        )
+        if self._features is not None:
+            self._settled = self._features.settle(self.params, len(self.existing))
+
     def take(self, found: Samples) -> bool:
         """Takes the samples of a run. Returns whether another one is needed."""
+        if self._features is not None:
+            found = self._features.marked(found, len(self.existing), self.params.given_count)
         if self.search is None:
             self.result = found
             return False
@@ -132,6 +149,7 @@ def sample_many(
     face_mask: Sequence[ArrayLike | None] | None = None,
     existing: Sequence[ExistingLike | None] | None = None,
     avoid: Sequence[AvoidLike | None] | None = None,
+    features: float | None = None,
     pool_ratio: float = 20,
     weld: bool | float = False,
     keep_seams: bool = False,
@@ -158,7 +176,7 @@ def sample_many(
         As for :func:`sample`.
     density, radius_factor, face_keys, face_mask, existing, avoid : sequence of one per mesh, or None
         As for :func:`sample`; None for a mesh without.
-    exact, pool_ratio, weld, keep_seams, columns, attributes, texture, normals, frames, mesh_format,
+    exact, features, pool_ratio, weld, keep_seams, columns, attributes, texture, normals, frames, mesh_format,
     device, progress
         As for :func:`sample`, for all meshes. The other parameters of :func:`sample` are for single
         meshes.
@@ -203,9 +221,13 @@ def sample_many(
 
     def job_at(i: int) -> _Job:
         of_mesh = [values[i] for values in distances]
+        distance = distance_of(*of_mesh)
+        check_exact(exact, of_mesh[2])
+        check_pool(of_mesh[2], pool_ratio)
+        mesh = _mesh_of(given[i], weld, keep_seams, columns, mesh_format, attributes, record)
         return _Job(
-            _mesh_of(given[i], weld, keep_seams, columns, mesh_format, attributes, record),
-            distance_of(*of_mesh),
+            mesh,
+            distance,
             of_mesh[2],
             exact,
             integer(seeds[i], "seed", 2**64 - 1),
@@ -216,12 +238,9 @@ def sample_many(
             kept[i],
             avoided[i],
             pool_ratio,
+            None if features is None else Features(features, mesh, device),
         )
 
-    for i, each in enumerate(distances[2]):
-        distance_of(distances[0][i], distances[1][i], each)
-        check_exact(exact, each)
-        check_pool(each, pool_ratio)
     jobs = [_named(i, job_at) for i in range(n)]
     with Runs(device, progress) as runs:
         active = jobs
@@ -241,7 +260,6 @@ _OF_ONE_MESH = (
     "levels",
     "level_factor",
     "classes",
-    "features",
     "metric",
     "edge_lengths",
 )
@@ -279,6 +297,8 @@ def _run(runs: Runs, jobs: list[_Job]) -> list[_Job]:
 
 
 def _domain(jobs: list[_Job]) -> c.Handle:
+    for job in jobs:
+        job.settle()
     parts = (s.SurfacePart * len(jobs))()
     for part, job in zip(parts, jobs):
         part.struct_size = ctypes.sizeof(s.SurfacePart)

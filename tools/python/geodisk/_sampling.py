@@ -283,7 +283,7 @@ def sample(
     run_distance = report_of(made.samples)["min_distance"]
     samples = samples_of(made, seed, mesh._surface, given=given, distance_part=part, classes=kinds)
     if edges is not None:
-        samples = edges.marked(samples, len(kept))
+        samples = edges.marked(samples, len(kept), samples.report["given"])
     samples = first_of(samples, count if exact and count else stop_count)
     warn(
         oddities_of_set(
