@@ -1,6 +1,7 @@
 """Samples as a sequence, a table and a pickle."""
 
 import copy
+import dataclasses
 import multiprocessing
 import os
 import pickle
@@ -126,6 +127,13 @@ def test_files_of_some_samples_say_so(tmp_path, kind):
             geodisk.update(one, **surface)
     assert geodisk.verify(read, VERTICES, FACES)
     assert read._digest == digest_of(read.face_index, read.barycentric)
+    columns = {name: getattr(whole, name)[:9] for name in COLUMNS if name != "polygon_index"}
+    few = dataclasses.replace(geodisk.sample(VERTICES, FACES, min_distance=0.3, seed=5), **columns)
+    few.save(path)
+    assert geodisk.read(path).report["options"] == ["selection"]
+    many = geodisk.sample_many([(VERTICES, FACES)] * 2, min_distance=0.5)
+    many[0].save(path)
+    assert geodisk.read(path).report["options"] == ["sample_many"]
     whole[::-1].save(path)  # All of them, in another order.
     assert "options" not in geodisk.read(path).report
     assert len(geodisk.update(geodisk.read(path), **surface)) == len(whole)

@@ -2,6 +2,7 @@
 
 import dataclasses
 import pickle
+import warnings
 
 import numpy as np
 import pytest
@@ -56,7 +57,9 @@ def test_masks_and_existing_samples():
     kept = whole(existing=given)
     there = geodisk.update(SAMPLES, existing=given)
     assert same(there, kept) and there.columns["given"].sum() == 2
-    assert same(geodisk.update(there, existing=([], [])), SAMPLES)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")  # The column "given" is not missed.
+        assert same(geodisk.update(there, existing=([], [])), SAMPLES)
     assert same(geodisk.update(kept, moved()), whole(moved(), existing=given))
     own = whole(existing=SAMPLES[:2])
     assert np.array_equal(geodisk.update(own, moved()).face_index[:2], own.face_index[:2])

@@ -59,7 +59,8 @@ class Wanted:
 
     def warn_of_lost(self, before: Samples, after: Samples) -> None:
         """Shows what the samples had, and have no longer."""
-        lost = [f"columns[{name!r}]" for name in before.columns.keys() - after.columns.keys()]
+        columns = before.columns.keys() - after.columns.keys() - {"given"}
+        lost = [f"columns[{name!r}]" for name in columns]
         if self.attributes is None:
             own = before.attributes.keys() - after.attributes.keys() - {"cover"}
             own -= {"frames"} if self.frames is not None else set()

@@ -101,7 +101,7 @@ class Samples:
     points : ndarray of float64, shape (n, d) or None
         Coordinates; None on a mesh of edge lengths.
     normals : ndarray of float64, shape (n, 3) or None
-        Normals of the triangles, on meshes in three dimensions.
+        Normals on meshes in three dimensions: of the triangles, unless others were asked for.
     face_index : ndarray of uint32, shape (n,) or None
         Triangles on meshes: rows of ``Mesh.triangles``.
     barycentric : ndarray of float64, shape (n, 3) or None
@@ -306,6 +306,9 @@ class Samples:
     def _is_whole(self) -> bool:
         """Whether these are all of their set, in any order."""
         faces, weights = self.face_index, self.barycentric
+        is_alone = "sample_many" not in self.report.get("options", [])
+        if is_alone and self.report.get("samples", len(self)) != len(self):
+            return False
         return self._digest is None or (
             faces is not None and weights is not None and self._digest == digest_of(faces, weights)
         )
