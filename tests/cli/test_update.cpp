@@ -112,19 +112,38 @@ TEST_CASE("files say what they were made from, and whether their samples were ch
                                        text.substr(0, last) + foreign}) {
         folder.write("changed.csv", changed);
         check_fails(folder, 3,
-                    "changed.csv: has other samples than it was written with: some were removed, "
-                    "added or changed; give the file as geodisk wrote it",
+                    "changed.csv: has other samples than its digest is of: samples of the run are "
+                    "missing, others were added, or numbers were changed, for example rounded; "
+                    "give the file as geodisk sample wrote it",
                     joined({"sample", "new.ply", "-o", "b.ply", "--from", "old.ply", "--update",
                             "changed.csv"},
                            job));
         const Outcome checked =
             run(folder, {"verify", "old.ply", "changed.csv", "--json", "v.json"});
-        CHECK(
-            contains(checked.err, "changed.csv: its samples do not fit the digest in its header"));
+        CHECK(contains(checked.err, "changed.csv: its samples do not fit the digest in its header: "
+                                    "samples of the run are missing"));
         CHECK(json_in(folder, "v.json")["warnings"].back()["kind"] == "other_rows");
     }
     folder.write("changed.csv", count_is(text.substr(0, last), -1));
     CHECK(run(folder, {"verify", "old.ply", "changed.csv"}).status == 0); // They keep the distance.
+    // Areas of cells are those of the samples that are left, whose file tells so still.
+    REQUIRE(run(folder, {"cells", "old.ply", "changed.csv", "-o", "cells.csv", "-q"}).status == 0);
+    CHECK(contains(run(folder, {"verify", "old.ply", "cells.csv"}).err, "samples of the run are"));
+    REQUIRE(run(folder, {"cells", "old.ply", "a.csv", "-o", "whole.csv", "-q"}).status == 0);
+    CHECK_FALSE(contains(run(folder, {"verify", "old.ply", "whole.csv"}).err, "digest"));
+    // A digest that is none.
+    const std::size_t entry = text.find("# digest: ");
+    const std::string after = text.substr(text.find('\n', entry));
+    for (const char* const digest :
+         {"# digest:", "# digest: ", "# digest: 0123", "# digest: none"}) {
+        folder.write("changed.csv", text.substr(0, entry) + digest + after);
+        check_fails(folder, 3, "changed.csv: its header has ",
+                    {"verify", "old.ply", "changed.csv"});
+        check_fails(folder, 3, ", not one of 16 hexadecimal digits",
+                    joined({"sample", "new.ply", "-o", "no.ply", "--from", "old.ply", "--update",
+                            "changed.csv"},
+                           job));
+    }
     // Other orders are the same samples, and files without a digest are taken.
     const std::size_t first = text.find('\n', text.find("\nx,") + 1) + 1;
     folder.write("sorted.csv", text.substr(0, first) + row + text.substr(first, last - first));

@@ -1,6 +1,11 @@
 #include "files/fingerprint.hpp"
 
+#include <algorithm>
 #include <bit>
+
+#include "program/exact_text.hpp"
+#include "program/failure.hpp"
+#include "program/human_text.hpp"
 
 namespace geodisk::tools {
 namespace {
@@ -26,10 +31,12 @@ class Fnv1a {
     std::uint64_t hash_ = 0xcbf29ce484222325;
 };
 
+constexpr std::string_view kDigits = "0123456789abcdef";
+
 std::string hexadecimal(std::uint64_t number) {
     std::string digits;
     for (int shift = 60; shift >= 0; shift -= 4) {
-        digits += "0123456789abcdef"[number >> shift & 0xf];
+        digits += kDigits[number >> shift & 0xf];
     }
     return digits;
 }
@@ -62,6 +69,20 @@ std::string digest_of(std::span<const SampleRow> rows) {
         sum += hash.value();
     }
     return hexadecimal(sum);
+}
+
+void check_digest(const Path& path, const SampleHeader& header) {
+    const std::string* const digest = header.find(kDigest);
+    if (digest == nullptr) {
+        return;
+    }
+    const std::string_view text = trimmed(*digest);
+    if (text.size() != 16 || text.find_first_not_of(kDigits) != std::string_view::npos) {
+        fail_input(path, "its header has " +
+                             (text.empty() ? "an empty digest" : "the digest " + in_quotes(text)) +
+                             ", not one of 16 hexadecimal digits; give the file as geodisk wrote "
+                             "it, or remove the entry");
+    }
 }
 
 } // namespace geodisk::tools

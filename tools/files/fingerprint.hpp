@@ -26,4 +26,7 @@ inline constexpr std::string_view kDigest = "digest";
 /// modulo 2^64. It is the same in any order.
 std::string digest_of(std::span<const SampleRow> rows);
 
+/// Throws UserError(bad_input) for a header with a digest that is none.
+void check_digest(const Path& path, const SampleHeader& header);
+
 } // namespace geodisk::tools

@@ -188,6 +188,8 @@ class NumpyReader {
     void add_text(const std::string& key, const nlohmann::ordered_json& value) {
         if (value.is_string()) {
             samples_.header.entries.emplace_back(key, value.get<std::string>());
+        } else if (!value.is_structured()) {
+            samples_.header.entries.emplace_back(key, value.is_null() ? "" : value.dump());
         }
     }
 

@@ -3,6 +3,7 @@
 #include <utility>
 #include <vector>
 
+#include "files/fingerprint.hpp"
 #include "files/input_file.hpp"
 #include "files/ply_file.hpp"
 #include "files/sample_file.hpp"
@@ -114,7 +115,9 @@ SampleFile read_in(const Path& path, SampleDomain domain, const std::string& num
 } // namespace
 
 SampleFile read_samples(const Path& path, const std::string& numbers) {
-    return read_in(path, SampleDomain::surface, numbers);
+    SampleFile samples = read_in(path, SampleDomain::surface, numbers);
+    check_digest(path, samples.header);
+    return samples;
 }
 
 SampleFile read_box_samples(const Path& path) {

@@ -120,6 +120,8 @@ bool set_value(SampleRow& row, SampleColumn column, double value) {
 void add_entry(SampleHeader& header, std::string_view comment) {
     if (const std::size_t colon = comment.find(": "); colon != std::string_view::npos) {
         header.entries.emplace_back(comment.substr(0, colon), comment.substr(colon + 2));
+    } else if (comment.ends_with(':')) {
+        header.entries.emplace_back(comment.substr(0, comment.size() - 1), "");
     }
 }
 

@@ -125,7 +125,7 @@ class ExtraReader {
     std::vector<double> numbers_;
 };
 
-/// Adds "KEY: VALUE" of a comment; other comments are ignored.
+/// Adds "KEY: VALUE" or "KEY:" of a comment; other comments are ignored.
 void add_entry(SampleHeader& header, std::string_view comment);
 
 /// Takes the number of samples out of the header. Throws UserError(bad_input) if there are more or

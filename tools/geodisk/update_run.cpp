@@ -116,8 +116,8 @@ void check_kind(const SampleFile& file, const std::string& path) {
                          "not known; give a file with all samples");
     }
     if (!fits_digest(file)) {
-        fail_input(path, "has other samples than it was written with: some were removed, added or "
-                         "changed; give the file as geodisk wrote it");
+        fail_input(path, std::string("has other samples than its digest is of: ") + kOtherRows +
+                             "; give the file as geodisk sample wrote it");
     }
 }
 

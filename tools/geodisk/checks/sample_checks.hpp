@@ -47,6 +47,10 @@ std::vector<std::uint32_t> masked_samples(const SampleFile& samples, const MeshI
 void warn_of_other_surface(const std::string& samples_path, const SampleFile& samples,
                            const HeaderEntries& additions, std::vector<MeshWarning>& warnings);
 
+/// Why rows may differ from those of a digest.
+inline constexpr const char* kOtherRows = "samples of the run are missing, others were added, or "
+                                          "numbers were changed, for example rounded";
+
 /// Returns true unless the rows differ from those that the digest in the header is of.
 bool fits_digest(const SampleFile& samples);
 

@@ -42,10 +42,10 @@ void warn_of_other_rows(const VerifyOptions& options, const SampleFile& samples,
     if (fits_digest(samples)) {
         return;
     }
-    warnings.push_back({"other_rows", 1, "",
-                        "its samples do not fit the digest in its header: since geodisk wrote it, "
-                        "some were removed, added or changed",
-                        options.samples});
+    warnings.push_back(
+        {"other_rows", 1, "",
+         std::string("its samples do not fit the digest in its header: ") + kOtherRows,
+         options.samples});
     print_warning(options.samples + ": " + warnings.back().message);
 }
 
