@@ -147,15 +147,33 @@ TEST_CASE("attributes that cannot be used are refused by name and place") {
                   "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\n"
                   "vertex 0 1 0\nendloop\nendfacet\nendsolid a\n",
                   "color", "has no attribute 'color', or any other");
-    for (const char* const name : {"radius", "Class", "bary_u", "mesh", "qx", "points"}) {
+    for (const char* const name : {"radius", "Class", "bary_u", "mesh", "qx", "points", "given",
+                                   "cover", "normal", "normal_x", "st", "displayColor"}) {
         CAPTURE(name);
-        check_refused("a.ply",
-                      ply_of("property float " + std::string(name) + "\n", {"1", "2", "3"}), name,
-                      "has the name of a column of samples");
+        const std::string taken =
+            ply_of(heat + "property float " + name + "\n", {"1 1", "2 2", "3 3"});
+        check_refused("a.ply", taken, name, "has the name of a column of samples");
+        const MeshFile others = mesh_with("a.ply", taken, "all");
+        REQUIRE(others.fields.size() == 1);
+        CHECK(others.fields[0].name == "heat");
+        CHECK(others.warnings.back().kind == "attribute_name");
+        CHECK(others.warnings.back().message ==
+              "the attribute '" + std::string(name) +
+                  "' has the name of a column of samples, so '" + name +
+                  "' is left out; rename it in the file to have it");
     }
-    check_refused("a.ply",
-                  ply_of("property float heat\nproperty float HEAT\n", {"1 1", "1 1", "1 1"}),
-                  "all", "two attributes would have the column 'heat'");
+    for (const char* const names : {"heat HEAT", "my-heat my.heat", "heat _heat"}) {
+        CAPTURE(names);
+        const std::string text = names;
+        const std::string first = text.substr(0, text.find(' ')),
+                          second = text.substr(text.find(' ') + 1);
+        const std::string twice = ply_of(
+            "property float " + first + "\nproperty float " + second + "\n", {"1 2", "1 2", "1 2"});
+        check_refused("a.ply", twice, first + "," + second, "two attributes would have the column");
+        const MeshFile one = mesh_with("a.ply", twice, "all");
+        CHECK(values_at(one, row_at(0, 1, 0, 0)) == Values{1});
+        CHECK(one.warnings.back().kind == "attribute_name");
+    }
     const std::string part = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nf 1/1 2/1 3\n";
     check_refused("a.obj", part, "uv", "line 5: vertex 3 has no value of 'uv'");
     const MeshFile left_out = mesh_with("a.obj", part, "all");

@@ -39,12 +39,6 @@ struct FaceCorners {
     }
 };
 
-/// The name as columns have it, whatever the case and however glTF marks its own.
-std::string bare_name(std::string_view name) {
-    name.remove_prefix(std::min(name.find_first_not_of('_'), name.size()));
-    return lower_case(std::string(name));
-}
-
 /// Puts a '_' for each character that some format does not allow in a name.
 std::string column_name(std::string name) {
     std::ranges::replace_if(
@@ -57,9 +51,22 @@ std::string column_name(std::string name) {
     return name;
 }
 
+/// The name that all formats tell apart, whatever the case and however glTF marks its own: USD has
+/// '_' for further characters.
+std::string bare_name(std::string name) {
+    name = lower_case(column_name(std::move(name)));
+    name.erase(0, std::min(name.find_first_not_of('_'), name.size()));
+    std::ranges::replace_if(
+        name, [](char c) { return c == '.' || c == '-'; }, '_');
+    return name;
+}
+
 std::set<std::string> names_taken() {
-    std::set<std::string> names{"points",   "normals",      "barycentric", "header", "frames",
-                                "position", "min_distance", "seed",        "normal"};
+    // Those of NPZ, glTF, PCD and USD, which differ from the columns below.
+    std::set<std::string> names{"points", "normals",      "barycentric",   "header",
+                                "frames", "position",     "min_distance",  "seed",
+                                "normal", "normal_x",     "normal_y",      "normal_z",
+                                "st",     "displaycolor", "displayopacity"};
     names.insert(kSampleColumnNames.begin(), kSampleColumnNames.end());
     names.insert(kNumberedColumnNames.begin(), kNumberedColumnNames.end());
     names.insert(kFrameColumnNames.begin(), kFrameColumnNames.end());
@@ -73,28 +80,31 @@ std::set<std::string> names_taken() {
     return names;
 }
 
-/// Refuses attributes that would be two columns of one name.
-void check_names(const Path& path, const std::vector<MeshField>& fields) {
-    const std::set<std::string> taken = names_taken();
-    std::set<std::string> known;
-    for (const MeshField& field : fields) {
+/// The columns that samples have: of attributes no two may have one name.
+class Columns {
+  public:
+    /// Adds those of an attribute. Returns why it cannot have them; "" if it can.
+    std::string add(const MeshField& field) {
         std::set<std::string> own{bare_name(field.name)};
         for (const std::string& component : field.components) {
             own.insert(bare_name(component));
         }
         for (const std::string& name : own) {
-            if (taken.contains(name)) {
-                fail_input(path, "the attribute " + in_quotes(field.name) +
-                                     " has the name of a column of samples; rename it in the "
-                                     "file, or leave it out of --attributes");
+            if (taken_.contains(name)) {
+                return "the attribute " + in_quotes(field.name) +
+                       " has the name of a column of samples";
             }
-            if (!known.insert(name).second) {
-                fail_input(path, "two attributes would have the column " + in_quotes(name) +
-                                     "; leave one of them out of --attributes");
+            if (of_attributes_.contains(name)) {
+                return "two attributes would have the column " + in_quotes(name);
             }
         }
+        of_attributes_.merge(own);
+        return "";
     }
-}
+
+  private:
+    std::set<std::string> taken_ = names_taken(), of_attributes_;
+};
 
 [[noreturn]] void fail_unknown(const Path& path, const std::string& name,
                                const std::vector<MeshField>& fields) {
@@ -324,6 +334,7 @@ void take_fields(const Path& path, const WantedFields& wanted, PolygonMesh& poly
     if (wanted.uvs) {
         mesh.texture_uvs = texture_uvs(path, polygons, taker);
     }
+    Columns columns;
     for (MeshField& field : polygons.fields) {
         if (!wanted.lists(field.name)) {
             continue;
@@ -337,6 +348,19 @@ void take_fields(const Path& path, const WantedFields& wanted, PolygonMesh& poly
                 {"partial_attribute", 1, gap, text + ", so this attribute is left out", {}});
             continue;
         }
+        if (const std::string clash = columns.add(field); !clash.empty()) {
+            if (!wanted.all) {
+                fail_input(path,
+                           clash + "; rename it in the file, or leave it out of --attributes");
+            }
+            mesh.warnings.push_back({"attribute_name",
+                                     1,
+                                     "",
+                                     clash + ", so " + in_quotes(field.name) +
+                                         " is left out; rename it in the file to have it",
+                                     {}});
+            continue;
+        }
         check_count(path, field, mesh, polygons.positions.size() / polygons.dimension);
         taker.take(field);
         mesh.fields.push_back(std::move(field));
@@ -346,7 +370,6 @@ void take_fields(const Path& path, const WantedFields& wanted, PolygonMesh& poly
             return std::ranges::find(wanted.names, field.name) - wanted.names.begin();
         });
     }
-    check_names(path, mesh.fields);
     for (MeshField& field : mesh.fields) {
         field.name = column_name(field.name);
         std::ranges::transform(field.components, field.components.begin(), column_name);
