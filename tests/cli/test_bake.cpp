@@ -1,8 +1,16 @@
 // `geodisk bake`: maps of the nearest sample, and what it refuses.
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <fstream>
+#include <map>
+#include <random>
+#include <set>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
@@ -67,6 +75,59 @@ TEST_CASE("bake: pictures show cells and distances") {
     }
     CHECK(grey.pixels[15 * 64].red < 16);
     CHECK(grey.pixels[15].red > 240); // A corner of the middle line.
+}
+
+TEST_CASE("bake: cells that touch have different colours") {
+    const TemporaryFolder folder;
+    write(folder, "square.obj", kSquare);
+    std::mt19937 random(11);
+    std::uniform_real_distribution<double> anywhere(0, 1);
+    std::vector<std::array<double, 2>> points(150);
+    std::string table = "x,y,z\n";
+    for (auto& [x, y] : points) {
+        x = anywhere(random), y = anywhere(random);
+        table += std::to_string(x) + "," + std::to_string(y) + ",0\n";
+    }
+    write(folder, "points.csv", table);
+    REQUIRE(run(folder,
+                {"bake", "square.obj", "points.csv", "-o", "cells.png", "--size", "512x256", "-q"})
+                .status == 0);
+    const PngImage cells = read_png(folder / "cells.png");
+    REQUIRE(cells.width == 512);
+    const auto nearest = [&](std::size_t column, std::size_t row) {
+        const double x = (static_cast<double>(column) + 0.5) / 256;
+        const double y = 1 - (static_cast<double>(row) + 0.5) / 256;
+        return static_cast<std::size_t>(
+            std::ranges::min_element(
+                points, {}, [&](const auto& p) { return std::hypot(p[0] - x, p[1] - y); }) -
+            points.begin());
+    };
+    // Texels where two cells lie side by side: few are a corner that the grid does not show.
+    constexpr int kBorder = 4;
+    std::map<std::pair<std::size_t, std::size_t>, int> borders;
+    std::map<std::size_t, Pixel> colors;
+    std::set<std::array<int, 3>> kinds;
+    for (std::size_t row = 0; row < 256; ++row) {
+        for (std::size_t column = 0; column < 256; ++column) {
+            const std::size_t own = nearest(column, row);
+            const Pixel& pixel = cells.pixels[row * 512 + column];
+            colors.emplace(own, pixel);
+            kinds.insert({pixel.red, pixel.green, pixel.blue});
+            if (column + 1 < 256) {
+                const std::size_t next = nearest(column + 1, row);
+                ++borders[std::minmax(own, next)];
+            }
+        }
+    }
+    CHECK(kinds.size() <= 6);
+    int touching = 0;
+    for (const auto& [pair, count] : borders) {
+        if (pair.first != pair.second && count >= kBorder) {
+            ++touching;
+            CHECK_FALSE(colors.at(pair.first) == colors.at(pair.second));
+        }
+    }
+    CHECK(touching > 150);
 }
 
 TEST_CASE("bake: overlaps and repeats are reported") {

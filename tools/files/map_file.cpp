@@ -23,7 +23,7 @@ void write_map(AtomicFile& file, const SampleMap& map) {
     ZipWriter zip(file);
     add_shaped<std::int32_t>(zip, "sample", "<i4", map.samples, shape);
     add_shaped<float>(zip, "distance", "<f4", map.distances, shape);
-    add_shaped<std::int32_t>(zip, "face", "<i4", map.faces, shape);
+    add_shaped<std::uint32_t>(zip, "face", "<i4", map.faces, shape);
     zip.finish();
 }
 

@@ -49,7 +49,6 @@ void look_up(const NearestSamples& nearest, const Texels& texels, std::size_t be
     SampleMap& map = result.map;
     for (std::size_t i = 0; i < found.size(); ++i) {
         const auto [sample, distance] = found[i];
-        map.faces[places[i]] = static_cast<std::int32_t>(points[i].face);
         map.distances[places[i]] = distance;
         if (sample == NearestSample::kNone) {
             ++result.unreached;
@@ -60,14 +59,29 @@ void look_up(const NearestSamples& nearest, const Texels& texels, std::size_t be
     }
 }
 
+/// Returns the pairs of samples whose cells touch.
+std::vector<std::array<std::uint32_t, 2>> find_touching(std::span<const Sample> samples,
+                                                        const MeshInput& mesh, RunDevice& device,
+                                                        bool is_bounded, ProgressLine& progress) {
+    progress.begin_stage("finding colours");
+    auto cells = find_cells(device.runner(), mesh.prepared, samples, {},
+                            search_progress(progress, "samples"));
+    progress.clear();
+    check_interrupted();
+    if (!cells) {
+        check_run(cells.error(), is_bounded);
+    }
+    return take(std::move(cells)).edges;
+}
+
 } // namespace
 
 MapResult run_map(std::span<const SampleRow> rows, TextureSize size, const std::string& path,
-                  const MeshInput& mesh, RunDevice& device, bool is_bounded,
+                  const MeshInput& mesh, bool has_touching, RunDevice& device, bool is_bounded,
                   ProgressLine& progress) {
     check_range(path, mesh.file, size);
     progress.begin_stage("finding texels");
-    const Texels texels(mesh.file, size);
+    Texels texels(mesh.file, size);
     if (texels.covered() == 0) {
         fail_input(path, "no face covers the centre of a texel; give a larger --size");
     }
@@ -75,12 +89,15 @@ MapResult run_map(std::span<const SampleRow> rows, TextureSize size, const std::
     device.open(progress);
     MapResult result;
     result.done.open_seconds = watch.seconds();
-    progress.begin_stage("finding cells");
     std::vector<Sample> samples;
     samples.reserve(rows.size());
     for (const SampleRow& row : rows) {
         samples.push_back(sample_of(row));
     }
+    if (has_touching) {
+        result.touching = find_touching(samples, mesh, device, is_bounded, progress);
+    }
+    progress.begin_stage("finding cells");
     auto nearest =
         NearestSamples::create(device.runner(), mesh.prepared, samples, CellParams().most_records,
                                search_progress(progress, "samples"));
@@ -91,10 +108,11 @@ MapResult run_map(std::span<const SampleRow> rows, TextureSize size, const std::
     }
     const NearestSamples disks = take(std::move(nearest));
     progress.begin_stage("finding nearest samples");
-    result.map = {size.width, size.height,
+    result.map = {size.width,
+                  size.height,
                   std::vector<std::int32_t>(size.texels(), SampleMap::kNone),
                   std::vector<float>(size.texels(), std::numeric_limits<float>::quiet_NaN()),
-                  std::vector<std::int32_t>(size.texels(), SampleMap::kNone)};
+                  {}};
     const Stopwatch search;
     for (std::size_t begin = 0; begin < size.texels(); begin += kTexelsAtOnce) {
         check_interrupted();
@@ -102,6 +120,8 @@ MapResult run_map(std::span<const SampleRow> rows, TextureSize size, const std::
         progress.update(static_cast<double>(begin) / static_cast<double>(size.texels()), "");
     }
     progress.clear();
+    static_assert(SampleMap::kNoFace == Texels::kNone);
+    result.map.faces = std::move(texels).take_faces();
     result.covered = texels.covered();
     result.overlapping = texels.overlapping();
     result.repeating = texels.repeating();

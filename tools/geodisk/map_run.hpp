@@ -1,8 +1,11 @@
 // The nearest sample of each texel of a texture of a mesh.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
+#include <string>
+#include <vector>
 
 #include "files/map_file.hpp"
 #include "files/sample_file.hpp"
@@ -22,14 +25,15 @@ struct MapResult {
     std::uint64_t repeating = 0;   ///< Faces with texture coordinates outside of 0 to 1.
     float largest_distance = 0;
     double error = 0; ///< Bound on that of distances, in mesh units.
+    std::vector<std::array<std::uint32_t, 2>> touching; ///< Pairs of samples whose cells touch.
     DeviceRun done;
 };
 
 /// Opens the device where need be and finds the nearest of the samples in `rows`. The mesh must
-/// have been read with texture coordinates. Takes 16 bytes for each texel besides what is the same
-/// for all sizes. Throws UserError.
+/// have been read with texture coordinates. Finds the pairs that touch if `has_touching`. Takes 12
+/// bytes for each texel besides what is the same for all sizes. Throws UserError.
 MapResult run_map(std::span<const SampleRow> rows, TextureSize size, const std::string& path,
-                  const MeshInput& mesh, RunDevice& device, bool is_bounded,
+                  const MeshInput& mesh, bool has_touching, RunDevice& device, bool is_bounded,
                   ProgressLine& progress);
 
 } // namespace geodisk::tools

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "geometry/mesh.hpp"
@@ -33,6 +34,8 @@ class Texels {
     TextureSize size() const { return size_; }
     /// Returns the face of each texel or kNone, row by row; the first has the corner u = 0, v = 1.
     const std::vector<std::uint32_t>& faces() const { return faces_; }
+    /// Moves the faces out.
+    std::vector<std::uint32_t> take_faces() && { return std::move(faces_); }
     /// Returns the weights of the face's corners at the centre of a texel with a face, by texture
     /// coordinates that are not rounded: multiples of 2^-24 that sum to 1.
     std::array<float, 3> weights(std::size_t texel) const;

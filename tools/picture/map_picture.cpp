@@ -7,7 +7,6 @@
 
 #include "files/block_writer.hpp"
 #include "picture/srgb.hpp"
-#include "picture/surface_content.hpp"
 
 namespace geodisk::tools::picture {
 namespace {
@@ -17,45 +16,59 @@ using Light = std::array<float, 3>;
 // As kBare in colors.glsl.
 constexpr Light kBare{0.81f, 0.80f, 0.77f};
 
-/// As cell_color() in colors.glsl.
-Light cell_light(std::uint32_t number) {
-    constexpr Light kKinds[7] = {{0.79f, 0.34f, 0.0f},   {0.093f, 0.456f, 0.815f},
-                                 {0.0f, 0.342f, 0.171f}, {0.871f, 0.776f, 0.054f},
-                                 {0.0f, 0.168f, 0.445f}, {0.665f, 0.112f, 0.0f},
-                                 {0.604f, 0.19f, 0.386f}};
-    const float part = 0.35f + 0.11f * static_cast<float>((number >> 8) % 4);
-    Light light = kKinds[number % 7];
+constexpr std::size_t kHues = 7, kTones = 4;
+
+/// The hues of cell_color() in colors.glsl, in the tones there.
+Light cell_light(std::uint32_t color) {
+    constexpr Light kKinds[kHues] = {{0.79f, 0.34f, 0.0f},   {0.093f, 0.456f, 0.815f},
+                                     {0.0f, 0.342f, 0.171f}, {0.871f, 0.776f, 0.054f},
+                                     {0.0f, 0.168f, 0.445f}, {0.665f, 0.112f, 0.0f},
+                                     {0.604f, 0.19f, 0.386f}};
+    const float part = 0.35f + 0.11f * static_cast<float>(color / kHues % kTones);
+    Light light = kKinds[color % kHues];
     for (float& one : light) {
         one += part * (0.9f - one);
     }
     return light;
 }
 
-} // namespace
-
-Pixels map_pixels(const SampleMap& map, Style style) {
-    float largest = 0;
-    for (const float distance : map.distances) {
-        largest = std::isfinite(distance) ? std::max(largest, distance) : largest;
-    }
+/// Draws texels with a sample by `set(texel, rgba)`.
+template <class Set>
+Pixels draw(const SampleMap& map, const Set& set) {
     Pixels pixels{map.width, map.height, std::vector<std::uint8_t>(4 * map.samples.size())};
     for_rows(map.samples.size(), [&](std::size_t i) {
-        if (map.faces[i] == SampleMap::kNone) {
+        if (map.faces[i] == SampleMap::kNoFace) {
             return;
         }
         std::uint8_t* const rgba = &pixels.rgba[4 * i];
         rgba[3] = 255;
-        const bool has_sample = map.samples[i] != SampleMap::kNone;
-        if (style == Style::distance && has_sample) {
-            const float part = largest > 0 ? map.distances[i] / largest : 0;
-            std::fill_n(rgba, 3, static_cast<std::uint8_t>(std::lround(255 * part)));
-            return;
+        if (map.samples[i] == SampleMap::kNone) {
+            std::ranges::transform(kBare, rgba, to_srgb);
+        } else {
+            set(i, rgba);
         }
-        const Light light =
-            has_sample ? cell_light(color_of(static_cast<std::size_t>(map.samples[i]))) : kBare;
-        std::ranges::transform(light, rgba, to_srgb);
     });
     return pixels;
+}
+
+} // namespace
+
+Pixels cell_pixels(const SampleMap& map, std::span<const std::uint32_t> colors) {
+    return draw(map, [&](std::size_t i, std::uint8_t* rgba) {
+        const std::uint32_t color = colors[static_cast<std::size_t>(map.samples[i])];
+        std::ranges::transform(cell_light(color), rgba, to_srgb);
+    });
+}
+
+Pixels distance_pixels(const SampleMap& map) {
+    float largest = 0;
+    for (const float distance : map.distances) {
+        largest = std::isfinite(distance) ? std::max(largest, distance) : largest;
+    }
+    return draw(map, [&](std::size_t i, std::uint8_t* rgba) {
+        const float part = largest > 0 ? map.distances[i] / largest : 0;
+        std::fill_n(rgba, 3, static_cast<std::uint8_t>(std::lround(255 * part)));
+    });
 }
 
 } // namespace geodisk::tools::picture

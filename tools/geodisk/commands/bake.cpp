@@ -16,6 +16,7 @@
 #include "geodisk/options/tolerance_option.hpp"
 #include "geodisk/outputs/outputs.hpp"
 #include "geodisk/reports/map_report.hpp"
+#include "picture/distinct_colors.hpp"
 #include "picture/map_picture.hpp"
 #include "picture/png.hpp"
 #include "program/command.hpp"
@@ -99,7 +100,8 @@ void run_bake(BakeOptions options) {
     print_warnings(warnings);
     warnings.insert(warnings.begin(), mesh.warnings.begin(), mesh.warnings.end());
     RunDevice device(options.run.device, runner);
-    const MapResult result = run_map(file.rows, size, options.mesh.mesh, mesh, device,
+    const bool is_cells = format == MapFormat::png && style == picture::Style::voronoi;
+    const MapResult result = run_map(file.rows, size, options.mesh.mesh, mesh, is_cells, device,
                                      runner.device_bytes != 0, progress);
     check_validation(device.context());
     const MapReport report{options.mesh,      mesh, warnings, result, file.rows.size(),
@@ -107,8 +109,11 @@ void run_bake(BakeOptions options) {
     write_outputs(options.out, "the map", progress, report, [&](AtomicFile& map) {
         if (format == MapFormat::npz) {
             write_map(map, result.map);
+        } else if (is_cells) {
+            const auto colors = picture::distinct_colors(file.rows.size(), result.touching);
+            picture::write_png(map, picture::cell_pixels(result.map, colors));
         } else {
-            picture::write_png(map, picture::map_pixels(result.map, style));
+            picture::write_png(map, picture::distance_pixels(result.map));
         }
     });
 }
@@ -135,8 +140,8 @@ void add_bake_command(Command app) {
         .shows_default();
     command
         .add_option("--style", options->style, "STYLE",
-                    "What *.png shows: voronoi, a colour for each sample, or\n"
-                    "distance, from black at samples to white at the largest")
+                    "What *.png shows: voronoi, cells in colours, or distance, from\n"
+                    "black at samples to white at the largest")
         .offers(style_names())
         .shows_default();
     add_mesh_options(command, options->mesh);
