@@ -72,7 +72,7 @@ TEST_CASE("normals are those of faces, of the file, or smooth") {
                 {"sample", "roof.obj", "-o", "d.csv", "-d", "0.5", "--normals", "file"});
     check_fails(folder, 2, "--normals: 'sharp' is none of face, file and smooth",
                 {"sample", "roof.obj", "-o", "d.csv", "-d", "0.5", "--normals", "sharp"});
-    check_fails(folder, 2, "holds points alone",
+    check_fails(folder, 2, "an .xyz file holds points alone, so no column of --normals",
                 {"sample", "roof.obj", "-o", "d.xyz", "-d", "0.5", "--normals", "smooth"});
 }
 

@@ -112,6 +112,27 @@ TEST_CASE("transfer puts samples of a file in the same order") {
     CHECK(column_in(folder, "all.csv", "cover") == column_in(folder, "far.ply", "cover"));
 }
 
+TEST_CASE("columns that a format lacks are left out with a warning") {
+    const TemporaryFolder folder;
+    sample(folder, "dart.ply", {});
+    const auto warns = [&](const std::string& column, const std::string& output, Arguments all) {
+        all.insert(all.end(), {"-o", output, "-q"});
+        const Outcome outcome = run(folder, all);
+        INFO(outcome.err);
+        CHECK(outcome.status == 0);
+        CHECK(contains(outcome.err, output + ": an " + output.substr(1) +
+                                        " file has no columns, so the column " + column +
+                                        " is left out"));
+        CHECK(std::filesystem::exists(folder / output));
+    };
+    warns("cover", "a.xyz", {"sample", kMesh, "-n", "50", "--order", "farthest"});
+    warns("cover", "b.obj", {"transfer", "dart.ply", kMesh, kMesh, "--order", "farthest"});
+    warns("given", "c.xyz", {"sample", kMesh, "-n", "600", "--existing", "dart.ply"});
+    warns("feature", "d.xyz", {"sample", kMesh, "-n", "50", "--features", "30"});
+    warns("level", "e.xyz", {"sample", kMesh, "-n", "50", "--order", "progressive"});
+    CHECK_FALSE(contains(run(folder, {"sample", kMesh, "-n", "50", "-o", "f.xyz"}).err, "column"));
+}
+
 TEST_CASE("what farthest-point order does not go with is refused") {
     const TemporaryFolder folder;
     sample(folder, "a.csv", {});

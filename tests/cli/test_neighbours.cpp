@@ -149,9 +149,10 @@ TEST_CASE("neighbours that cannot be found are refused, and no file is left") {
         check_refused(folder, status, message, more);
     };
     refused(2, "give --within", {});
-    refused(2, "--within: '0'", {"--within", "0"});
-    refused(2, "--within: '-1'", {"--within", "-1"});
     refused(2, "--within: 'reach' is no length", {"--within", "reach"});
+    for (const char* const length : {"inf", "nan", "1e999", "-1", "0"}) {
+        refused(2, "is not a positive, finite length", {"--within", length});
+    }
     refused(2, "the distance is too small for this mesh", {"--within", "1e-5"});
     refused(2, "--vertices: 'x' is neither", {"--within", "1", "--vertices", "x"});
     refused(2, "--vertices: '3-1' is neither", {"--within", "1", "--vertices", "3-1"});
@@ -163,6 +164,13 @@ TEST_CASE("neighbours that cannot be found are refused, and no file is left") {
     refused(3, "none.csv: has no points", {"none.csv", "--within", "1"});
     refused(3, "missing.csv", {"--within", "1", "--among", "missing.csv"});
     refused(6, "about 16 pairs are to be expected", {"--within", "9", "--most-pairs", "15"});
+    for (const char* const output : {"-", "out"}) {
+        check_fails(folder, 2,
+                    output + std::string(": neighbours are written as .npz or .csv; give --format"),
+                    {"neighbours", "square.obj", "--within", "1", "-o", output});
+    }
+    check_fails(folder, 2, "--format: 'ply': neighbours are written as .npz or .csv",
+                {"neighbours", "square.obj", "--within", "1", "-o", "a.npz", "--format", "ply"});
     check_fails(folder, 2, "neighbours are written as .npz or .csv",
                 {"neighbours", "square.obj", "--within", "1", "-o", "near.ply"});
     check_fails(

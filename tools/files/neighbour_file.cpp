@@ -3,19 +3,25 @@
 #include <algorithm>
 
 #include "files/block_writer.hpp"
+#include "files/input_file.hpp"
 #include "files/npz_arrays.hpp"
 #include "files/zip_writer.hpp"
 #include "program/exact_text.hpp"
 #include "program/failure.hpp"
+#include "program/human_text.hpp"
 
 namespace geodisk::tools {
 
 SampleTarget neighbour_target(const Path& path, const std::string& format) {
-    SampleTarget target = sample_target(path, format, false);
-    if (target.format != SampleFormat::npz && target.format != SampleFormat::csv) {
-        fail_usage(path.string() + ": neighbours are written as .npz or .csv");
+    const std::string extension = lower_extension(path);
+    const std::string wanted =
+        !format.empty() ? format : extension.substr(std::min<std::size_t>(extension.size(), 1));
+    if (wanted != "npz" && wanted != "csv") {
+        fail_usage((format.empty() ? path.string() : "--format: " + in_quotes(format)) +
+                   ": neighbours are written as .npz or .csv" +
+                   (format.empty() && wanted.empty() ? "; give --format npz or csv" : ""));
     }
-    return target;
+    return sample_target(path, wanted, false);
 }
 
 void write_neighbours(AtomicFile& file, const SampleTarget& target, const NeighbourTable& table) {

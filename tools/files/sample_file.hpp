@@ -129,7 +129,7 @@ void write_samples(const Path& path, const SampleHeader& header, std::span<const
 void write_box_samples(AtomicFile& file, const SampleTarget& target, const SampleHeader& header,
                        std::span<const SampleRow> rows, std::uint32_t dimension);
 
-/// Returns true unless the format holds points alone.
+/// Returns true unless the format holds nothing but points and normals.
 bool has_columns(const SampleTarget& target);
 
 /// UserError(usage) if the format cannot hold columns of these names.

@@ -244,9 +244,10 @@ bool has_columns(const SampleTarget& target) {
 
 void check_columns(const SampleTarget& target, std::span<const std::string> columns) {
     if (!has_columns(target) && !columns.empty()) {
-        fail_usage(target.path.string() + ": an " + extension_of(target.format) +
-                   " file holds points alone, so no column " + columns.front() +
-                   "; use .ply, .csv, .npz, .pcd or .glb");
+        fail_usage(
+            target.path.string() + ": an " + extension_of(target.format) + " file holds points" +
+            (target.format == SampleFormat::obj ? " and normals" : "") + " alone, so no column " +
+            columns.front() + "; use .ply, .csv, .npz, .pcd or .glb");
     }
 }
 

@@ -15,6 +15,7 @@
 #include "geodisk/checks/spacing.hpp"
 #include "geodisk/feature_run.hpp"
 #include "geodisk/inputs/given_input.hpp"
+#include "geodisk/outputs/outputs.hpp"
 #include "geodisk/records.hpp"
 #include "geodisk/update_run.hpp"
 #include "program/failure.hpp"
@@ -129,19 +130,19 @@ Levels levels_of(const Method& method, const MeshInput& mesh, const SampleParams
 std::vector<ExtraColumn> extra_columns(const SampleJob& job, const MeshInput& mesh,
                                        const SampleResult& result) {
     std::vector<ExtraColumn> columns = part_columns(mesh.file, job.columns, result.rows);
-    if (!job.constraints.existing.empty() && has_columns(job.out.target())) {
+    if (!job.constraints.existing.empty() && takes_column(job.out, kGivenColumn)) {
         ExtraColumn given{std::string(kGivenColumn),
                           std::vector<std::uint32_t>(result.rows.size())};
         std::fill_n(given.values.begin(), result.given, 1);
         columns.push_back(std::move(given));
     }
-    if (job.features && has_columns(job.out.target())) {
+    if (job.features && takes_column(job.out, kFeatureColumn)) {
         columns.push_back({std::string(kFeatureColumn), result.features});
     }
     if (job.classes.is_given()) {
         columns.push_back({std::string(kClassColumn), result.classes});
     }
-    if (result.levels && has_columns(job.out.target())) {
+    if (result.levels && takes_column(job.out, kLevelColumn)) {
         ExtraColumn level{std::string(kLevelColumn), {}};
         std::uint32_t number = 0;
         for (const std::size_t end : result.done.ends) {
@@ -295,7 +296,7 @@ void write_sample_file(AtomicFile& file, const SampleJob& job, const MeshInput& 
     const std::vector<ExtraColumn> numbers = extra_columns(job, mesh, result);
     std::vector<SampleField> fields =
         record_fields(job.out.record, mesh, result.rows, job.params.seed);
-    if (result.farthest && has_columns(job.out.target())) {
+    if (result.farthest && takes_column(job.out, kCoverColumn)) {
         fields.push_back(result.farthest->cover());
     }
     write_samples(file, job.out.target(), report.header(), result.rows, mesh.dimension(),

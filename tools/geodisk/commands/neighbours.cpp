@@ -56,14 +56,14 @@ Within parsed_within(const NeighbourOptions& options) {
         return {};
     }
     const char first = options.within.front();
-    const bool is_number =
-        (first >= '0' && first <= '9') || first == '+' || first == '-' || first == '.';
+    const bool is_number = (first >= '0' && first <= '9') || first == '+' || first == '-' ||
+                           first == '.' || parse_real(options.within); // inf and nan as well.
     if (is_number) {
         return {parse_length("--within", options.within), {}};
     }
     if (options.points.empty()) {
         fail_usage("--within: " + in_quotes(options.within) +
-                   " is no length; a column is one of POINTS");
+                   " is no length; for a column, give POINTS that have it");
     }
     return {{}, options.within};
 }

@@ -10,6 +10,7 @@
 
 #include "files/fingerprint.hpp"
 #include "files/output_file.hpp"
+#include "files/sample_columns.hpp"
 #include "files/sample_file.hpp"
 #include "geodisk/checks/sample_checks.hpp"
 #include "geodisk/checks/sample_input.hpp"
@@ -211,7 +212,7 @@ void run_transfer(const TransferOptions& options) {
     print_precision_note(options.out, samples.rows, to.dimension());
     std::vector<SampleField> fields =
         record_fields(options.out.record, to, samples.rows, seed_of(samples.header));
-    if (done.farthest && has_columns(options.out.target())) {
+    if (done.farthest && takes_column(options.out, kCoverColumn)) {
         fields.push_back(done.farthest->cover());
     }
     AtomicFile file(options.out.output);

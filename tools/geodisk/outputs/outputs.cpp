@@ -100,6 +100,16 @@ void print_precision_note(const OutputOptions& options, std::span<const SampleRo
     }
 }
 
+bool takes_column(const OutputOptions& options, std::string_view column) {
+    const SampleTarget target = options.target();
+    if (!has_columns(target)) {
+        print_warning(options.output + ": an " + extension_of(target.format) +
+                      " file has no columns, so the column " + std::string(column) +
+                      " is left out; use .ply, .csv, .npz, .pcd or .glb to have it");
+    }
+    return has_columns(target);
+}
+
 void flush_or_fail(const std::string& what) {
     std::cout.flush();
     if (!std::cout) {

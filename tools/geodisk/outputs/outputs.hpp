@@ -72,6 +72,9 @@ void write_outputs(const OutputOptions& options, std::string_view what, Progress
 void print_precision_note(const OutputOptions& options, std::span<const SampleRow> rows,
                           std::uint32_t dimension);
 
+/// Returns true if the output can hold a column of that name; else warns that it is left out.
+bool takes_column(const OutputOptions& options, std::string_view column);
+
 /// Throws UserError(bad_output) if `what` did not get through to standard output.
 void flush_or_fail(const std::string& what);
 
