@@ -9,6 +9,7 @@ import pytest
 
 import geodisk
 from meshes import FACES, VERTICES
+from test_mesh_sources import CUBE, SIDES
 
 SAMPLES = geodisk.sample(VERTICES, FACES, min_distance=0.3, seed=5)
 
@@ -48,6 +49,22 @@ def near(**options):
 def test_what_is_refused(call, kind, text):
     with pytest.raises(kind, match=text):
         call()
+
+
+def test_masks_of_integers_are_no_indices():
+    cube = geodisk.Mesh(CUBE, SIDES)
+    for mask in (np.ones(6, np.uint8), np.array([0, 1, 1, 0, 0, 0]), np.zeros(12, np.int64)):
+        with pytest.raises(geodisk.InvalidArgument, match="zeros and ones, which must be of type bool"):
+            geodisk.sample(cube, min_distance=0.2, face_mask=mask)
+    assert set(geodisk.sample(cube, min_distance=0.2, face_mask=[1, 0]).face_index) == {0, 1}
+    with pytest.raises(geodisk.InvalidArgument, match="mask of zeros and ones; give np.flatnonzero"):
+        geodisk.neighbours(cube, sources=np.ones(8, np.uint8), within=1)
+
+
+def test_weights_sum_to_one():
+    samples = geodisk.Samples(face_index=[0, 1], barycentric=[[1, 0, 0], [0, 0, 0]])
+    with pytest.raises(geodisk.InvalidArgument, match="sample 1 has the weights .* sum to 1"):
+        samples.interpolate(VERTICES, mesh=geodisk.Mesh(VERTICES, FACES))
 
 
 def test_booleans_of_numpy_are_booleans():

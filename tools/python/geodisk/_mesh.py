@@ -329,7 +329,7 @@ def mask_of(surface: Surface, face_mask: ArrayLike) -> NDArray[np.uint8]:
                 f"face_mask has the triangle {chosen.max()}, the mesh has {triangles}; a mask of "
                 "zeros and ones must be of type bool"
             )
-        if chosen.size == triangles > 2 and int(chosen.max()) <= 1:
+        if chosen.size > 2 and int(chosen.max()) <= 1:  # Indices would repeat.
             raise e.invalid("face_mask is a mask of zeros and ones, which must be of type bool")
         mask = np.zeros(triangles, np.uint8)
         mask[chosen] = 1

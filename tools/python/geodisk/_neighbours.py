@@ -178,6 +178,8 @@ def _set_sources(
     chosen = indices(sources, "sources").astype(np.uint32)
     if chosen.ndim != 1 or chosen.size == 0:
         raise e.invalid(f"sources have the shape {chosen.shape}, not (n,) with n of at least 1")
+    if chosen.size == mesh._surface.vertex_count() > 2 and int(chosen.max()) <= 1:
+        raise e.invalid("sources is a mask of zeros and ones; give np.flatnonzero(sources)")
     params.source_vertices, params.source_count = address(chosen), len(chosen)
     return len(chosen)
 

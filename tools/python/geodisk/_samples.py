@@ -403,6 +403,10 @@ class Samples:
             raise e.invalid("samples in a box lie on no mesh")
         if surface is None:
             raise e.invalid("these samples do not refer to their mesh; give mesh=")
+        sums = weights.sum(axis=1)
+        if len(faces) and not (np.abs(sums - 1) < 1e-3).all():
+            row = int(np.argmax(~(np.abs(sums - 1) < 1e-3)))
+            raise e.invalid(f"sample {row} has the weights {weights[row]}, which do not sum to 1")
         corners = surface.own_corners()
         if len(faces) and int(faces.max()) >= len(corners):
             raise e.invalid(f"a sample lies in triangle {faces.max()}, the mesh has {len(corners)}")
