@@ -176,8 +176,8 @@ def sample_many(
         As for :func:`sample`.
     density, radius_factor, face_keys, face_mask, existing, avoid : sequence of one per mesh, or None
         As for :func:`sample`; None for a mesh without.
-    exact, features, pool_ratio, weld, keep_seams, columns, attributes, texture, normals, frames, mesh_format,
-    device, progress
+    exact, features, pool_ratio, weld, keep_seams, columns, attributes, texture, normals, frames,
+    mesh_format, device, progress
         As for :func:`sample`, for all meshes. The other parameters of :func:`sample` are for single
         meshes.
 

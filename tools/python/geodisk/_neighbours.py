@@ -105,8 +105,8 @@ def neighbours(
         Distance in units of the mesh: one, or one for each source. Without it, the `nearest` ones
         are found however far they are.
     among : {"vertices", "sources"}, Samples, or a pair of face_index and barycentric
-        What to find: vertices of the mesh, the other sources, or points, as for `sources`. Where seams are joined,
-        all vertices of a place are found.
+        What to find: vertices of the mesh, the other sources, or points, as for `sources`. Where
+        seams are joined, all vertices of a place are found.
     nearest : int
         If not 0, keep only so many of each source: the nearest ones, in the order of their
         distances. Otherwise the neighbours of a source are in the order of their indices.

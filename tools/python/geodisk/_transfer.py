@@ -70,8 +70,8 @@ def transfer(
     -------
     Samples
         Samples with the same faces and weights, and their attributes but for ``cover``, which other
-        poses change. `min_distance` is their smallest distance there,
-        NaN if no path joins two samples, and `radius` is half of it.
+        poses change. `min_distance` is their smallest distance there, NaN if no path joins two
+        samples, and `radius` is half of it.
 
     Raises
     ------

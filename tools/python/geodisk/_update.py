@@ -66,8 +66,8 @@ def update(
     Parameters
     ----------
     samples : Samples
-        All samples of :func:`sample` on the mesh before, in any order. Not with throws, stop_count, exact, classes, features,
-        maximal, another order or another metric.
+        All samples of :func:`sample` on the mesh before, in any order. Not with throws, stop_count,
+        exact, classes, features, maximal, another order or another metric.
     to : array_like of float, shape (v, d), or a mesh
         The edited mesh, or positions of its vertices; the mesh before by default.
     to_faces : array_like of int, optional
