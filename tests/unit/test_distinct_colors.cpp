@@ -19,7 +19,8 @@ using tools::picture::distinct_colors;
 std::uint32_t colors_of(std::size_t count, const Edges& edges) {
     const std::vector<std::uint32_t> colors = distinct_colors(count, edges);
     REQUIRE(colors.size() == count);
-    CHECK(std::ranges::none_of(edges, [&](auto edge) { return colors[edge[0]] == colors[edge[1]]; }));
+    CHECK(
+        std::ranges::none_of(edges, [&](auto edge) { return colors[edge[0]] == colors[edge[1]]; }));
     CHECK(distinct_colors(count, edges) == colors);
     return count == 0 ? 0 : *std::ranges::max_element(colors) + 1;
 }

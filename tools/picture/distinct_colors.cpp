@@ -92,7 +92,8 @@ std::vector<std::uint32_t> distinct_colors(std::size_t count,
                 user[colors[other]] = node;
             }
         }
-        const auto unused = std::ranges::find_if(user, [&](std::uint32_t by) { return by != node; });
+        const auto unused =
+            std::ranges::find_if(user, [&](std::uint32_t by) { return by != node; });
         colors[node] = static_cast<std::uint32_t>(unused - user.begin());
         if (unused == user.end()) {
             user.push_back(kNone);

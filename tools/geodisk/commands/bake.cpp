@@ -101,20 +101,22 @@ void run_bake(BakeOptions options) {
     warnings.insert(warnings.begin(), mesh.warnings.begin(), mesh.warnings.end());
     RunDevice device(options.run.device, runner);
     const bool is_cells = format == MapFormat::png && style == picture::Style::voronoi;
-    const MapResult result = run_map(file.rows, size, options.mesh.mesh, mesh, is_cells, device,
-                                     runner.device_bytes != 0, progress);
+    MapResult result = run_map(file.rows, size, options.mesh.mesh, mesh, is_cells, device,
+                               runner.device_bytes != 0, progress);
     check_validation(device.context());
     const MapReport report{options.mesh,      mesh, warnings, result, file.rows.size(),
                            options.out.output};
     write_outputs(options.out, "the map", progress, report, [&](AtomicFile& map) {
         if (format == MapFormat::npz) {
             write_map(map, result.map);
-        } else if (is_cells) {
-            const auto colors = picture::distinct_colors(file.rows.size(), result.touching);
-            picture::write_png(map, picture::cell_pixels(result.map, colors));
-        } else {
-            picture::write_png(map, picture::distance_pixels(result.map));
+            return;
         }
+        const picture::Pixels pixels =
+            is_cells ? picture::cell_pixels(
+                           result.map, picture::distinct_colors(file.rows.size(), result.touching))
+                     : picture::distance_pixels(result.map);
+        result.map = {size.width, size.height, {}, {}, {}}; // Room for what writing takes.
+        picture::write_png(map, pixels);
     });
 }
 
