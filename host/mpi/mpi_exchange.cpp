@@ -84,7 +84,7 @@ Result<Done> MpiExchange::wait_until(const std::function<bool()>& is_done) {
             return Error{Status::cancelled, "stopped while waiting for other processes"};
         }
         std::this_thread::sleep_for(nap);
-        nap = std::min(2 * nap, lanes_ * kLongestNap);
+        nap = std::min(2 * nap, kLongestNap);
     }
 }
 

@@ -84,7 +84,9 @@ class Division {
             part.roles.push_back(is_own[face] != 0 ? FaceRole::own
                                  : is_near         ? FaceRole::near
                                                    : FaceRole::surface);
-            part.keys.push_back(params_.face_keys.empty() ? face : params_.face_keys[face]);
+            if (part.has_keys) {
+                part.keys.push_back(params_.face_keys[face]);
+            }
             if (!params_.face_mask.empty()) {
                 part.mask.push_back(params_.face_mask[face]);
             }

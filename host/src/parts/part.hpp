@@ -51,8 +51,8 @@ struct Part {
     std::optional<RadiusField> radii;
     std::vector<std::uint32_t> faces; ///< Number in the whole of each face.
     std::vector<FaceRole> roles;
-    std::vector<std::uint32_t> keys; ///< Key of each face.
-    bool has_keys = false;           ///< The caller has given them.
+    std::vector<std::uint32_t> keys; ///< Key of each face, or empty: its number in the whole.
+    bool has_keys = false;           ///< The caller has given keys.
     std::vector<std::uint8_t> mask;  ///< Empty, or as SampleParams::face_mask.
     std::vector<Sample> given;
     std::vector<KeepOut> avoid;

@@ -41,7 +41,7 @@ SampleParams Part::params() const {
     params.seed = seed;
     params.pool_ratio = pool_ratio;
     params.radii = radii ? &*radii : nullptr;
-    params.face_keys = keys;
+    params.face_keys = has_keys ? keys : faces;
     params.face_mask = mask;
     params.given = given;
     params.avoid = avoid;

@@ -94,19 +94,27 @@ std::vector<Before> before_all(Talk& talk, const Sorted& own, const std::vector<
     return all;
 }
 
-/// Returns for each part but the last the highest place before which no more lies than `is_within`
-/// allows, by the part's number.
+/// Returns for each part but the last a place before which lie as many faces as before the highest
+/// place that `is_within` allows, by the part's number. `all` is what lies before the end.
 template <class Within>
-std::vector<Place> find_ends(Talk& talk, const Sorted& own, const Within& is_within) {
+std::vector<Place> find_ends(Talk& talk, const Sorted& own, const Before& all,
+                             const Within& is_within) {
     std::vector<Place> ends(talk.size() - 1);
-    for (std::uint32_t bit = kPlaceBits; bit-- > 0;) {
+    // Faces before the end, and before the places that are too high.
+    std::vector<std::uint64_t> low(ends.size(), 0), high(ends.size(), all.faces);
+    for (std::uint32_t bit = kPlaceBits; bit-- > 0 && low != high;) {
         std::vector<Place> tried;
         for (const Place& end : ends) {
             tried.push_back(end.with(bit));
         }
         const std::vector<Before> before = before_all(talk, own, tried);
         for (std::size_t i = 0; i < ends.size(); ++i) {
-            ends[i] = is_within(i, before[i]) ? tried[i] : ends[i];
+            if (is_within(i, before[i])) {
+                ends[i] = tried[i];
+                low[i] = before[i].faces;
+            } else {
+                high[i] = before[i].faces;
+            }
         }
     }
     return ends;
@@ -115,10 +123,11 @@ std::vector<Place> find_ends(Talk& talk, const Sorted& own, const Within& is_wit
 /// Returns the ends of all parts but the last: a part has the faces before its end.
 std::vector<Place> ends_of_parts(Talk& talk, const Sorted& own, std::uint64_t faces) {
     const std::uint64_t parts = talk.size();
-    const std::uint64_t work = talk.sum(own.work.back());
-    std::vector<Place> ends = find_ends(talk, own, [&](std::size_t part, const Before& before) {
-        return before.work <= work / parts * (part + 1);
-    });
+    const Before all{faces, talk.sum(own.work.back())};
+    std::vector<Place> ends =
+        find_ends(talk, own, all, [&](std::size_t part, const Before& before) {
+            return before.work <= all.work / parts * (part + 1);
+        });
     // Each part has a face, also where a few have all the work.
     const std::vector<Before> before = before_all(talk, own, ends);
     std::vector<std::uint64_t> counts;
@@ -126,7 +135,7 @@ std::vector<Place> ends_of_parts(Talk& talk, const Sorted& own, std::uint64_t fa
         const std::uint64_t least = counts.empty() ? 1 : counts.back() + 1;
         counts.push_back(std::clamp(before[part].faces, least, faces - (parts - part - 1)));
     }
-    return find_ends(talk, own, [&](std::size_t part, const Before& some) {
+    return find_ends(talk, own, all, [&](std::size_t part, const Before& some) {
         return some.faces <= counts[part];
     });
 }

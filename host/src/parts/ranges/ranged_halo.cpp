@@ -152,7 +152,7 @@ class Halo {
   private:
     struct Edge {
         std::uint32_t end;
-        double length;
+        float length; ///< Only decides how far the halo grows at a time.
     };
 
     /// Length of a way from own faces, whether all faces at its end are known, and edges there.
@@ -273,8 +273,8 @@ class Halo {
                 const std::uint32_t from = face.corners[side], to = face.corners[(side + 1) % 3];
                 const double length = between(from, to);
                 edges_ += length;
-                ways_[from].edges.push_back({to, length});
-                ways_[to].edges.push_back({from, length});
+                ways_[from].edges.push_back({to, static_cast<float>(length)});
+                ways_[to].edges.push_back({from, static_cast<float>(length)});
                 changed.push_back(from);
             }
         }

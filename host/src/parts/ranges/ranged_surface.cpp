@@ -147,7 +147,6 @@ Result<std::unique_ptr<Part>> RangedSurface::part(Exchange& exchange, const Samp
         for (; own != faces_.end(); ++own) {
             add(*own, FaceRole::own);
         }
-        part->keys = part->faces;
         part->whole = statistics_.mesh;
         part->places = places_of(talk, known, faces);
         link(talk, std::move(near), *part);
