@@ -41,6 +41,14 @@ class Detector : public Windows<Real, kMayVary> {
     /// Trims windows in all disks, from the start.
     void trim_all() { trims_all_ = true; }
 
+    /// Makes later disks share what they reach. The depth of a point in a disk is the disk's limit
+    /// minus the distance of the point. A later disk goes only where it is deeper than all before:
+    /// it finds the points where it is, and perhaps others. So the time of disks that overlap is
+    /// about that of their union.
+    void share_depths() {
+        depths_.assign(surface_.fans.size(), -std::numeric_limits<Real>::infinity());
+    }
+
     /// Computes a disk. Throws EndlessDisk if windows become too many. Calls `hit(place, distance)`
     /// for every place of `bins` with `wanted(place)` that is near `source`, once for each path
     /// found.
@@ -58,6 +66,7 @@ class Detector : public Windows<Real, kMayVary> {
     DiskCount spread(FacePoint<Real> source, const Light& light) {
         count_ = {};
         untrimmed_ = 0;
+        note_depths();
         waiting_.begin_disk(trims_all_);
         begin();
         own_radius_ = adaptive() ? surface_.radius_at(source) : Real{0};
@@ -105,9 +114,20 @@ class Detector : public Windows<Real, kMayVary> {
         count_.vertices = 0;
     }
 
+    /// Returns the shortest distance at which a path of this disk may still be of use at a vertex.
     Real distance_at(std::uint32_t v) const {
-        return vertices_[v].generation == generation_ ? vertices_[v].distance
-                                                      : static_cast<Real>(kFar);
+        const Real own = vertices_[v].generation == generation_ ? vertices_[v].distance
+                                                                : static_cast<Real>(kFar);
+        return depths_.empty() ? own : std::min(own, limit_ - depths_[v]);
+    }
+
+    /// Notes how deep in the last disk its vertices are, where disks share that.
+    void note_depths() {
+        for (const std::uint32_t v : reached_) {
+            depths_[v] = std::max(depths_[v], last_limit_ - vertices_[v].distance);
+        }
+        reached_.clear();
+        last_limit_ = limit_;
     }
 
     /// Handles a path of the given length that ends at v, having come in through `corner`.
@@ -116,7 +136,12 @@ class Detector : public Windows<Real, kMayVary> {
         if (!(distance < distance_at(v)) || !(distance < reach_through(corner / 3))) {
             return;
         }
-        count_.vertices += vertices_[v].generation != generation_;
+        if (vertices_[v].generation != generation_) {
+            ++count_.vertices;
+            if (!depths_.empty()) {
+                reached_.push_back(v);
+            }
+        }
         vertices_[v] = {distance, crossing, through, generation_};
         if (whole_fan || (surface_.fans[v].flags & gpu::kFanBends)) {
             waiting_.push(Event{v, whole_fan ? kWholeFan : corner, distance, chain, arrival});
@@ -285,6 +310,9 @@ class Detector : public Windows<Real, kMayVary> {
 
     std::vector<VertexNote> vertices_;
     std::uint32_t generation_ = 0;
+    std::vector<Real> depths_; ///< Depth of each vertex in earlier disks; empty if not shared.
+    std::vector<std::uint32_t> reached_; ///< Vertices of the last disk, if depths are shared.
+    Real last_limit_ = 0;
     Waiting<Real> waiting_;
     bool trims_all_ = false;
     std::uint32_t untrimmed_ = 0; ///< Windows and events pushed in this disk before it began to

@@ -125,6 +125,39 @@ TEST_CASE("points of other programs are put on the mesh, and pairs too close are
     CHECK(run(folder, {"verify", "builtin:plate:4", "c.ply"}).status == 1);
 }
 
+TEST_CASE("of existing samples far closer than the distance some pairs count, and the closest") {
+    const TemporaryFolder folder;
+    REQUIRE(run(folder, {"sample", kMesh, "-o", "a.csv", "-n", "500"}).status == 0);
+    const Outcome made = run(folder, {"sample", kMesh, "-o", "b.csv", "-d", "100%", "--existing",
+                                      "a.csv", "--json", "b.json"});
+    INFO(made.out, made.err);
+    REQUIRE(made.status == 0);
+    CHECK(contains(made.err, "a.csv: at least "));
+    const Json given = json_in(folder, "b.json")["given"];
+    CHECK(given["complete"] == false);
+    CHECK(given["close_pairs"] < 500 * 499 / 2);
+
+    // The closest pair is that of all samples.
+    const tools::SampleFile all = tools::read_samples(folder / "a.csv");
+    std::string points;
+    for (const tools::SampleRow& row : all.rows) {
+        for (const double x : row.position) {
+            points += std::to_string(x) + " ";
+        }
+        points += "\n";
+    }
+    folder.write("a.xyz", points);
+    REQUIRE(run(folder, {"verify", kMesh, "a.xyz", "--json", "a.json"}).status == 0);
+    const Json closest = json_in(folder, "a.json")["closest"];
+    CHECK(given["closest"]["samples"] == closest["samples"]);
+
+    const Outcome verified = run(folder, {"verify", kMesh, "b.csv", "--json", "v.json"});
+    INFO(verified.out, verified.err);
+    CHECK(verified.status == 0);
+    CHECK(contains(verified.out, "500 of them; at least "));
+    CHECK(json_in(folder, "v.json")["given"]["violations"]["complete"] == false);
+}
+
 TEST_CASE("a column given of another program marks nothing") {
     const TemporaryFolder folder;
     folder.write("points.csv", "x,y,z,given\n0.5,0.25,0.005,1\n0.5,0.26,0.005,7\n");
@@ -181,7 +214,17 @@ TEST_CASE("points are avoided, each by a radius of its own, and verified") {
         run(folder, {"verify", mesh, "b.ply", "--avoid", "wells.csv:0.21", "--json", "v.json"});
     CHECK(wider.status == 1);
     CHECK(contains(wider.err, "within the radius of a point to avoid"));
-    CHECK(json_in(folder, "v.json")["avoided"]["intrusions"]["count"] > 0);
+    const Json intrusions = json_in(folder, "v.json")["avoided"]["intrusions"];
+    CHECK(intrusions["count"] > 0);
+    CHECK(intrusions["rows"].size() == intrusions["count"]);
+
+    // A sample counts once, however many disks it lies in, for the one in which it is deepest.
+    folder.write("twice.csv", "x,y,z,size\n0.5,0.25,0.005,0.1\n0.5,0.25,0.005,0.1\n"
+                              "0.5,0.24,0.005,0.2\n0.5,0.26,0.005,1e9\n");
+    CHECK(run(folder, {"verify", mesh, "free.ply", "--avoid", "twice.csv:size", "--json", "t.json"})
+              .status == 1);
+    const Json rows = json_in(folder, "t.json")["avoided"]["intrusions"]["rows"];
+    CHECK(rows.size() == tools::read_samples(folder / "free.ply").rows.size());
     CHECK(run(folder, {"verify", mesh, "free.ply", "--avoid", "wells.csv:size"}).status == 1);
 
     // With samples to keep, which may lie within; a file and a radius for each option.

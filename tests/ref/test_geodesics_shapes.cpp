@@ -272,3 +272,62 @@ TEST_CASE("regular icosphere: many equal distances") {
                         [&](const Point&, std::size_t i) { return truth[i]; });
     }
 }
+
+TEST_CASE("disks that share depths find for each point the disk in which it is deepest") {
+    constexpr std::uint32_t kDisks = 40;
+    for (const bool trims : {false, true}) {
+        const PreparedMesh mesh = prepared(builtin("torus-knot", 8));
+        const std::vector<Point> targets = random_points(mesh, 3, 500);
+        std::vector<Point> centers = random_points(mesh, 4, kDisks);
+        centers.back() = centers.front();
+        const double unit = mesh.statistics().diagonal / 2;
+        const ref::Surface<double> surface(mesh, unit);
+        const auto points_of = [](const std::vector<Point>& from) {
+            std::vector<ref::FacePoint<double>> points;
+            for (const Point& p : from) {
+                points.push_back({p.face, p.weight1, p.weight2});
+            }
+            return points;
+        };
+        const auto sources = points_of(centers);
+        const ref::Bins<double> bins(surface, points_of(targets));
+        ref::Detector<double> alone(surface, bins, ref::double_tolerances(), 1);
+        ref::Detector<double> together(surface, bins, ref::double_tolerances(), 1);
+        together.share_depths();
+        if (trims) {
+            together.trim_all();
+        }
+        std::vector<double> expected(targets.size()), found(targets.size());
+        std::uint64_t windows_alone = 0, windows_together = 0;
+        for (std::uint32_t i = 0; i < kDisks; ++i) {
+            const double limit = 0.02 + 0.6 * (i * 7 % kDisks) / kDisks;
+            std::vector<double> own(targets.size(), kUnreachable);
+            const auto run = [&](ref::Detector<double>& detector, std::vector<double>& depths,
+                                 const auto& check) {
+                detector.set_limit(limit);
+                return detector
+                    .run(
+                        sources[i], [](std::uint32_t) { return true; },
+                        [&](std::uint32_t place, double distance) {
+                            check(place, distance);
+                            depths[place] = std::max(depths[place], limit - distance);
+                        })
+                    .windows;
+            };
+            windows_alone += run(alone, expected, [&](std::uint32_t place, double distance) {
+                own[place] = std::min(own[place], distance);
+            });
+            windows_together += run(together, found, [&](std::uint32_t place, double distance) {
+                CHECK(distance >= own[place] - 1e-9);
+            });
+        }
+        std::size_t inside = 0;
+        for (std::size_t i = 0; i < targets.size(); ++i) {
+            INFO("point ", i);
+            CHECK(found[i] == doctest::Approx(expected[i]).epsilon(1e-9));
+            inside += expected[i] > 0 ? 1u : 0u;
+        }
+        CHECK(inside > targets.size() / 2);
+        CHECK(windows_together < windows_alone / 2);
+    }
+}

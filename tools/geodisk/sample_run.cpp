@@ -81,16 +81,16 @@ void note_given(const SampleJob& job, const MeshInput& mesh, SampleResult& resul
         distances = {radii, std::span(result.classes).first(result.given), job.classes,
                      result.params.min_distance};
     }
-    result.among_given = check_spacing(mesh, rows, distances, {}, progress).others;
+    const std::vector<std::uint32_t> all(rows.size(), 1);
+    result.among_given = check_spacing(mesh, rows, distances, all, progress).among_given;
     const SpacingResult& found = result.among_given;
     if (found.violations.empty()) {
         return;
     }
-    const ClosePair& closest = found.violations.front();
+    const ClosePair& closest = *found.closest;
     result.warnings.push_back(
         {"given_too_close", found.violations.size(), "",
-         (found.is_complete ? "" : "at least ") +
-             counted(found.violations.size(), "pair", "pairs") +
+         found.pairs_text() +
              " of existing samples closer than the minimum distance; they are kept. The closest "
              "are samples " +
              std::to_string(closest.row_a) + " and " + std::to_string(closest.row_b) + ", at " +

@@ -1,7 +1,9 @@
 #include "geodisk/checks/intrusions.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <limits>
+#include <numeric>
 
 #include "kernels/bins.hpp"
 #include "kernels/detect.hpp"
@@ -14,55 +16,77 @@ namespace {
 
 constexpr double kSmallestIntrusion = 1e-9; // Of a radius, for the rounding of doubles.
 constexpr double kMostCells = 0x1p26;
+constexpr double kOutside = std::numeric_limits<double>::infinity();
 
 } // namespace
 
 std::vector<Intrusion> find_intrusions(const MeshInput& mesh, std::span<const SampleRow> rows,
                                        std::span<const std::uint32_t> given,
                                        std::span<const KeepOut> avoided, ProgressLine& progress) {
-    std::vector<Intrusion> found;
     if (avoided.empty() || rows.empty()) {
-        return found;
+        return {};
     }
     progress.begin_stage("verifying points to avoid");
+    const double longest = 2 * ref::longest_path(mesh.prepared);
+    const auto radius_of = [&](std::size_t point) {
+        return std::min(avoided[point].radius, longest);
+    };
+    // Larger disks first: they may hold others.
+    std::vector<std::size_t> order(avoided.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::ranges::stable_sort(order, std::greater<>{}, radius_of);
+
     std::vector<ref::FacePoint<double>> points;
     for (const SampleRow& row : rows) {
         points.push_back({row.face, row.bary[1], row.bary[2]});
     }
-    const double longest = 2 * ref::longest_path(mesh.prepared);
-    const double largest =
-        std::min(std::ranges::max(avoided, {}, &KeepOut::radius).radius, longest);
-    const double unit = ref::suitable_unit(mesh.prepared, largest, kMostCells);
+    for (const auto& [center, radius] : avoided) {
+        points.push_back({center.face, center.weights[1], center.weights[2]});
+    }
+    const double unit = ref::suitable_unit(mesh.prepared, radius_of(order.front()), kMostCells);
     const ref::Surface<double> surface(mesh.prepared, unit);
     const ref::Bins<double> bins(surface, points);
     ref::Detector<double> detector(surface, bins, ref::double_tolerances(), 1);
-    std::vector<double> distances(rows.size());
-    for (std::size_t i = 0; i < avoided.size(); ++i) {
+    detector.trim_all(); // The disks are large.
+    detector.share_depths();
+
+    std::vector<Intrusion> deepest(rows.size(), {0, 0, kOutside});
+    const auto depth_of = [&](const Intrusion& one) { return radius_of(one.point) - one.distance; };
+    std::vector<bool> is_held(avoided.size()); // Within a larger disk, so of no use.
+    for (std::size_t i = 0; i < order.size(); ++i) {
+        const std::size_t point = order[i];
+        if (is_held[point]) {
+            continue;
+        }
         check_interrupted();
-        progress.update(static_cast<double>(i) / static_cast<double>(avoided.size()), "");
-        const auto& [center, radius] = avoided[i];
-        detector.set_limit(std::min(radius * (1 - kSmallestIntrusion), longest) / unit);
-        std::ranges::fill(distances, std::numeric_limits<double>::infinity());
-        const auto is_new = [&](std::uint32_t place) {
-            return given.empty() || given[bins.order[place]] == 0;
+        progress.update(static_cast<double>(i) / static_cast<double>(order.size()), "");
+        const double radius = radius_of(point);
+        const auto is_wanted = [&](std::uint32_t place) {
+            const std::uint32_t row = bins.order[place];
+            return row >= rows.size() || given.empty() || given[row] == 0;
         };
-        const auto hit = [&](std::uint32_t place, double distance) {
-            double& least = distances[bins.order[place]];
-            least = std::min(least, distance * unit);
+        const auto hit = [&](std::uint32_t place, double length) {
+            const std::uint32_t row = bins.order[place];
+            const double distance = length * unit;
+            if (row >= rows.size()) {
+                const std::size_t other = row - rows.size();
+                is_held[other] =
+                    is_held[other] || radius == longest || radius - distance >= radius_of(other);
+            } else if (const Intrusion one{row, point, distance};
+                       depth_of(one) > depth_of(deepest[row])) {
+                deepest[row] = one;
+            }
         };
+        detector.set_limit(radius * (1 - kSmallestIntrusion) / unit);
         try {
-            detector.run({center.face, center.weights[1], center.weights[2]}, is_new, hit);
+            detector.run(points[rows.size() + point], is_wanted, hit);
         } catch (const ref::EndlessDisk& error) {
             throw UserError(ExitCode::bad_input, error.what());
         }
-        for (std::uint32_t row = 0; row < rows.size(); ++row) {
-            if (distances[row] < std::numeric_limits<double>::infinity()) {
-                found.push_back({row, i, distances[row]});
-            }
-        }
     }
     progress.clear();
-    return found;
+    std::erase_if(deepest, [](const Intrusion& one) { return one.distance == kOutside; });
+    return deepest;
 }
 
 } // namespace geodisk::tools

@@ -13,14 +13,15 @@
 
 namespace geodisk::tools {
 
-/// A sample within the radius of a point to avoid.
+/// A sample within the radius of a point to avoid: of several points, of one in whose disk it lies
+/// deepest. A disk beyond the whole mesh stands for all others.
 struct Intrusion {
     std::uint32_t row;
     std::size_t point;
     double distance;
 };
 
-/// Finds the rows within the radii of the points by more than a billionth, point by point. Rows
+/// Finds the rows within the radii of the points by more than a billionth, in their order. Rows
 /// with `given` other than 0 may be anywhere; none were given if that is empty. Throws UserError
 /// when interrupted.
 std::vector<Intrusion> find_intrusions(const MeshInput& mesh, std::span<const SampleRow> rows,

@@ -25,10 +25,11 @@ std::vector<ref::FacePoint<double>> points_of(std::span<const Sample> samples) {
     return points;
 }
 
-/// Calls `visit(source, row_a, row_b, distance)` for all pairs within the reach of one of them,
+/// Calls `visit(source, row_a, row_b, distance)` for all pairs within `reach(row)` of one of them,
 /// from each such row, until it returns false. The lower row comes first.
-template <class Visit>
-void for_each_pair(const PairSearch& search, ProgressLine& progress, const Visit& visit) {
+template <class Reach, class Visit>
+void for_each_pair(const PairSearch& search, ProgressLine& progress, const Reach& reach,
+                   const Visit& visit) {
     constexpr double kUnknown = std::numeric_limits<double>::infinity();
     const ref::Surface<double> surface(search.mesh, search.frame);
     const double unit = search.frame.unit;
@@ -47,7 +48,7 @@ void for_each_pair(const PairSearch& search, ProgressLine& progress, const Visit
         check_interrupted();
         progress.update(static_cast<double>(source) / static_cast<double>(count),
                         grouped(source) + " samples");
-        detector.set_limit(std::min(search.reach(row), search.longest) / unit);
+        detector.set_limit(std::min(reach(row), search.longest) / unit);
         const auto is_other = [&](std::uint32_t place) { return place != source; };
         const auto hit = [&](std::uint32_t place, double distance) {
             if (distances[place] == kUnknown) {
@@ -82,7 +83,9 @@ class Notes {
         violations_ += is_violation ? 1 : 0;
         return is_closest || is_violation;
     }
-    bool is_full() const { return violations_ >= kMostViolations; }
+    std::size_t violations() const { return violations_; }
+    /// Returns the ratio of the closest pair; there must be one.
+    double least_ratio() const { return closest_->ratio; }
 
   private:
     std::optional<ClosePair> closest_;
@@ -116,20 +119,28 @@ PairSearch search_on(const PreparedMesh& mesh, std::span<const SampleRow> rows, 
 std::vector<NotedPair> note_pairs(const PairSearch& search, ProgressLine& progress) {
     std::vector<NotedPair> noted;
     Notes others, among_given;
+    const bool is_even = search.distances && search.distances->are_found_from_both();
+    bool has_enough = false; // Pairs of given samples: only closer ones are looked for.
+    const auto reach = [&](std::uint32_t row) {
+        has_enough = among_given.violations() >= kMostGivenPairs;
+        const double full = search.reach(row);
+        // Pairs with a new sample are found from that one.
+        return has_enough && is_even && search.given[row] != 0
+                   ? std::min(full, among_given.least_ratio() * search.distances->reach(row))
+                   : full;
+    };
     for_each_pair(
-        search, progress,
+        search, progress, reach,
         [&](std::uint32_t source, std::uint32_t row_a, std::uint32_t row_b, double distance) {
             const double least = search.distances ? search.distances->of(row_a, row_b) : 1;
             const ClosePair pair{row_a, row_b, distance, distance / least};
             const bool is_given = search.is_given(pair);
             Notes& notes = is_given ? among_given : others;
-            if (is_given && among_given.is_full()) {
-                return true; // No reason to stop.
-            }
-            if (notes.takes(pair, search.is_violation(pair))) {
+            const bool is_violation = search.is_violation(pair) && !(is_given && has_enough);
+            if (notes.takes(pair, is_violation)) {
                 noted.push_back({source, pair});
             }
-            return !others.is_full();
+            return others.violations() < kMostViolations;
         });
     return noted;
 }

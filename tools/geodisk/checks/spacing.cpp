@@ -10,13 +10,13 @@
 namespace geodisk::tools {
 namespace {
 
-/// Doubles round at 2^-53; chains of crossings may add up some thousand such errors.
-constexpr double kSmallestViolation = 1e-9;
-constexpr std::size_t kNamedViolations = 10;
-
 std::string count_text(std::size_t count, bool is_complete) {
     return (is_complete ? "" : "at least ") + grouped(count);
 }
+
+/// Doubles round at 2^-53; chains of crossings may add up some thousand such errors.
+constexpr double kSmallestViolation = 1e-9;
+constexpr std::size_t kNamedViolations = 10;
 
 } // namespace
 
@@ -29,14 +29,18 @@ bool is_closer(const ClosePair& pair, const std::optional<ClosePair>& than) {
                         std::tie(than->ratio, than->row_a, than->row_b);
 }
 
-bool SpacingResult::add(const ClosePair& pair) {
+void SpacingResult::note_closest(const ClosePair& pair) {
     if (pair.ratio <= cut && is_closer(pair, closest)) {
         closest = pair;
     }
+}
+
+bool SpacingResult::add(const ClosePair& pair) {
+    note_closest(pair);
     if (pair.is_violation()) {
         violations.push_back(pair);
     }
-    is_complete = violations.size() < kMostViolations;
+    is_complete = violations.size() < most;
     return is_complete;
 }
 
@@ -60,6 +64,10 @@ std::size_t SpacingResult::violating_samples() const {
     }
     std::sort(rows.begin(), rows.end());
     return static_cast<std::size_t>(std::unique(rows.begin(), rows.end()) - rows.begin());
+}
+
+std::string SpacingResult::pairs_text() const {
+    return (is_complete ? "" : "at least ") + counted(violations.size(), "pair", "pairs");
 }
 
 std::string closest_text(const std::optional<ClosePair>& closest) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <ostream>
 #include <span>
@@ -33,24 +34,32 @@ struct ClosePair {
 
 /// Violations that are looked for: enough to say that a file is hopeless, and few enough to hold.
 inline constexpr std::size_t kMostViolations = 1'000'000;
+/// Pairs of given samples that are looked for, besides the closest: where the distance is far
+/// beyond theirs, each has very many.
+inline constexpr std::size_t kMostGivenPairs = 50'000;
 
 /// Whether the pair is closer, by ratio.
 bool is_closer(const ClosePair& pair, const std::optional<ClosePair>& than);
 
 struct SpacingResult {
-    double cut = 1.25;                 ///< Pairs were looked at up to this ratio.
-    std::optional<ClosePair> closest;  ///< By ratio; none if all are farther apart than the cut.
-    std::vector<ClosePair> violations; ///< The closest pair first, by ratio.
-    bool is_complete = true;           ///< False if the check stopped at too many violations.
+    std::size_t most = kMostViolations; ///< Violations with which the check stops.
+    double cut = 1.25;                  ///< Pairs were looked at up to this ratio.
+    std::optional<ClosePair> closest;   ///< By ratio; none if all are farther apart than the cut.
+    std::vector<ClosePair> violations;  ///< The closest pair first, by ratio.
+    bool is_complete = true;            ///< False if the check stopped at too many violations.
 
     /// Takes a pair that was found, in any order, and more than once if it was found so. It is a
     /// violation when it is closer by more than a billionth. False if there are too many.
     bool add(const ClosePair& pair);
+    /// Takes a pair that counts only if it is the closest.
+    void note_closest(const ClosePair& pair);
     /// Sorts the violations; of a pair found more than once, the shortest distance counts.
     void finish();
 
     /// Samples in at least one violation.
     std::size_t violating_samples() const;
+    /// Returns "3 pairs", or "at least" so many if the check stopped.
+    std::string pairs_text() const;
 };
 
 /// How far rows must be apart: the sum of their radii, one to a row, or as their classes say.
@@ -72,6 +81,11 @@ struct PairDistances {
             reach = std::max(reach, table.factor(classes[row], other) * min_distance);
         }
         return reach;
+    }
+    /// Returns true if each pair is within the reach of both of its rows.
+    bool are_found_from_both() const {
+        return !classes.empty() ||
+               std::ranges::adjacent_find(radii, std::ranges::not_equal_to()) == radii.end();
     }
 };
 

@@ -24,9 +24,22 @@ GivenSpacing check_spacing(const MeshInput& mesh, std::span<const SampleRow> row
     search.cut = result.others.cut;
     search.given = given;
     progress.begin_stage("verifying");
+    result.among_given.most = kMostGivenPairs;
+    bool counts_given = true;
+    std::optional<std::uint32_t> last; // Source of a pair of given samples.
     for (const auto& [source, pair] : note(search, progress)) {
-        SpacingResult& found = search.is_given(pair) ? result.among_given : result.others;
-        found.add(pair);
+        if (!search.is_given(pair)) {
+            result.others.add(pair);
+            continue;
+        }
+        // All pairs of a source count, or none.
+        counts_given = source == last ? counts_given : result.among_given.is_complete;
+        last = source;
+        if (counts_given) {
+            result.among_given.add(pair);
+        } else {
+            result.among_given.note_closest(pair);
+        }
     }
     result.others.finish();
     result.among_given.finish();

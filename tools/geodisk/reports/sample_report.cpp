@@ -176,9 +176,10 @@ std::string constraint_lines(const SampleJob& job, const SampleResult& result) {
         text += " samples\n";
     }
     if (result.given > 0) {
-        const std::size_t pairs = result.among_given.violations.size();
+        const SpacingResult& pairs = result.among_given;
         text += "given         " + grouped(result.given) + " of them";
-        text += pairs == 0 ? "" : "; " + counted(pairs, "pair", "pairs") + " among these too close";
+        text +=
+            pairs.violations.empty() ? "" : "; " + pairs.pairs_text() + " among these too close";
         text += '\n';
     }
     if (job.features) {
@@ -309,6 +310,7 @@ Json SampleReport::document(const SecondsByStage& after) const {
     if (result_.given > 0) {
         document["given"] = {{"samples", result_.given},
                              {"close_pairs", result_.among_given.violations.size()},
+                             {"complete", result_.among_given.is_complete},
                              {"closest", pair_json(result_.among_given.closest)}};
     }
     if (job_.features) {

@@ -106,11 +106,11 @@ std::string report_text(const SampleCheck& check) {
     }
     out << level_lines(check.levels, check.given() > 1);
     if (const std::size_t given = check.given(); given > 0) {
-        const std::size_t pairs = check.among_given.violations.size();
+        const SpacingResult& pairs = check.among_given;
         out << "given         " << grouped(given) << " of them"
-            << (pairs == 0 ? ""
-                           : "; " + counted(pairs, "pair", "pairs") +
-                                 " among these too close, no violation")
+            << (pairs.violations.empty()
+                    ? ""
+                    : "; " + pairs.pairs_text() + " among these too close, no violation")
             << '\n';
     }
     if (check.avoided > 0) {
