@@ -302,6 +302,28 @@ TEST_SUITE("given") {
         }
     }
 
+    TEST_CASE("the pool that the disks of points to avoid need is divided again after them") {
+        const PreparedMesh mesh = prepared(knot());
+        SampleParams params = params_for(mesh, 400);
+        const std::vector<KeepOut> avoid{{{700, {0.25f, 0.25f, 0.5f}}, 9 * params.min_distance},
+                                         {{40, {0.5f, 0.25f, 0.25f}}, 7 * params.min_distance}};
+        params.avoid = avoid;
+        RunnerOptions tight;
+        tight.plan.slots = 64;
+        tight.plan.list_capacity = 16;
+        tight.plan.window_capacity = 16;
+        for (const std::uint32_t stages : {0u, 1u}) { // All in a chunk, or one in each.
+            CAPTURE(stages);
+            tight.plan.stages = stages;
+            const SampleSet set = sample(mesh, params, tight);
+            CHECK(points_of(set) == float_set(mesh, params, set.report.plan.error_bound));
+            CHECK(set.report.regrown > 0);
+            CHECK((stages == 0 || set.report.chunks > 1));
+            // No disk of a sample is as large as those of the points.
+            CHECK(set.report.plan.list_capacity < 512);
+        }
+    }
+
     TEST_CASE("a point may keep out all, and a job counts and places the others") {
         const PreparedMesh mesh = prepared(knot());
         SampleParams params = params_for(mesh, 100);

@@ -81,11 +81,6 @@ def test_hopeless_samples(tmp_path):
     done = check_same(tmp_path, [MESH, str(broken)], (3,), expected=1)
     assert "at least" in done.stderr
 
-    given = tmp_path / "given.csv"
-    alone(MESH, "--min-distance", "40%", "--existing", str(samples), "-o", str(given))
-    done = check_same(tmp_path, [MESH, str(given)], (3,), expected=0)
-    assert "at least" in done.stdout
-
 
 def test_faults_are_told_once(tmp_path):
     samples = tmp_path / "samples.csv"

@@ -23,14 +23,16 @@ constexpr std::uint64_t kManyWindows = 10000;
 /// Fewer disks say little of how long the others take.
 constexpr double kFewDisks = 4;
 
-/// Draws how far a run is that should give about `expected` samples. Says once if it takes long,
-/// and stops it on a signal.
-ProgressCallback show_progress(ProgressLine& progress, DeviceLog& log, double expected) {
-    return [&progress, &log, expected, watch = Stopwatch(),
+/// Draws how far a run is that should give about `expected` samples, after the disks of `avoided`
+/// points, which say nothing of how long others take. Says once if it takes long, and stops it on a
+/// signal.
+ProgressCallback show_progress(ProgressLine& progress, DeviceLog& log, double expected,
+                               std::size_t avoided) {
+    return [&progress, &log, expected, avoided, watch = Stopwatch(),
             time = TimeEstimate(std::min(0.05, kFewDisks / std::max(1.0, expected)))](
                const Progress& state) mutable {
         log.tell_progress(state);
-        const double part = part_done(state, expected);
+        const double part = state.disks < avoided ? 0 : part_done(state, expected);
         time.note(watch.seconds(), part);
         if (const auto seconds = time.long_run()) {
             progress.clear();
@@ -180,14 +182,21 @@ double RunDevice::compile(const Domain& domain, ProgressLine& progress) {
 
 SampleSet RunDevice::sample(const Task& task, double min_distance, ProgressLine& progress) {
     log_.tell_task(min_distance, task.expected);
-    const ProgressCallback shown = show_progress(progress, log_, task.expected);
+    const std::size_t avoided = task.surface ? task.surface->params.avoid.size() : 0;
+    const ProgressCallback shown = show_progress(progress, log_, task.expected, avoided);
     auto result = sampler_ != nullptr && task.surface
                       ? sampler_->sample(opened_->runner, *task.surface, shown)
                       : opened_->runner.sample_and_wait(task.domain, shown);
     progress.clear();
     check_interrupted();
     if (!result) {
-        check(result.error());
+        Error error = result.error();
+        if (avoided > 0 && error.status == Status::workspace_too_small) {
+            error.message +=
+                "; disks of --avoid far larger than the distance take most of it: lower "
+                "their radii, or leave out faces within them by --mask";
+        }
+        check(error);
     }
     SampleSet set = take(std::move(result)); // Throws for an error; only a set has a report.
     log_.tell_run(set.report);

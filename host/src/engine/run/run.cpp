@@ -53,6 +53,8 @@ class Run {
     /// Bytes that the pool may grow to: at most so many, and as the device has left.
     std::uint64_t pool_bytes(std::uint64_t most) const;
     Result<Done> grow(const RunPlan& grown);
+    Result<Done> change_plan(const RunPlan& changed);
+    bool is_past_avoided(const Advice& advice) const;
     bool fit_samples(Advice& advice) const;
     Task<Result<Done>> enlarge_samples(std::uint32_t capacity);
     std::uint32_t record_all(VkCommandBuffer commands, Budget& budget);
@@ -87,7 +89,11 @@ class Run {
     std::vector<StagedRecords> staged_; ///< Yet to be written.
     std::size_t staged_records_ = 0;
     bool has_piece_ = false; ///< A piece of the upload is in flight.
-    DiskRecords* records_;   ///< Where to read what disks record, or null.
+    /// Plans for the disks of points to avoid, and for all others, once the pool grew for the
+    /// former.
+    std::optional<RunPlan> for_avoided_, for_others_;
+    bool is_for_avoided_ = false; ///< The plan in use is that for points to avoid.
+    DiskRecords* records_;        ///< Where to read what disks record, or null.
     RunReport report_;
 };
 
@@ -214,14 +220,32 @@ Result<Done> Run::grow(const RunPlan& grown) {
     if (auto enlarged = memory_.enlarge_pool(grown.pool_bytes()); !enlarged) {
         return enlarged;
     }
+    if (control().next_sample < of_.avoided) {
+        for_others_ = for_others_.value_or(submissions_.plan());
+        for_avoided_ = grown;
+        is_for_avoided_ = true;
+    } else if (for_others_) {
+        for_others_ = grown;
+    }
+    auto set = change_plan(grown);
+    kept_.made = memory_.made();
+    return set;
+}
+
+Result<Done> Run::change_plan(const RunPlan& changed) {
     RunPlan& plan = submissions_.plan();
-    const RunPlan before = std::exchange(plan, grown);
+    const RunPlan before = std::exchange(plan, changed);
     plan.dispatch_items = before.dispatch_items;
     plan.step_budget = before.step_budget;
     plan.detect_passes = before.detect_passes;
-    auto set = job_->set_plan(plan, memory_.range(BufferRole::pool));
-    kept_.made = memory_.made();
-    return set;
+    plan.sample_capacity = before.sample_capacity;
+    return job_->set_plan(plan, memory_.range(BufferRole::pool));
+}
+
+/// Returns true if the plan is that of disks of points to avoid, and these are done in this chunk.
+/// They may be far larger than all others and then leave room for few slots.
+bool Run::is_past_avoided(const Advice& advice) const {
+    return is_for_avoided_ && advice.next == Next::go_on && control().next_sample >= of_.avoided;
 }
 
 Task<Result<Done>> Run::enlarge_samples(std::uint32_t capacity) {
@@ -288,9 +312,21 @@ std::uint64_t Run::pool_bytes(std::uint64_t most) const {
 
 Task<Result<Done>> Run::follow(Advice advice) {
     Result<Done> enlarged = Done{};
+    bool starts_over = advice.next != Next::go_on; // The batch in progress.
+    if (is_past_avoided(advice)) {
+        is_for_avoided_ = false;
+        starts_over = true;
+        enlarged = change_plan(*for_others_);
+    }
     switch (advice.next) {
     case Next::begin:
         ++report_.chunks;
+        if (for_avoided_ && !std::exchange(is_for_avoided_, true)) {
+            enlarged = change_plan(*for_avoided_);
+        }
+        if (!enlarged) {
+            co_return enlarged;
+        }
         co_return co_await submissions_.run_passes(record_begin, after_begin_);
     case Next::count:
         co_return co_await submissions_.run_passes(record_count, {});
@@ -308,7 +344,7 @@ Task<Result<Done>> Run::follow(Advice advice) {
     if (!enlarged) {
         co_return enlarged;
     }
-    co_return co_await submissions_.run_rounds(advice.next != Next::go_on);
+    co_return co_await submissions_.run_rounds(starts_over);
 }
 
 /// Records all of the run, if it is small. Returns the rounds in it.
@@ -418,8 +454,9 @@ Task<Result<std::optional<SampleSet>>> Run::go(RunPlan& plan) {
     report_.dispatches = static_cast<std::uint32_t>(job().dispatches);
     take_counts(control(), report_);
     report_.plan = submissions_.plan();
+    const bool has_trimmed = report_.plan.trims || (for_avoided_ && for_avoided_->trims);
     report_.guard = std::max(of_.guard_for(submissions_.plan().error_bound),
-                             job().error.error_of(report_.longest_chain, report_.plan.trims));
+                             job().error.error_of(report_.longest_chain, has_trimmed));
     report_.device_bytes = memory_.bytes();
     if (runner_.clock) {
         report_.stages = runner_.clock->seconds();
