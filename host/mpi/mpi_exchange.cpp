@@ -128,13 +128,13 @@ Result<std::vector<Bytes>> MpiExchange::swap(std::span<const std::uint32_t> othe
         }
     }
     std::vector<Bytes> received(others.size());
-    std::vector<bool> is_complete(others.size());
+    std::size_t complete = 0;
     const auto all_here = [&] {
-        bool all = true;
-        for (std::size_t i = 0; i < others.size(); ++i) {
-            is_complete[i] = is_complete[i] || receive_chunk(others[i], received[i]);
-            all = all && is_complete[i];
+        // Where one is missing, to ask for those behind it would only take time.
+        while (complete < others.size() && receive_chunk(others[complete], received[complete])) {
+            ++complete;
         }
+        const bool all = complete == others.size();
         int sent = 0;
         MPI_Testall(static_cast<int>(requests.size()), requests.data(), &sent, MPI_STATUSES_IGNORE);
         return all && sent != 0;
