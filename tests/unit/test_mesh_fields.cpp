@@ -75,6 +75,21 @@ using Values = std::vector<double>;
 
 } // namespace
 
+TEST_CASE("names of columns of colours and texture coordinates mean all of them") {
+    const std::string properties = "property uchar red\nproperty uchar green\nproperty uchar blue\n"
+                                   "property float heat\n";
+    const std::string bytes = ply_of(properties, {"255 0 0 1", "0 255 0 2", "0 0 255 3"});
+    const MeshFile mesh = mesh_with("m.ply", bytes, "heat,red,green,blue");
+    REQUIRE(mesh.fields.size() == 2);
+    CHECK(mesh.fields[0].name == "heat");
+    CHECK(mesh.fields[1].components == std::vector<std::string>{"red", "green", "blue"});
+    CHECK(mesh_with("m.obj", kObj, "u,v").fields.front().name == "uv");
+    check_refused("m.ply", bytes, "green,u", "has no attribute 'u'");
+    const MeshFile own = mesh_with("m.ply", ply_of("property float red\n", {"1", "2", "3"}),
+                                   "red"); // No colour without green.
+    CHECK(own.fields.front().name == "red");
+}
+
 TEST_CASE("attributes are all, or names without repetition") {
     CHECK(parse_fields("all").all);
     CHECK(parse_fields("uv,color").names == std::vector<std::string>{"uv", "color"});

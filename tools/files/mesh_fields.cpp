@@ -214,10 +214,19 @@ class FieldTaker {
     FaceCorners faces_;
 };
 
+/// Returns true if `wanted` is `name`, or "red" for colours, "u" for texture coordinates and so on.
+bool means(std::string_view wanted, std::string_view name) {
+    const std::vector<std::string> components = name == kColourField
+                                                    ? make_colours(Of::vertices, 4).components
+                                                : name == kUvField ? make_uvs().components
+                                                                   : std::vector<std::string>{};
+    return wanted == name || std::ranges::find(components, wanted) != components.end();
+}
+
 void check_known(const Path& path, const WantedFields& wanted,
                  const std::vector<MeshField>& fields) {
     for (const std::string& name : wanted.names) {
-        if (std::ranges::find(fields, name, &MeshField::name) == fields.end()) {
+        if (std::ranges::none_of(fields, [&](const MeshField& f) { return means(name, f.name); })) {
             fail_unknown(path, name, fields);
         }
     }
@@ -267,7 +276,13 @@ bool WantedFields::has(std::string_view name) const {
 }
 
 bool WantedFields::lists(std::string_view name) const {
-    return all || std::ranges::find(names, name) != names.end();
+    return all || place_of(name) < names.size();
+}
+
+std::size_t WantedFields::place_of(std::string_view name) const {
+    const auto found =
+        std::ranges::find_if(names, [&](const std::string& wanted) { return means(wanted, name); });
+    return static_cast<std::size_t>(found - names.begin());
 }
 
 WantedFields parse_fields(const std::string& text) {
@@ -366,9 +381,8 @@ void take_fields(const Path& path, const WantedFields& wanted, PolygonMesh& poly
         mesh.fields.push_back(std::move(field));
     }
     if (!wanted.names.empty()) { // In the order of the names.
-        std::ranges::sort(mesh.fields, {}, [&](const MeshField& field) {
-            return std::ranges::find(wanted.names, field.name) - wanted.names.begin();
-        });
+        std::ranges::sort(mesh.fields, {},
+                          [&](const MeshField& field) { return wanted.place_of(field.name); });
     }
     for (MeshField& field : mesh.fields) {
         field.name = column_name(field.name);

@@ -22,8 +22,10 @@ struct WantedFields {
 
     /// Returns true for what is to be read.
     bool has(std::string_view name) const;
-    /// Returns true for what is to be written.
+    /// Returns true for what is to be written: by its name, or by that of a component, as "red".
     bool lists(std::string_view name) const;
+    /// Returns which of `names` means it, or their number for none.
+    std::size_t place_of(std::string_view name) const;
     /// Returns true if any attribute is to be read; normals are none.
     bool are_given() const { return all || uvs || !names.empty(); }
 };
