@@ -459,6 +459,8 @@ TEST_CASE("glTF that is nested too deeply or of another version is refused") {
           "is nested too deeply");
     check(R"({"asset": {"version": "2.0"}, "extras": )" + deep, "is nested too deeply");
     check(R"({"asset": {"version": "1.0"}})", "is glTF 1.0; only 2.0 is read");
+    check(R"({"asset": {"version": 1}})", "is glTF 1.0; only 2.0 is read");
+    check(R"({"asset": {"version": 2}})", "has no faces");
     check(R"({"meshes": {"m": {}}})", "is glTF 1.0; only 2.0 is read");
     check(R"({"asset": {"version": "3.0"}})", "is glTF 3.0; only 2.0 is read");
     check(R"({"asset": {"version": "2.1", "minVersion": "2.1"}})", "is glTF 2.1; only 2.0");

@@ -135,6 +135,30 @@ TEST_CASE("OFF files are read whatever follows the coordinates and corners") {
     }
 }
 
+TEST_CASE("records of OFF and ASCII PLY files may go on over further lines") {
+    const MeshFile off = mesh_of("a.off", "OFF\n4 2 0\n0 0\n0\n1 0 0\n1 1 0\n0\n1\n0\n"
+                                          "4 0\n1\n2 \n3\n3 1 3 0\n");
+    CHECK(off.triangles == Corners{0, 1, 2, 0, 2, 3, 1, 3, 0});
+    CHECK(off.positions == std::vector<double>{0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0});
+    CHECK(off.warnings.empty());
+    const std::string start = "OFF\n3 2 0\n0 0 0\n1 0 0\n0 1 0\n";
+    check_refused("a.off", start + "3 0 1\n3 0 2 1\n", "line 6: the face has fewer than its 3");
+    check_refused("a.off", "OFF\n3 1 0\n0 0\n1 0 0\n0 1 0\n", "line 3: a vertex needs 3");
+
+    const std::string header = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\n"
+                               "property float y\nproperty float z\nelement face 1\n"
+                               "property list uchar int vertex_indices\nend_header\n";
+    const MeshFile ply = mesh_of("a.ply", header + "0 0\n0\n1 0 0\n0\n1\n0\n3\n\n0 1\n2\n");
+    CHECK(ply.triangles == Corners{0, 1, 2});
+    CHECK(ply.positions == std::vector<double>{0, 0, 0, 1, 0, 0, 0, 1, 0});
+    CHECK(ply.warnings.empty());
+    check_refused("a.ply", header + "0 0\n1 0 0\n0 1 0\n3 0 1 2\n",
+                  "record 0: the line has too few");
+    check_refused("a.ply", header + "0 0 0\n1 0 0\n0 1 0\n3 0 1\n\n7 8\n",
+                  "record 0: the line has too few");
+    check_refused("a.ply", header + "0 0 0\n1 0 0\n0 1 0\n9999999 0 1\n", "no room for a list");
+}
+
 TEST_CASE("faults of OFF files are told with their line") {
     const std::string start = "OFF\n3 1 0\n0 0 0\n1 0 0\n";
     check_refused("a.off", "", "is empty");

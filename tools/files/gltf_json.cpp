@@ -123,7 +123,11 @@ void GltfDocument::check_version() const {
         fail("is not a glTF file: its JSON is no object");
     }
     const GltfJson* const asset = find_object(root_, "asset", "asset");
-    const std::string version = asset == nullptr ? "" : text(*asset, "version", "asset");
+    const GltfJson* const number = asset == nullptr ? nullptr : find(*asset, "version");
+    const bool is_number = number != nullptr && number->is_number(); // Some write 1 and not "1.0".
+    const std::string version = is_number          ? number->dump()
+                                : asset == nullptr ? ""
+                                                   : text(*asset, "version", "asset");
     const GltfJson* const meshes = find(root_, "meshes");
     const bool is_old = meshes != nullptr && meshes->is_object(); // Of an asset that tells nothing.
     if (version.starts_with("1.") || version == "1" || (version.empty() && is_old)) {
@@ -133,7 +137,7 @@ void GltfDocument::check_version() const {
         fail("is not a glTF file: it has no asset.version");
     }
     const std::string least = text(*asset, "minVersion", "asset");
-    if (!version.starts_with("2.") || (!least.empty() && least != "2.0")) {
+    if ((!version.starts_with("2.") && version != "2") || (!least.empty() && least != "2.0")) {
         fail("is glTF " + one_line(least.empty() ? version : least) + "; only 2.0 is read");
     }
 }

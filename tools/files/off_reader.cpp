@@ -42,8 +42,9 @@ class OffReader {
     }
 
   private:
-    [[noreturn]] void fail(const std::string& message) const {
-        fail_input(path_, "line " + std::to_string(lines_.number()) + ": " + message);
+    [[noreturn]] void fail(const std::string& message) const { fail(lines_.number(), message); }
+    [[noreturn]] void fail(std::uint32_t line, const std::string& message) const {
+        fail_input(path_, "line " + std::to_string(line) + ": " + message);
     }
 
     /// The tokens of the next line that has any besides a comment.
@@ -64,6 +65,20 @@ class OffReader {
             fail_input(path_, std::string("the file ends before ") + element + ' ' +
                                   std::to_string(index));
         }
+    }
+
+    /// Adds further lines to the record until it has `count` tokens, as files need that break lines
+    /// anywhere. Returns false if those lines end with other tokens than that.
+    bool complete_record(std::uint64_t count) {
+        if (tokens_.size() >= count) {
+            return true;
+        }
+        std::vector<std::string_view> record = std::move(tokens_);
+        while (record.size() < count && next_record()) {
+            record.insert(record.end(), tokens_.begin(), tokens_.end());
+        }
+        tokens_ = std::move(record);
+        return tokens_.size() == count;
     }
 
     /// Takes the keyword off the first record. Letters before OFF tell that vertex lines have more
@@ -152,8 +167,9 @@ class OffReader {
 
     void read_vertex(std::uint64_t index) {
         need_record("vertex", index);
-        if (tokens_.size() < mesh_.dimension) {
-            fail("a vertex needs " + std::to_string(mesh_.dimension) + " coordinates");
+        const std::uint32_t line = lines_.number();
+        if (!complete_record(mesh_.dimension)) {
+            fail(line, "a vertex needs " + std::to_string(mesh_.dimension) + " coordinates");
         }
         for (std::size_t i = 0; i < mesh_.dimension; ++i) {
             const std::optional<double> value = parse_real(tokens_[i]);
@@ -163,7 +179,7 @@ class OffReader {
             mesh_.positions.push_back(*value);
         }
         read_attributes();
-        mesh_.names.vertex_lines.push_back(lines_.number());
+        mesh_.names.vertex_lines.push_back(line);
     }
 
     /// Reads what follows the coordinates: a normal, a colour, and texture coordinates.
@@ -228,12 +244,13 @@ class OffReader {
     /// Colours may follow the corners.
     void read_face(std::uint64_t index) {
         need_record("face", index);
+        const std::uint32_t line = lines_.number();
         const auto count = parse_integer<std::uint64_t>(tokens_[0]);
         if (!count) {
             fail(in_quotes(tokens_[0]) + " is not a number of corners");
         }
-        if (*count > tokens_.size() - 1) {
-            fail("the face has fewer than its " + grouped(*count) + " corners");
+        if (*count > bytes_.size() || !complete_record(*count + 1)) {
+            fail(line, "the face has fewer than its " + grouped(*count) + " corners");
         }
         for (std::size_t i = 1; i <= *count; ++i) {
             const auto corner = parse_integer<std::uint32_t>(tokens_[i]);
@@ -244,7 +261,7 @@ class OffReader {
             mesh_.corners.push_back(*corner);
         }
         mesh_.face_ends.push_back(mesh_.corners.size());
-        mesh_.names.face_lines.push_back(lines_.number());
+        mesh_.names.face_lines.push_back(line);
     }
 
     const Path& path_;

@@ -254,8 +254,9 @@ void PlyFile::read_ascii_record(const PlyElement& element, std::uint64_t index, 
         split_tokens(next_line(), tokens_);
     }
     std::size_t next = 0;
+    const std::size_t on_line = tokens_.size();
     const auto read_value = [&] {
-        if (next == tokens_.size()) {
+        if (next == tokens_.size() && !continue_record()) {
             fail(element, index, "the line has too few values");
         }
         const std::string_view token = tokens_[next++];
@@ -271,7 +272,8 @@ void PlyFile::read_ascii_record(const PlyElement& element, std::uint64_t index, 
             record.scalars[i] = value;
             continue;
         }
-        const std::optional<std::size_t> size = list_size(value, tokens_.size() - next);
+        const std::optional<std::size_t> size =
+            list_size(value, tokens_.size() - next + (bytes_.size() - position_ + 1) / 2);
         if (!size) {
             fail(element, index,
                  "the line has no room for a list of " + in_quotes(tokens_[next - 1]) + " values");
@@ -280,8 +282,20 @@ void PlyFile::read_ascii_record(const PlyElement& element, std::uint64_t index, 
         std::generate(record.lists[i].begin(), record.lists[i].end(), read_value);
     }
     if (next != tokens_.size()) {
+        if (tokens_.size() > on_line) {
+            fail(element, index, "the line has too few values");
+        }
         ++surplus_lines_;
     }
+}
+
+bool PlyFile::continue_record() {
+    std::vector<std::string_view> more;
+    while (more.empty() && position_ < bytes_.size()) {
+        split_tokens(next_line(), more);
+    }
+    tokens_.insert(tokens_.end(), more.begin(), more.end());
+    return !more.empty();
 }
 
 std::optional<double> PlyFile::read_binary_value(PlyType type) {

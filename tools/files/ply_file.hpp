@@ -103,6 +103,8 @@ class PlyFile {
 
     std::string_view next_line();
     void read_ascii_record(const PlyElement& element, std::uint64_t index, PlyRecord& record);
+    /// Adds a further line to the record, as files need that break lines anywhere.
+    bool continue_record();
     void read_binary_record(const PlyElement& element, std::uint64_t index, PlyRecord& record);
     std::optional<double> read_binary_value(PlyType type);
 
