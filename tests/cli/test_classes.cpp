@@ -119,6 +119,7 @@ TEST_CASE("what no classes are ends in an error, without a file") {
              {{"--classes", "bad.csv"}, "line 1: 'x' is no number"},
              {{"--classes", "1,2;3,1"}, "not symmetric"},
              {{"--classes", "1,-2;-2,1"}, "not positive and finite"},
+             {{"--classes", "1,nan;nan,1"}, "is nan, not positive and finite"},
              {{"--classes", "1,2;2"}, "row 1 of the table has 1 distance"},
              {{"--classes", "1,0.001;0.001,1"}, "more than a factor of 100"},
              {{"--classes", "1,1;1,1", "-d", "1"}, "takes no --min-distance"},

@@ -208,7 +208,7 @@ def test_more_processes_than_faces(tmp_path):
 
 def test_file_that_changes_while_it_is_read(tmp_path):
     mesh = tmp_path / "torus.ply"
-    write_ply(mesh, *torus(300, 100))
+    write_ply(mesh, *torus(900, 300))
     out = tmp_path / "s.ply"
     ends = threading.Event()
 

@@ -31,34 +31,33 @@ struct DualReport {
     std::uint64_t manifold = 0;  ///< Triangles whose edges have one or two triangles each, and
                                  ///< whose corners have one fan of triangles each.
     std::int64_t euler = 0;      ///< vertices - edges + triangles.
-    std::int64_t mesh_euler = 0; ///< The same of the mesh.
+    std::int64_t mesh_euler = 0; ///< Euler characteristic of the mesh.
 };
 
 /// The geodesic Voronoi cells of samples.
 struct SurfaceCells {
-    /// Area of the cell of each sample, in mesh units. They sum to the area of the surface, without
-    /// `unreached`.
+    /// Area of the cell of each sample, in square mesh units. The areas sum to the area of the
+    /// surface minus `unreached`.
     std::vector<double> areas;
-    /// No area is off by more. Where a part of the surface is equally far from several samples, as
-    /// behind a saddle vertex, its area counts here as well.
+    /// Maximum error of an area. Includes regions that tie between samples, such as those behind a
+    /// saddle vertex.
     double area_error = 0;
     double distance_error = 0; ///< Bound on the error of distances, in mesh units.
     double unreached = 0;      ///< Area of the parts of the mesh without a sample.
     /// Pairs of samples whose cells touch along a line, each once: the lower sample first.
     /// Ascending. Empty without CellParams::has_dual.
     std::vector<std::array<std::uint32_t, 2>> edges;
-    /// Three samples for each place where their cells meet, turning as the faces there. Where more
-    /// meet at a point, there are several, all with the same sample.
+    /// Triangles of samples whose cells meet, oriented like the faces there. Where more than three
+    /// cells meet, a fan around the first sample.
     std::vector<std::array<std::uint32_t, 3>> triangles;
     DualReport dual;
     RunReport report;
 };
 
-/// Finds the cells of all samples: the points of the surface that are nearer to each than to any
-/// other, by exact geodesic distances. At places equally near to several the cell is that of the
-/// first. The result is the same on every device, whatever the memory. Progress counts samples
-/// twice as candidates: as their disks are computed, and as their cells are; returns `cancelled`
-/// if it asks to stop.
+/// Finds the geodesic Voronoi cell of each sample: the points of the surface that are nearer to it
+/// than to any other. Ties go to the first sample. The result is the same on every device and for
+/// any memory size. Progress counts samples twice as candidates: when their disks are computed, and
+/// when their cells are. Returns `cancelled` if it asks to stop.
 ///
 /// Errors: `invalid_argument` for no sample; for a sample, naming it, in a face that does not exist
 /// or repeats a vertex or with weights that are negative or do not sum to 1. `job_too_large` for

@@ -16,29 +16,27 @@ namespace geodisk {
 
 /// Samples in farthest-point order.
 struct FarthestOrder {
-    /// Index of each sample, in this order.
+    /// Index of each sample, in farthest-point order.
     std::vector<std::uint32_t> indices;
-    /// Geodesic distance of each one to the nearest before it, in mesh units. They never increase.
-    /// Infinite for the first one, and for the first one on each further part of the surface that
-    /// no path leads to.
+    /// Geodesic distance from each sample to the nearest earlier one, in mesh units. Never
+    /// increases. Infinite for the first sample on each connected component.
     std::vector<float> distances;
     /// Largest distance of a sample left out to the nearest one chosen; 0 if none is left out.
     float cover = 0;
-    /// Distances are at most so far from exact ones on the mesh, in mesh units.
+    /// Bound on the error of the distances, in mesh units.
     double error = 0;
     std::uint32_t searches = 0; ///< Searches on the device, each of many disks.
     RunReport report;
 };
 
 /// Puts samples in farthest-point order: the first sample, then always the one whose geodesic
-/// distance to all before it is largest. Of equally far ones, takes the one of lower index. Stops
-/// after `count` samples; 0 for all.
+/// distance to all before it is largest. Ties go to the lower index. Stops after `count` samples; 0
+/// for all.
 ///
 /// So all samples are within `distances[k]` of the first k, and these are at least
-/// `distances[k - 1]` apart. The result is the same on every device, whatever the memory: its
-/// distances are the same to the bit, and it takes them one after the other. Computes one disk per
-/// sample; the first ones cover the whole surface. Progress counts samples as candidates; returns
-/// `cancelled` if it asks to stop.
+/// `distances[k - 1]` apart. The result is the same on every device and for any memory size.
+/// Computes one disk per sample; the first ones cover the whole surface. Progress counts samples as
+/// candidates; returns `cancelled` if it asks to stop.
 ///
 /// Errors: `invalid_argument` for no sample; for a `count` above the number of samples; for a
 /// sample, naming it, in a face that does not exist or repeats a vertex or with weights that are

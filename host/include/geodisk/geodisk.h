@@ -647,9 +647,9 @@ typedef struct geodisk_neighbour_arrays {
     size_t pair_count;
     const uint32_t *vertices;  /* Index of each source's vertex; NULL if sources are points. */
     const uint64_t *offsets;   /* One more than sources. */
-    const uint32_t *indices;   /* Of each neighbour: of its vertex, point or source. */
-    const float *distances;    /* Of each neighbour, in mesh units; 0 at the source itself. */
-    double error;              /* Distances are at most so far from exact ones, in mesh units. */
+    const uint32_t *indices;   /* Index of each neighbour: a vertex, point or source. */
+    const float *distances;    /* Distance of each neighbour, in mesh units; 0 at the source itself. */
+    double error;              /* Bound on the error of the distances, in mesh units. */
 } geodisk_neighbour_arrays;
 
 GEODISK_C_API geodisk_status geodisk_neighbours_describe(const geodisk_neighbours *neighbours,
@@ -666,7 +666,7 @@ typedef struct geodisk_cell_params {
     const geodisk_surface_point *samples; /* At least one. */
     size_t sample_count;
     int32_t areas_only;    /* Not 0: find no edges and triangles. */
-    uint64_t most_records; /* Most records of paths, 36 bytes each; 0 for 2^27. */
+    uint64_t most_records; /* Maximum number of records of paths, 36 bytes each; 0 for 2^27. */
 } geodisk_cell_params;
 
 /* The geodesic Voronoi cells of samples: what is nearer to each one than to all others. */
@@ -686,17 +686,17 @@ typedef struct geodisk_cell_arrays {
     size_t sample_count;
     size_t edge_count;
     size_t triangle_count;
-    const double *areas;       /* Of the cell of each sample; the sum is that of the mesh without
+    const double *areas;       /* Area of each cell. They sum to the area of the mesh minus
                                 * `unreached`. */
     const uint32_t *edges;     /* Pairs of samples whose cells touch: the lower one first. */
     const uint32_t *triangles; /* Three samples for each place where their cells meet. */
-    double area_error;         /* No area is off by more. */
-    double distance_error;     /* Distances are at most so far from exact ones, in mesh units. */
+    double area_error;         /* Maximum error of an area. */
+    double distance_error;     /* Bound on the error of the distances, in mesh units. */
     double unreached;          /* Area of the parts of the mesh without a sample. */
     uint64_t manifold_triangles; /* Triangles whose edges have one or two triangles, and whose
                                   * corners have one fan of them. */
     int64_t euler;             /* Vertices - edges + triangles. */
-    int64_t mesh_euler;        /* The same of the mesh. */
+    int64_t mesh_euler;        /* Euler characteristic of the mesh. */
 } geodisk_cell_arrays;
 
 GEODISK_C_API geodisk_status geodisk_cells_describe(const geodisk_cells *cells,
@@ -1135,10 +1135,10 @@ GEODISK_C_API geodisk_status geodisk_frame_neighbours_wait(geodisk_frame_neighbo
 typedef struct geodisk_frame_neighbour_lists {
     size_t struct_size;
     uint64_t buffer;           /* VkBuffer. */
-    uint64_t offsets_offset;   /* Of source_count + 1 words: where the neighbours of each source begin,
-                                * and the end; then the number of sources that are complete. */
-    uint64_t indices_offset;   /* Of a word per neighbour: its vertex, point or source. */
-    uint64_t distances_offset; /* Of a float per neighbour, in mesh units. */
+    uint64_t offsets_offset;   /* Offset of source_count + 1 words: where the neighbours of each source
+                                * begin, and the end; then the number of sources that are complete. */
+    uint64_t indices_offset;   /* Offset of a word per neighbour: its vertex, point or source. */
+    uint64_t distances_offset; /* Offset of a float per neighbour, in mesh units. */
     uint64_t device_bytes;     /* Bytes allocated on the device. */
     double error;              /* As geodisk_neighbour_arrays.error, for the sources that are ready. */
     uint32_t source_count;

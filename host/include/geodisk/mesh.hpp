@@ -113,7 +113,7 @@ class PreparedMesh {
     /// Returns the mesh that save() wrote, equal to the bit. The bytes may come from any source and
     /// need no alignment. They are checked completely, which takes about as long as preparing.
     ///
-    /// Errors: `invalid_argument` for bytes that are no saved mesh, are damaged, or have another
+    /// Errors: `invalid_argument` for bytes that are not a saved mesh, are damaged, or have another
     /// version or byte order, with the faulty face or vertex in `Error::element` if there is one;
     /// `out_of_host_memory`.
     GEODISK_API static Result<PreparedMesh> load(std::span<const std::byte> bytes,

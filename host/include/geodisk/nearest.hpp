@@ -25,8 +25,8 @@ struct NearestSample {
     float distance = std::numeric_limits<float>::infinity(); ///< In mesh units.
 };
 
-/// The disks of samples, as large as their geodesic Voronoi cells. They tell the nearest sample of
-/// any number of points, on the processor.
+/// Finds the nearest sample of any point on the CPU, from the disks of the samples. Each disk is as
+/// large as the geodesic Voronoi cell of its sample.
 class GEODISK_API NearestSamples {
   public:
     /// Computes the disks on the device. `mesh` must outlive the result, and may not move. Takes 36
@@ -42,8 +42,8 @@ class GEODISK_API NearestSamples {
     NearestSamples& operator=(NearestSamples&&) noexcept;
     ~NearestSamples();
 
-    /// Returns the nearest sample of each point. Of samples that are equally near up to rounding it
-    /// is the first, as for find_cells(). Weights are rounded to multiples of 2^-24. The result is
+    /// Returns the nearest sample of each point. Ties up to rounding go to the first sample, as for
+    /// find_cells(). Weights are rounded to multiples of 2^-24. The result is
     /// the same on every device. Several threads may call it at a time.
     ///
     /// Errors: `invalid_argument` for a point, naming it, in a face that does not exist or repeats
@@ -52,7 +52,7 @@ class GEODISK_API NearestSamples {
 
     /// Returns a bound on the error of distances, in mesh units.
     double error() const noexcept;
-    /// Returns how the run went that computed the disks.
+    /// Returns statistics of the run that computed the disks.
     const RunReport& report() const noexcept;
 
     struct Impl; ///< Internal.

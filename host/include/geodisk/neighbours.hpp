@@ -29,23 +29,23 @@ struct NeighbourQuery {
     /// Points of faces, at least one. Weights are rounded to multiples of 2^-24. For vertices see
     /// vertex_points().
     std::span<const Sample> sources{};
-    /// A neighbour is at most so far away, along the surface. Positive and finite; or 0 with
-    /// `nearest`, to search as far as need be.
+    /// Maximum distance of a neighbour along the surface. Positive and finite; 0 with `nearest`
+    /// searches as far as needed.
     double within = 0;
     /// Distance of each source, in place of `within`; empty if `within` holds for all.
     std::span<const double> radii{};
     NeighbourKind kind = NeighbourKind::vertices;
     std::span<const Sample> points{}; ///< At least one if `kind` asks for them, up to 2^28.
-    /// If vertices of the mesh are joined, WeldedMesh::vertices. Vertices found are then all those
-    /// of a place, not just the lowest one, which alone the mesh uses.
+    /// WeldedMesh::vertices if vertices of the mesh are joined. The lists then have all vertices of
+    /// a place. Without it they have only the lowest one, which the mesh uses.
     std::span<const std::uint32_t> joined{};
-    /// Keep only so many of each source, the nearest ones; 0 for all. Of equally near ones those of
-    /// lower index.
+    /// Maximum number of neighbours per source, the nearest ones; 0 for all. Ties go to the lower
+    /// index.
     std::uint32_t nearest = 0;
-    /// Most pairs to find in all. The call ends as soon as it expects more.
+    /// Maximum number of pairs in all. The call fails as soon as it expects more.
     std::uint64_t most_pairs = std::uint64_t{1} << 30;
 
-    /// Returns false if it is to search as far as need be.
+    /// Returns false if the search goes as far as needed.
     bool has_distances() const { return within != 0 || nearest == 0 || !radii.empty(); }
 };
 
@@ -59,16 +59,15 @@ struct Neighbours {
     /// Geodesic distance of each neighbour, in mesh units. A vertex or point at the source itself
     /// has 0; a source is not its own neighbour.
     std::vector<float> distances;
-    /// Distances are at most so far from exact ones on the mesh, in mesh units. Neighbours may be
-    /// missing, or there, that are so near to the limit.
+    /// Bound on the error of the distances, in mesh units. Neighbours within this error of the
+    /// limit may be missing or extra.
     double error = 0;
     RunReport report;
 };
 
 /// Finds the neighbours of all sources: the exact geodesic disk of each. The result is the same on
-/// every device, whatever the memory. Takes part of the device's memory at a time, as
-/// RunnerOptions say. Progress counts sources as candidates; returns `cancelled` if it asks to
-/// stop.
+/// every device and for any memory size. RunnerOptions limit the memory it takes at a time.
+/// Progress counts sources as candidates; returns `cancelled` if it asks to stop.
 ///
 /// Errors: `invalid_argument` for no source; for a source or point, naming it, in a face that does
 /// not exist or repeats a vertex or with weights that are negative or do not sum to 1; for a
@@ -83,8 +82,8 @@ GEODISK_API Result<Neighbours> find_neighbours(Runner& runner, const PreparedMes
 // cancel() serve both. A runner has one run in progress at a time, whatever its kind.
 
 /// Begins a search. Runner, mesh and all that the query refers to must outlive it; the query itself
-/// is copied. Errors: `invalid_argument` if a run is in progress; those of a query that cannot be;
-/// all others come from poll_neighbours().
+/// is copied. Errors: `invalid_argument` if a run is in progress; those of an invalid query; all
+/// others come from poll_neighbours().
 GEODISK_API Result<Done> start_neighbours(Runner& runner, const PreparedMesh& mesh,
                                           const NeighbourQuery& query,
                                           const ProgressCallback& progress = {}) noexcept;

@@ -54,14 +54,15 @@ struct SampleParams {
     /// One byte per face: a face with 0 gets no samples, but paths cross it. Empty if all faces
     /// take samples. Must outlive the run.
     std::span<const std::uint8_t> face_mask{};
-    /// Samples that are given. They are kept as they are, as the first samples of the run and in
-    /// this order, and new ones keep the minimum distance from them. Distances among them are not
-    /// checked. They count towards `stop_count`. Weights are rounded to multiples of 2^-24.
+    /// Samples to keep. They come first in the result, in this order, and new samples keep the
+    /// minimum distance from them. Distances among them are not checked. They count towards
+    /// `stop_count`. Weights are rounded to multiples of 2^-24.
     std::span<const Sample> given{};
-    /// Disks to keep free of samples, but for given ones. No sample is within the geodesic radius
-    /// of the center, which may be larger or smaller than `min_distance`; disks much larger take
-    /// long. Not for distances through space. A recorded job has the centers before the first
-    /// sample in its samples buffer, as records with `gpu::kKeepsOut` in their face.
+    /// Disks that new samples must avoid. Given samples may lie inside. No new sample is within the
+    /// geodesic radius of the center. The radius may be larger or smaller than `min_distance`; much
+    /// larger disks take long. Not for distances through space. A recorded job has the centers
+    /// before the first sample in its samples buffer, as records with `gpu::kKeepsOut` in their
+    /// face.
     std::span<const KeepOut> avoid{};
     /// Distances of K classes of samples, 2 to 8, as parts of `min_distance`: a symmetric table,
     /// row by row, of factors from kLeastClassFactor to 1. Samples of the classes a and b are at

@@ -59,7 +59,7 @@ struct MaximalReport {
     double largest_gap = 0;
 };
 
-/// How a run went. Of a maximal set, numbers add up over all its jobs.
+/// Statistics of a run. For a maximal set, summed over all its jobs.
 struct RunReport {
     std::uint32_t candidates = 0;    ///< Candidates decided: all, or up to the last sample of a
                                      ///< count.
@@ -141,7 +141,7 @@ struct RunnerOptions {
     double stall_seconds = 0;
 };
 
-/// Is called after every submission, including those that upload and draw candidates. Returns false
+/// Called after every submission, including those that upload and draw candidates. Returns false
 /// to stop the run with `cancelled`.
 using ProgressCallback = std::function<bool(const Progress&)>;
 
@@ -150,7 +150,7 @@ class GEODISK_API Runner {
   public:
     /// Makes a Sampler and checks on the device that arithmetic rounds as decisions need.
     /// Errors: as Sampler::create; `device_lacks` when the check fails; `invalid_argument` for
-    /// seconds that are no time.
+    /// seconds that are negative or not finite.
     static Result<Runner> create(const DeviceRefs& device, const QueueRef& queue,
                                  const RunnerOptions& options = {}) noexcept;
     /// Uses a Sampler that other runners may share. It keeps its compiled pipelines, and arithmetic

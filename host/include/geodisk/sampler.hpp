@@ -240,7 +240,7 @@ struct SyncScope {
 /// Next step of a job.
 enum class Next : std::uint32_t {
     begin,          ///< record_begin(): for the first stages, for more, or for the rest of it.
-    go_on,          ///< record_rounds(). Or the copy of the control record is too old to tell.
+    go_on,          ///< record_rounds(). Also the answer to a copy that is too old.
     finish,         ///< record_finish(), or the rest of it: all candidates of these stages are
                     ///< decided.
     larger_pool,    ///< Job::set_plan() with Advice::plan, then record_rewind().

@@ -16,17 +16,17 @@
 
 namespace geodisk {
 
-/// How an update went.
+/// Statistics of an update.
 struct UpdateReport {
-    std::uint32_t rounds = 0;   ///< Times a region was decided. Each one is wider than the last.
+    std::uint32_t rounds = 0;   ///< Number of regions decided. Each is wider than the last.
     std::uint32_t faces = 0;    ///< Faces of the last region.
     std::uint32_t uploaded = 0; ///< Faces of the part that was on the device for it.
-    std::uint32_t removed = 0;  ///< Samples that are no longer there, given ones aside.
-    std::uint32_t added = 0;    ///< Samples that are new.
+    std::uint32_t removed = 0;  ///< Number of samples removed, without given ones.
+    std::uint32_t added = 0;    ///< Number of new samples.
     RunReport run;              ///< Work on the device, in all rounds.
 };
 
-/// A surface and what is asked of it.
+/// A surface with the parameters of its job.
 struct SurfaceJob {
     MeshView mesh;
     SampleParams params;
@@ -69,10 +69,10 @@ class GEODISK_API Updater {
     Updater& operator=(Updater&&) noexcept;
     ~Updater();
 
-    /// Brings the samples up to date with an edited surface. `changed` lists the faces of which
-    /// anything differs: the position of a corner, its vertices, radii, key or mask. All other
-    /// faces must be as before; they are not looked at. Faces keep their numbers: to remove one,
-    /// let it name a vertex twice. New ones have the numbers after the last, and count as changed.
+    /// Brings the samples up to date with an edited surface. `changed` lists all faces with
+    /// any change: corner positions, vertices, radii, key or mask. Other faces must be as before
+    /// and are not read. Faces keep their numbers: to remove one, let it name a vertex twice.
+    /// Number new faces after the last, and list them as changed.
     /// Given samples and points to avoid are compared with those before.
     ///
     /// Errors: `invalid_argument` for another seed, distance or pool ratio, parameters that cannot

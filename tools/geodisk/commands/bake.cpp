@@ -123,9 +123,9 @@ void run_bake(BakeOptions options) {
 } // namespace
 
 void add_bake_command(Command app) {
-    const Command command = app.add_command(
-        "bake", "Find the sample that is nearest to each texel of a texture, along\n"
-                "the surface, and how far it is");
+    const Command command =
+        app.add_command("bake", "Find the nearest sample for each texel of a texture, and its\n"
+                                "geodesic distance");
     const auto options = std::make_shared<BakeOptions>();
     add_mesh_argument(command, options->mesh, "Mesh with texture coordinates");
     command

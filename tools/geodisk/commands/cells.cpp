@@ -127,8 +127,8 @@ void run_cells_command(const CellOptions& options) {
 
 void add_cells_command(Command app) {
     const Command command =
-        app.add_command("cells", "Find the area that is nearer to each sample than to all others,\n"
-                                 "along the surface, and the mesh of samples whose cells meet");
+        app.add_command("cells", "Compute the area of the geodesic Voronoi cell of each sample,\n"
+                                 "and the dual mesh");
     const auto options = std::make_shared<CellOptions>();
     add_mesh_argument(command, options->mesh, "Mesh that the samples lie on");
     command

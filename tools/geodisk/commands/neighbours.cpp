@@ -210,8 +210,8 @@ void run_neighbours(const NeighbourOptions& options) {
 
 void add_neighbours_command(Command app) {
     const Command command = app.add_command(
-        "neighbours", "Find what is within a distance along the surface, of each vertex or\n"
-                      "point, and how far it is");
+        "neighbours", "Find all vertices or points within a geodesic distance of each\n"
+                      "source, and their distances");
     const auto options = std::make_shared<NeighbourOptions>();
     add_mesh_argument(command, options->mesh, "Mesh to search");
     command.add_option("POINTS", options->points, "",
@@ -229,15 +229,15 @@ void add_neighbours_command(Command app) {
                        "What to find: vertices (the default), sources (all\n"
                        "others), or the points of a file");
     command.add_option("--nearest", options->nearest, "K",
-                       "Keep only the K nearest of each, the nearest first; without\n"
-                       "--within as far away as need be");
+                       "Keep only the K nearest per source, nearest first; without\n"
+                       "--within, search as far as needed");
     command.add_option("--most-pairs", options->most_pairs, "N",
-                       "Stop if more pairs are to be expected (default 2^30)");
+                       "Stop if more than N pairs are expected (default 2^30)");
     add_mesh_options(command, options->mesh);
     add_tolerance_option(command, options->tolerance);
     add_json_option(command, options->out);
     command.add_option("--format", options->out.format, "FORMAT",
-                       "npz or csv, whatever the name of OUT");
+                       "Write npz or csv, ignoring the extension of OUT");
     add_quiet_option(command, options->out);
     add_device_options(command, options->run.device);
     add_verbose_option(command, options->run.device);

@@ -248,9 +248,9 @@ void add_transfer_command(Command app) {
     add_record_options(command, options->out.record, "MESH_B");
     command
         .add_option("--order", options->order, "NAME",
-                    "file: as they come; farthest: after the first sample, always\n"
-                    "the one farthest from all before it on MESH_B, along the\n"
-                    "surface. The column cover has that distance")
+                    "file: the order of the file; farthest: after the first sample,\n"
+                    "always the one farthest from all before it along the surface\n"
+                    "of MESH_B (column cover: that distance)")
         .offers({"file", "farthest"})
         .shows_default();
     add_keep_option(command, options->keep);

@@ -73,8 +73,10 @@ std::vector<KeepOut> load_avoided(const ConstraintOptions& options, const MeshOp
             const double radius =
                 length ? distance_on_mesh(*length, mesh.prepared.statistics()) : file.numbers[i];
             if (!(radius > 0) || !std::isfinite(radius)) {
-                fail_input(points, "point " + std::to_string(i) + ": its " + column + " is " +
-                                       exact_text(radius) + ", not a positive radius");
+                fail_input(points, "point " + std::to_string(i) + ": its " + column +
+                                       (std::isnan(radius) ? " is blank or not a number"
+                                                           : " is " + exact_text(radius)) +
+                                       ", not a positive radius");
             }
             avoided.push_back({sample_of(file.rows[i]), radius});
         }

@@ -140,7 +140,8 @@ std::string ClassTable::text() const {
 }
 
 bool names_class_file(const std::string& text) {
-    return !text.empty() && text.find_first_not_of("0123456789.eE+-,; \t") != std::string::npos;
+    return text.find(';') == std::string::npos &&
+           text.find_first_not_of("0123456789.eE+-, \t") != std::string::npos;
 }
 
 bool has_distances(const std::string& text) {
@@ -181,9 +182,9 @@ void place_class_file(std::string& text,
 
 void add_class_option(Command command, std::string& text, const std::string& group) {
     command.add_option("--classes", text, "K|TABLE",
-                       "Spread 1 to 8 classes of samples, each and all together; the\n"
-                       "column class tells them apart. K: each at the minimum\n"
-                       "distance D, samples of two classes at D / sqrt(K). TABLE: a\n"
+                       "Spread 1 to 8 classes of samples, each and all together\n"
+                       "(column class). K: each at the minimum distance D, samples\n"
+                       "of two classes at D / sqrt(K). TABLE: a\n"
                        "symmetric table of distances, as 0.2,0.1;0.1,0.3 or in a file",
                        group);
 }

@@ -195,8 +195,8 @@ void add_mask_options(Command command, MaskOptions& options) {
         .add_option("--only", options.only, "PART",
                     "Sample only material:NAME, group:NAME (OBJ group or object),\n"
                     "node:NAME (with the nodes below it) or part:N (no path joins\n"
-                    "it to others); numbers do as well. Several add up. Paths\n"
-                    "cross the rest",
+                    "it to others). A number may replace NAME. Repeat to select\n"
+                    "more faces. Paths cross faces that are left out",
                     group)
         .takes_one_value();
     command
@@ -204,7 +204,7 @@ void add_mask_options(Command command, MaskOptions& options) {
                     "Sample only faces where PROPERTY<VALUE (or <= > >= = !=) holds:\n"
                     "x, y, z (x0 to x7 in R^n) or a PLY property at all corners, or\n"
                     "of the face. map:FILE: white in an image at all corners, or\n"
-                    "compared as a property from 0 to 1. All of several must hold",
+                    "compared as a property from 0 to 1. Repeat to add rules",
                     group)
         .takes_one_value();
 }

@@ -208,8 +208,7 @@ void check_one_distance(const MethodOptions& options,
 void add_exact_option(Command command, MethodOptions& options, const std::string& group) {
     command.add_flag("--exact", options.exact,
                      "Place exactly --count samples: the first N of a run that has\n"
-                     "up to 1 % more; takes one to six runs, or up to twelve\n"
-                     "while none has N",
+                     "up to 1 % more. Takes 1 to 6 runs, at most 12",
                      group);
 }
 
@@ -231,18 +230,17 @@ void add_keep_option(Command command, std::string& keep, const std::string& grou
 void add_order_options(Command command, MethodOptions& options) {
     command
         .add_option("--order", options.order, "NAME",
-                    "dart: as darts come; progressive: in levels, coarse to fine, each\n"
-                    "with half the distance of the one before. The samples up to the\n"
-                    "end of a level are spaced by its distance; the column level has\n"
-                    "the level of each. farthest: after the first sample, always the\n"
-                    "one farthest from all before it along the surface; the column\n"
-                    "cover has that distance",
+                    "dart: dart order; progressive: in levels, coarse to fine, each\n"
+                    "with half the distance of the one before. Samples up to the end\n"
+                    "of a level keep its distance (column level). farthest: after the\n"
+                    "first sample, always the one farthest from all before it along\n"
+                    "the surface (column cover: that distance)",
                     kMethodGroup)
         .offers({"dart", "progressive", "farthest"})
         .shows_default();
     command.add_option("--levels", options.levels, "K",
                        "Number of levels of --order progressive, 1 to 32 (default: the\n"
-                       "first one has 16 samples or somewhat more)",
+                       "first level has at least 16 samples)",
                        kMethodGroup);
     command
         .add_option("--level-factor", options.level_factor, "S",

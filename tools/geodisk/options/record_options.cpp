@@ -84,8 +84,8 @@ void add_record_options(Command command, RecordOptions& options, const std::stri
         .offers(normal_names())
         .shows_default();
     command.add_flag("--frames", options.frames,
-                     "Add a quaternion qx qy qz qw to each sample, which turns z to\n"
-                     "its normal and by a random angle about it; glTF and USD then\n"
+                     "Add a quaternion qx qy qz qw to each sample, which rotates z\n"
+                     "to its normal, with a random turn about it; glTF and USD then\n"
                      "place a triangle at each sample");
 }
 

@@ -48,9 +48,9 @@ void add_text_options(Command command, OutputOptions& options) {
 
 void add_columns_options(Command command, OutputOptions& options) {
     command.add_option("--columns", options.columns, "LIST",
-                       "Add columns with numbers of what a sample lies in: any of\n"
-                       "part (no path joins it to others), material, group, and\n"
-                       "for glTF mesh, primitive and node, separated by commas");
+                       "Add columns with the number of each sample's part (connected\n"
+                       "component), material or group, or of its mesh, primitive or\n"
+                       "node of glTF: a list of part,material,group,mesh,...");
     add_record_options(command, options.record);
 }
 

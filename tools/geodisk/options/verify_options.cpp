@@ -81,7 +81,7 @@ void add_verify_options(Command command, VerifyOptions& options) {
                        "bounding-box diagonal (default: radii in the file, else the\n"
                        "distance in its header, else none: report the smallest)");
     command.add_flag("--maximal", options.is_maximal,
-                     "Check that no further sample fits, and tell the largest gap");
+                     "Check that no further sample fits, and report the largest gap");
     add_avoid_option(command, options.constraints);
     add_class_option(command, options.classes);
     add_tolerance_option(command, options.tolerance);

@@ -111,7 +111,7 @@ def neighbours(
         If not 0, keep only so many of each source: the nearest ones, in the order of their
         distances. Otherwise the neighbours of a source are in the order of their indices.
     most_pairs : int
-        Fail as soon as more pairs are to be expected in all.
+        Fail as soon as more pairs than this are expected in all.
     device, progress
         As for :func:`sample`; progress counts sources. A callback is called on another thread.
 

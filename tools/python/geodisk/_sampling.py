@@ -84,7 +84,7 @@ def sample(
         or the approximate number of samples, for which a distance is found.
     exact : bool
         Return exactly `count` samples: the first ones of a run that has up to 1 % more. The search
-        for its distance takes one to six runs, or up to twelve while none has enough.
+        for its distance takes 1 to 6 runs, at most 12.
     seed : int
         A 64-bit number. Equal seeds give equal samples, on every device.
     density : array_like of float, shape (v,), optional

@@ -188,10 +188,10 @@ Result<std::uint32_t> check_candidates(const PreparedMesh& mesh, const SamplePar
     }
     const double longest = mesh.statistics().longest_edge / params.min_distance;
     if (!(longest <= kLongestEdge)) {
-        return invalid("the minimum distance is too small for this mesh: its longest edge is " +
-                       number_text(longest) +
-                       " times as long, and single precision resolves at most " +
-                       number_text(kLongestEdge) + " times; split long edges");
+        return invalid(
+            "the minimum distance is too small for this mesh: its longest edge is " +
+            number_text(longest) + " times as long, and single precision resolves at most " +
+            number_text(kLongestEdge) + " times; raise it, lower the count, or split long edges");
     }
     if (auto checked = check_largest_face(mesh, params, stages); !checked) {
         return checked.error();
