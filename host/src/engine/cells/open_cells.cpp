@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <limits>
+#include <unordered_set>
 
 #include "mesh/face_area.hpp"
 #include "support/blocks.hpp"
@@ -16,10 +16,13 @@ constexpr double kRim = 1.0 / 32;
 // More than the rounding of radii.
 constexpr double kInside = 1 - 0x1p-12;
 
+using Samples = std::unordered_set<std::uint32_t>;
+
+/// Finds each sample once: faces are not split for those that are found already.
 class RimSearch {
   public:
     RimSearch(const LitFaces& lit, std::span<const double> radii, const Closeness& closeness,
-              std::vector<std::uint32_t>& found)
+              Samples& found)
         : lit_(lit), radii_(radii), near_(lit, closeness), found_(found) {}
 
     void search(std::uint32_t face) { search({face, 0, 0, 0, false}, near_.begin(face)); }
@@ -35,26 +38,28 @@ class RimSearch {
     const LitFaces& lit_;
     std::span<const double> radii_;
     NearLights near_;
-    std::vector<std::uint32_t>& found_;
+    Samples& found_;
 };
 
 void RimSearch::search(const GapCell& cell, NearLights::Range lights) {
     const LitFaces::Target target = lit_.target(cell);
     const NearLights::View view = near_.look(cell, target, lights);
-    bool is_coarse = false;
-    const std::size_t before = found_.size();
-    for (const std::uint32_t light : near_.at(view.lights)) {
-        if (is_at_rim(light, target, view.is_lit)) {
-            const std::uint32_t sample = near_.sample_of(light);
-            is_coarse = is_coarse || target.reach > kRim * radii_[sample];
-            found_.push_back(sample);
-        }
-    }
-    if (is_coarse) {
-        found_.resize(before);
+    const auto is_new = [&](std::uint32_t light) {
+        return !found_.contains(near_.sample_of(light)) && is_at_rim(light, target, view.is_lit);
+    };
+    const auto is_coarse = [&](std::uint32_t light) {
+        return target.reach > kRim * radii_[near_.sample_of(light)] && is_new(light);
+    };
+    if (std::ranges::any_of(near_.at(view.lights), is_coarse)) {
         for (const GapCell& child : cell.children()) {
             search(child, view.lights);
             near_.pop_to(view.lights);
+        }
+        return;
+    }
+    for (const std::uint32_t light : near_.at(view.lights)) {
+        if (is_new(light)) {
+            found_.insert(near_.sample_of(light));
         }
     }
 }
@@ -65,7 +70,7 @@ std::vector<std::uint8_t> open_cells(const PreparedMesh& mesh, const LitFaces& l
                                      std::span<const double> radii, const Closeness& closeness,
                                      const ThreadOptions& threads) {
     const std::size_t parts = (mesh.face_count() + kFacesPerPart - 1) / kFacesPerPart;
-    std::vector<std::vector<std::uint32_t>> found(parts);
+    std::vector<Samples> found(parts);
     for_parts(threads, parts, [&](std::size_t part) {
         RimSearch search(lit, radii, closeness, found[part]);
         const std::size_t first = part * kFacesPerPart;
@@ -75,12 +80,9 @@ std::vector<std::uint8_t> open_cells(const PreparedMesh& mesh, const LitFaces& l
                 search.search(static_cast<std::uint32_t>(face));
             }
         }
-        std::ranges::sort(found[part]);
-        const auto repeated = std::ranges::unique(found[part]);
-        found[part].erase(repeated.begin(), repeated.end());
     });
     std::vector<std::uint8_t> marks(radii.size(), 0);
-    for (const auto& samples : found) {
+    for (const Samples& samples : found) {
         for (const std::uint32_t sample : samples) {
             marks[sample] = 1;
         }
