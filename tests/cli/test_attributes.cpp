@@ -96,4 +96,29 @@ TEST_CASE("attributes that a mesh lacks, and formats that lack columns, are refu
                 {"sample", "four.off", "-o", "a.csv", "-d", "0.5", "--frames"});
 }
 
+TEST_CASE("attributes that a float does not hold are refused by glTF, and doubles in USD") {
+    const TemporaryFolder folder;
+    const auto mesh = [](const std::string& type, const std::string& a, const std::string& b) {
+        return "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
+               "property float z\nelement face 2\nproperty list uchar int vertex_indices\n"
+               "property " +
+               type + " mark\nend_header\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2 " + a + "\n3 0 2 3 " +
+               b + '\n';
+    };
+    folder.write("labels.ply", mesh("uint", "4000000001", "4000000003"));
+    folder.write("large.ply", mesh("double", "1e300", "-1e300"));
+    folder.write("small.ply", mesh("uint", "7", "16777216"));
+    const auto sampled = [](const std::string& name, const std::string& out) {
+        return Arguments{"sample", name, "-o", out, "-d", "0.3", "--attributes", "mark"};
+    };
+    for (const std::string name : {"labels.ply", "large.ply"}) {
+        CAPTURE(name);
+        check_fails(folder, 2, "glTF holds attributes as floats", sampled(name, "a.glb"));
+        REQUIRE(run(folder, sampled(name, "a.usda")).status == 0);
+        CHECK(bytes_of(folder / "a.usda").find("double[] primvars:mark") != std::string::npos);
+    }
+    CHECK(bytes_of(folder / "a.usda").find("1e+300") != std::string::npos);
+    CHECK(run(folder, sampled("small.ply", "b.glb")).status == 0);
+}
+
 } // namespace geodisk::test

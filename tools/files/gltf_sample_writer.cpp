@@ -12,6 +12,7 @@
 
 #include "files/block_writer.hpp"
 #include "files/byte_order.hpp"
+#include "files/float_values.hpp"
 #include "files/mesh_fields.hpp"
 #include "files/sample_instances.hpp"
 #include "files/sample_writers.hpp"
@@ -54,15 +55,14 @@ std::string attribute_name(const std::string& name) {
                                    : '_' + upper_case(name);
 }
 
-/// Throws for integers that a float does not hold exactly.
-void check_integers(const SampleField& field) {
-    constexpr double kMost = 1 << 24;
-    for (const double value : field.values) {
-        if (field.is_whole && std::abs(value) > kMost) {
-            fail_usage("glTF holds integers up to 16,777,216, and the attribute " +
-                       in_quotes(field.name) + " has a " + exact_text(value) +
-                       "; use .ply, .csv or .npz");
-        }
+/// Throws for values that a float does not hold.
+void check_values(const SampleField& field) {
+    const auto lost = std::ranges::find_if(field.values, is_lost_in_float);
+    if (lost != field.values.end()) {
+        fail_usage("glTF holds attributes as floats: integers up to 16,777,216, and numbers up to "
+                   "3.4e38. The attribute " +
+                   in_quotes(field.name) + " has a " + exact_text(*lost) +
+                   "; use .ply, .csv or .npz");
     }
 }
 
@@ -201,7 +201,7 @@ void add_surface(Points& points, std::span<const SampleRow> rows, const SampleLa
         if (&field == frames) {
             continue; // Which turn instances.
         }
-        check_integers(field);
+        check_values(field);
         const std::size_t size = field.components.size();
         points.add(attribute_name(field.name), size, [&](std::size_t i, std::size_t k) {
             return finite_float(field.values[i * size + k]);

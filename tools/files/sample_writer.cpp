@@ -247,7 +247,7 @@ void check_columns(const SampleTarget& target, std::span<const std::string> colu
         fail_usage(
             target.path.string() + ": an " + extension_of(target.format) + " file holds points" +
             (target.format == SampleFormat::obj ? " and normals" : "") + " alone, so no column " +
-            columns.front() + "; use .ply, .csv, .npz, .pcd or .glb");
+            columns.front() + "; use .ply, .csv, .npz, .pcd, .glb, .gltf or .usda");
     }
 }
 

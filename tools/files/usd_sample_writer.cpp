@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -6,6 +7,7 @@
 #include <type_traits>
 
 #include "files/block_writer.hpp"
+#include "files/float_values.hpp"
 #include "files/mesh_fields.hpp"
 #include "files/sample_instances.hpp"
 #include "files/sample_writers.hpp"
@@ -79,6 +81,9 @@ class Properties {
                         [&](std::size_t i, std::size_t k) {
                             return static_cast<std::int32_t>(field.values[i * size + k]);
                         });
+        } else if (std::ranges::any_of(field.values, is_lost_in_float)) {
+            add_primvar("double" + number_of(size), field.name, size,
+                        [&](std::size_t i, std::size_t k) { return field.values[i * size + k]; });
         } else {
             add_primvar("float" + number_of(size), field.name, size, value);
         }
