@@ -44,9 +44,10 @@ std::optional<Length> MeshOptions::weld_distance() const {
 
 void MeshOptions::add_files(std::vector<NamedFile>& read, const std::string& what) const {
     read.push_back({what, mesh, format});
-    for (const std::string& path : {coordinates, edge_lengths, texture}) {
+    for (const auto& [name, path] : {std::pair{what, coordinates}, std::pair{what, edge_lengths},
+                                     std::pair{std::string("the texture"), texture}}) {
         if (!path.empty()) {
-            read.push_back({what, path});
+            read.push_back({name, path});
         }
     }
 }

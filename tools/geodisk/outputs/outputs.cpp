@@ -105,7 +105,7 @@ bool takes_column(const OutputOptions& options, std::string_view column) {
     if (!has_columns(target)) {
         print_warning(options.output + ": an " + extension_of(target.format) +
                       " file has no columns, so the column " + std::string(column) +
-                      " is left out; use .ply, .csv, .npz, .pcd or .glb to have it");
+                      " is left out; use .ply, .csv, .npz, .pcd, .glb, .gltf or .usda to have it");
     }
     return has_columns(target);
 }

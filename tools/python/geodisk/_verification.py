@@ -123,10 +123,13 @@ class Verification:
                 found += f", {len(self.within_avoided)} near points to avoid"
             if self.is_maximal is False:
                 found += ", not maximal"
-        return (
-            f"<geodisk.Verification: {self.samples} samples, {found}, smallest distance "
-            f"{self.smallest:.9g}, {self.smallest_ratio:.9g} of the required one>"
-        )
+        smallest = "no pair within the search"
+        if math.isfinite(self.smallest):
+            smallest = (
+                f"smallest distance {self.smallest:.9g}, {self.smallest_ratio:.9g} of the "
+                "required one"
+            )
+        return f"<geodisk.Verification: {self.samples} samples, {found}, {smallest}>"
 
 
 def verify(
