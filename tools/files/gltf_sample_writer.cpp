@@ -59,10 +59,9 @@ std::string attribute_name(const std::string& name) {
 void check_values(const SampleField& field) {
     const auto lost = std::ranges::find_if(field.values, is_lost_in_float);
     if (lost != field.values.end()) {
-        fail_usage("glTF holds attributes as floats: integers up to 16,777,216, and numbers up to "
-                   "3.4e38. The attribute " +
-                   in_quotes(field.name) + " has a " + exact_text(*lost) +
-                   "; use .ply, .csv or .npz");
+        fail_usage("glTF holds attributes as floats, and the attribute " + in_quotes(field.name) +
+                   " has a " + exact_text(*lost) +
+                   ", which no float holds; use .ply, .csv or .npz");
     }
 }
 
