@@ -84,11 +84,12 @@ def test_hopeless_samples(tmp_path):
 
 
 def test_faults_are_told_once(tmp_path):
-    samples = tmp_path / "samples.csv"
+    samples, others = tmp_path / "samples.csv", tmp_path / "others.csv"
     alone("builtin:cube", "--count", "20", "-o", str(samples))
+    alone(MESH, "--count", "20", "-o", str(others))
     for arguments, status, message in [
             (["builtin:cube", str(tmp_path / "none.csv")], 3, "none.csv"),
-            (["builtin:torus-knot:4", str(samples)], 3, str(samples)),
+            (["builtin:cube", str(others)], 3, str(others)),
             (["builtin:cube"], 2, "SAMPLES is required"),
             (["builtin:cube", str(samples), "--min-distance", "-1"], 2, "--min-distance")]:
         code, _, errors = run(3, "verify", *arguments)
