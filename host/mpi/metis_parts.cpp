@@ -5,6 +5,10 @@
 #include <cmath>
 #include <limits>
 
+#ifndef _WIN32
+#include <csignal>
+#endif
+
 #include "cut_surface.hpp"
 
 namespace geodisk {
@@ -14,6 +18,38 @@ namespace {
 constexpr double kWeight = 1u << 30;
 // With fewer faces in each part, METIS has no good answer, or none.
 constexpr std::uint32_t kLeastFaces = 16;
+
+/// Keeps SIGTERM for later. METIS replaces the handlers of SIGTERM and SIGABRT while it works,
+/// takes any of these for an error of its own, and restores handlers without their flags.
+class SignalsKept {
+  public:
+#ifdef _WIN32
+    SignalsKept() {}
+#else
+    SignalsKept() {
+        sigset_t termination;
+        sigemptyset(&termination);
+        sigaddset(&termination, SIGTERM);
+        pthread_sigmask(SIG_BLOCK, &termination, &mask_);
+        sigaction(SIGTERM, nullptr, &on_termination_);
+        sigaction(SIGABRT, nullptr, &on_abort_);
+    }
+    ~SignalsKept() {
+        sigaction(SIGTERM, &on_termination_, nullptr);
+        sigaction(SIGABRT, &on_abort_, nullptr);
+        pthread_sigmask(SIG_SETMASK, &mask_, nullptr);
+    }
+#endif
+    SignalsKept(const SignalsKept&) = delete;
+    SignalsKept& operator=(const SignalsKept&) = delete;
+
+  private:
+#ifndef _WIN32
+    sigset_t mask_;
+    struct sigaction on_termination_ {
+    }, on_abort_{};
+#endif
+};
 
 } // namespace
 
@@ -51,9 +87,11 @@ std::vector<std::uint32_t> metis_parts(const PreparedMesh& mesh, std::span<const
     auto part_count = static_cast<idx_t>(parts);
     idx_t constraints = 1, cut = 0;
     std::vector<idx_t> found(faces);
-    const int status = METIS_PartGraphKway(&count, &constraints, starts.data(), beside.data(),
-                                           weights.data(), nullptr, nullptr, &part_count, nullptr,
-                                           nullptr, options, &cut, found.data());
+    const SignalsKept signals;
+    // METIS_PartGraphKway() raises SIGTERM itself where memory is exhausted.
+    const int status = METIS_PartGraphRecursive(&count, &constraints, starts.data(), beside.data(),
+                                                weights.data(), nullptr, nullptr, &part_count,
+                                                nullptr, nullptr, options, &cut, found.data());
     return status == METIS_OK ? std::vector<std::uint32_t>(found.begin(), found.end())
                               : std::vector<std::uint32_t>();
 }

@@ -1,6 +1,7 @@
 """A process that has no memory for a message ends all, with one message and without a file."""
 
 import os
+import random
 
 import pytest
 
@@ -52,3 +53,20 @@ def test_no_memory_for_a_message_of_verifying(tmp_path, rank, message):
     named = "" if rank == 0 else f"process {rank}: "
     assert (code, output) == (6, "")
     assert without_signal(errors) == f"geodisk_mpi: {named}out of memory\n"
+
+
+@pytest.mark.skipif("GEODISK_TERMINATING_METIS" not in os.environ, reason="no shared METIS")
+def test_terminated_while_the_surface_is_divided(tmp_path):
+    mesh, out = tmp_path / "torus.ply", tmp_path / "out.ply"
+    write_ply(mesh, *torus(500, 200))
+    chance = random.Random(1)
+    delays = [0, 100, 1000] + [chance.randrange(300_000) for _ in range(6)]
+    for delay in delays:
+        environment = {**ENVIRONMENT, "GEODISK_TERMINATING_MICROSECONDS": str(delay)}
+        preload = f"LD_PRELOAD={os.environ['GEODISK_TERMINATING_METIS']}"
+        # Features need the whole surface, which METIS divides.
+        code, _, errors = run(3, "sample", str(mesh), "--min-distance", "3%", "--features", "60",
+                              "-o", str(out), "--quiet", program=["env", preload],
+                              env=environment)
+        assert (code, errors) == (143, "geodisk_mpi: terminated\n"), delay
+        assert list(tmp_path.iterdir()) == [mesh]

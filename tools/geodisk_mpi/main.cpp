@@ -20,6 +20,7 @@
 #include "program/utf8_arguments.hpp"
 #include "sample_command.hpp"
 #include "session.hpp"
+#include "termination.hpp"
 #include "verify_command.hpp"
 
 namespace {
@@ -88,6 +89,7 @@ void return_freed_memory() {
 
 int main(int argc, char** argv) {
     return_freed_memory();
+    geodisk::tools::receive_termination();
     int level = MPI_THREAD_SINGLE;
     MPI_Init_thread(&argc, &argv, MPI_THREAD_SERIALIZED, &level);
     int status = 0;

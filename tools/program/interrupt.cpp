@@ -19,7 +19,7 @@ namespace {
 std::atomic<int> received_signal = 0;
 std::atomic<int> uninterrupted = 0; ///< How many threads must not be ended.
 static_assert(std::atomic<int>::is_always_lock_free);
-const char* program_name = "";
+std::atomic<const char*> program_name = nullptr; ///< Null until handlers are installed.
 
 const char* what_happened(int signal) {
     switch (signal) {
@@ -98,6 +98,14 @@ void install_signal_handlers(const char* program) {
     std::signal(SIGPIPE, SIG_IGN);
     std::signal(SIGXFSZ, SIG_IGN);
 #endif
+}
+
+bool handle_signal(int signal) {
+    if (program_name == nullptr) {
+        return false;
+    }
+    on_signal(signal);
+    return true;
 }
 
 bool is_interrupted() {

@@ -10,6 +10,10 @@ namespace geodisk::tools {
 /// full disk. `program` is named in messages and must stay.
 void install_signal_handlers(const char* program);
 
+/// Does what the handlers do with a signal that came by another way. Returns false if they are not
+/// installed.
+bool handle_signal(int signal);
+
 bool is_interrupted();
 
 /// Throws UserError with the exit status 128 + signal if a signal came.

@@ -25,7 +25,8 @@ struct SharedSamples {
 /// mesh and the parameters; on the others both are null. It divides the surface and sends each
 /// process its part. The samples do not depend on the number of processes, nor on their devices;
 /// see host/docs/mpi.md. MPI must be initialized; messages are sent by the calling thread, on a
-/// duplicate of the communicator.
+/// duplicate of the communicator. METIS handles SIGTERM and SIGABRT while process 0 divides the
+/// surface: block SIGTERM in its other threads, if it has any.
 ///
 /// Each process has a runner of its own. `progress` is called on each with its own work, also while
 /// it waits for others; the numbers are those of its part.
