@@ -47,17 +47,24 @@ class OffReader {
         fail_input(path_, "line " + std::to_string(line) + ": " + message);
     }
 
-    /// The tokens of the next line that has any besides a comment.
-    bool next_record() {
+    /// Appends the tokens of the next line that has any besides a comment to the record. Returns
+    /// false at the end of the file.
+    bool append_line() {
         std::string_view line;
-        tokens_.clear();
-        while (tokens_.empty() && lines_.next(line)) {
+        const std::size_t before = tokens_.size();
+        while (tokens_.size() == before && lines_.next(line)) {
             if (line.find('\0') != std::string_view::npos) {
                 fail(lines_.nul_message());
             }
-            split_tokens(without_comment(line), tokens_);
+            append_tokens(without_comment(line), tokens_);
         }
-        return !tokens_.empty();
+        return tokens_.size() > before;
+    }
+
+    /// Begins the next record with a line. Returns false at the end of the file.
+    bool next_record() {
+        tokens_.clear();
+        return append_line();
     }
 
     void need_record(const char* element, std::uint64_t index) {
@@ -70,15 +77,12 @@ class OffReader {
     /// Adds further lines to the record until it has `count` tokens, as files need that break lines
     /// anywhere. Returns false if those lines end with other tokens than that.
     bool complete_record(std::uint64_t count) {
-        if (tokens_.size() >= count) {
-            return true;
+        while (tokens_.size() < count) {
+            if (!append_line() || tokens_.size() > count) {
+                return false;
+            }
         }
-        std::vector<std::string_view> record = std::move(tokens_);
-        while (record.size() < count && next_record()) {
-            record.insert(record.end(), tokens_.begin(), tokens_.end());
-        }
-        tokens_ = std::move(record);
-        return tokens_.size() == count;
+        return true;
     }
 
     /// Takes the keyword off the first record. Letters before OFF tell that vertex lines have more

@@ -247,16 +247,13 @@ void PlyFile::read_records(const PlyElement& element, const Visitor& visit) {
 
 void PlyFile::read_ascii_record(const PlyElement& element, std::uint64_t index, PlyRecord& record) {
     tokens_.clear();
-    while (tokens_.empty()) {
-        if (position_ == bytes_.size()) {
-            fail(element, index, "the file ends inside element " + element.name);
-        }
-        split_tokens(next_line(), tokens_);
+    if (!append_line()) {
+        fail(element, index, "the file ends inside element " + element.name);
     }
     std::size_t next = 0;
     const std::size_t on_line = tokens_.size();
     const auto read_value = [&] {
-        if (next == tokens_.size() && !continue_record()) {
+        if (next == tokens_.size() && !append_line()) {
             fail(element, index, "the line has too few values");
         }
         const std::string_view token = tokens_[next++];
@@ -289,13 +286,12 @@ void PlyFile::read_ascii_record(const PlyElement& element, std::uint64_t index, 
     }
 }
 
-bool PlyFile::continue_record() {
-    std::vector<std::string_view> more;
-    while (more.empty() && position_ < bytes_.size()) {
-        split_tokens(next_line(), more);
+bool PlyFile::append_line() {
+    const std::size_t before = tokens_.size();
+    while (tokens_.size() == before && position_ < bytes_.size()) {
+        append_tokens(next_line(), tokens_);
     }
-    tokens_.insert(tokens_.end(), more.begin(), more.end());
-    return !more.empty();
+    return tokens_.size() > before;
 }
 
 std::optional<double> PlyFile::read_binary_value(PlyType type) {

@@ -103,8 +103,9 @@ class PlyFile {
 
     std::string_view next_line();
     void read_ascii_record(const PlyElement& element, std::uint64_t index, PlyRecord& record);
-    /// Adds a further line to the record, as files need that break lines anywhere.
-    bool continue_record();
+    /// Appends the values of the next line that has any to the record, which files may break
+    /// anywhere. Returns false at the end of the file.
+    bool append_line();
     void read_binary_record(const PlyElement& element, std::uint64_t index, PlyRecord& record);
     std::optional<double> read_binary_value(PlyType type);
 

@@ -6,15 +6,19 @@
 
 namespace geodisk::tools {
 
-void split_tokens(std::string_view line, std::vector<std::string_view>& tokens) {
+void append_tokens(std::string_view line, std::vector<std::string_view>& tokens) {
     constexpr std::string_view kBlanks = " \t";
-    tokens.clear();
     std::size_t begin = line.find_first_not_of(kBlanks);
     while (begin != std::string_view::npos) {
         const std::size_t end = std::min(line.find_first_of(kBlanks, begin), line.size());
         tokens.push_back(line.substr(begin, end - begin));
         begin = line.find_first_not_of(kBlanks, end);
     }
+}
+
+void split_tokens(std::string_view line, std::vector<std::string_view>& tokens) {
+    tokens.clear();
+    append_tokens(line, tokens);
 }
 
 std::string_view trimmed(std::string_view text) {

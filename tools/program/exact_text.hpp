@@ -28,7 +28,10 @@ std::string exact_text(Number value) {
     return text;
 }
 
-/// Fills `tokens` with the parts of `line` between blanks and tabs.
+/// Appends the parts of `line` between blanks and tabs to `tokens`.
+void append_tokens(std::string_view line, std::vector<std::string_view>& tokens);
+
+/// Replaces `tokens` with the parts of `line` between blanks and tabs.
 void split_tokens(std::string_view line, std::vector<std::string_view>& tokens);
 
 /// `text` without blanks and tabs at both ends.
