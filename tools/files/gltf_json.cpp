@@ -102,6 +102,11 @@ class JsonCleaner {
 
 const GltfJson kNoElements = GltfJson::array();
 
+/// Returns true for versions such as "1" and "1.0", with this digit.
+bool is_major(std::string_view version, char digit) {
+    return version.starts_with(digit) && (version.size() == 1 || version[1] == '.');
+}
+
 } // namespace
 
 GltfDocument::GltfDocument(const Path& path, std::string text) : path_(path) {
@@ -123,23 +128,25 @@ void GltfDocument::check_version() const {
         fail("is not a glTF file: its JSON is no object");
     }
     const GltfJson* const asset = find_object(root_, "asset", "asset");
-    const GltfJson* const number = asset == nullptr ? nullptr : find(*asset, "version");
-    const bool is_number = number != nullptr && number->is_number(); // Some write 1 and not "1.0".
-    const std::string version = is_number          ? number->dump()
-                                : asset == nullptr ? ""
-                                                   : text(*asset, "version", "asset");
+    const std::string version = asset == nullptr ? "" : version_of(*asset);
     const GltfJson* const meshes = find(root_, "meshes");
-    const bool is_old = meshes != nullptr && meshes->is_object(); // Of an asset that tells nothing.
-    if (version.starts_with("1.") || version == "1" || (version.empty() && is_old)) {
+    const bool is_old = version.empty() && meshes != nullptr && meshes->is_object();
+    if (is_old || is_major(version, '1')) {
         fail("is glTF 1.0; only 2.0 is read");
     }
     if (version.empty()) {
         fail("is not a glTF file: it has no asset.version");
     }
     const std::string least = text(*asset, "minVersion", "asset");
-    if ((!version.starts_with("2.") && version != "2") || (!least.empty() && least != "2.0")) {
+    if (!is_major(version, '2') || (!least.empty() && least != "2.0")) {
         fail("is glTF " + one_line(least.empty() ? version : least) + "; only 2.0 is read");
     }
+}
+
+std::string GltfDocument::version_of(const GltfJson& asset) const {
+    const GltfJson* const version = find(asset, "version");
+    const bool is_number = version != nullptr && version->is_number();
+    return is_number ? version->dump() : text(asset, "version", "asset");
 }
 
 const GltfJson* GltfDocument::find(const GltfJson& parent, const char* name) const {

@@ -66,6 +66,9 @@ class GltfDocument {
                                  const char* expected) const;
     std::uint64_t to_index(const GltfJson& value, const char* name, const std::string& where) const;
     void check_version() const;
+    /// Returns the version that the asset states, or "". Some files have the number 1 instead of
+    /// "1.0".
+    std::string version_of(const GltfJson& asset) const;
 
     Path path_;
     GltfJson root_;
