@@ -82,6 +82,18 @@ std::vector<std::uint32_t> nearest_of(const std::vector<std::vector<double>>& di
     return nearest;
 }
 
+/// Checks that two searches have found the same, to the bit.
+void check_same(const SurfaceCells& a, const SurfaceCells& b) {
+    CHECK(a.areas == b.areas);
+    CHECK(a.area_error == b.area_error);
+    CHECK(a.distance_error == b.distance_error);
+    CHECK(a.unreached == b.unreached);
+    CHECK(a.edges == b.edges);
+    CHECK(a.triangles == b.triangles);
+    CHECK(a.dual.manifold == b.dual.manifold);
+    CHECK(a.dual.euler == b.dual.euler);
+}
+
 /// Checks the nearest samples of random points against the twin.
 void check_nearest(const PreparedMesh& mesh, std::uint32_t count, std::uint32_t points_per_sample) {
     const std::vector<Point> samples = random_points(mesh, 4, count);
@@ -106,6 +118,7 @@ void check_nearest(const PreparedMesh& mesh, std::uint32_t count, std::uint32_t 
     // Floats round both distances and the weights of points.
     CHECK(worst < 2e-5 * scale);
     CHECK(others <= points.size() / 200);
+    check_same(expect(found.cells()), cells_of(mesh, samples_at(samples)));
 }
 
 /// Checks areas against the part of random points that are nearest to each sample.
@@ -370,10 +383,7 @@ TEST_SUITE("cells") {
         Runner runner =
             expect(Runner::create(shared_context().device(), shared_context().queue(), narrow));
         const SurfaceCells other = expect(find_cells(runner, knot, samples));
-        CHECK(other.areas == cells.areas);
-        CHECK(other.area_error == cells.area_error);
-        CHECK(other.edges == cells.edges);
-        CHECK(other.triangles == cells.triangles);
+        check_same(other, cells);
         CellParams areas_alone;
         areas_alone.has_dual = false;
         const SurfaceCells less = expect(find_cells(runner, knot, samples, areas_alone));
@@ -418,6 +428,17 @@ TEST_SUITE("cells") {
         CHECK(nearest[3].sample == NearestSample::kNone);
         CHECK(std::isinf(nearest[3].distance));
         CHECK(expect(found.of({})).empty());
+        // The third is where the first is. Half of the progress is that of the disks.
+        check_same(expect(found.cells()), cells_of(mesh, samples));
+        std::vector<std::uint32_t> told;
+        const auto stopped_cells = found.cells([&](const Progress& now) {
+            told.push_back(now.candidates);
+            return false;
+        });
+        REQUIRE_FALSE(stopped_cells);
+        CHECK(stopped_cells.error().status == Status::cancelled);
+        REQUIRE(told.size() == 1);
+        CHECK(told[0] > 3);
         // Inside of a face without area, which is the diagonal of a square.
         TestMesh square;
         for (const Vec3& p :

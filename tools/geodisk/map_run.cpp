@@ -60,17 +60,12 @@ void look_up(const NearestSamples& nearest, const Texels& texels, std::size_t be
 }
 
 /// Returns the pairs of samples whose cells touch.
-std::vector<std::array<std::uint32_t, 2>> find_touching(std::span<const Sample> samples,
-                                                        const MeshInput& mesh, RunDevice& device,
-                                                        bool is_bounded, ProgressLine& progress) {
+std::vector<std::array<std::uint32_t, 2>> find_touching(const NearestSamples& disks,
+                                                        ProgressLine& progress) {
     progress.begin_stage("finding colours");
-    auto cells = find_cells(device.runner(), mesh.prepared, samples, {},
-                            search_progress(progress, "samples"));
+    auto cells = disks.cells(search_progress(progress, "samples"));
     progress.clear();
     check_interrupted();
-    if (!cells) {
-        check_run(cells.error(), is_bounded);
-    }
     return take(std::move(cells)).edges;
 }
 
@@ -94,9 +89,6 @@ MapResult run_map(std::span<const SampleRow> rows, TextureSize size, const std::
     for (const SampleRow& row : rows) {
         samples.push_back(sample_of(row));
     }
-    if (has_touching) {
-        result.touching = find_touching(samples, mesh, device, is_bounded, progress);
-    }
     progress.begin_stage("finding cells");
     auto nearest =
         NearestSamples::create(device.runner(), mesh.prepared, samples, CellParams().most_records,
@@ -107,6 +99,9 @@ MapResult run_map(std::span<const SampleRow> rows, TextureSize size, const std::
         check_run(nearest.error(), is_bounded);
     }
     const NearestSamples disks = take(std::move(nearest));
+    if (has_touching) {
+        result.touching = find_touching(disks, progress);
+    }
     progress.begin_stage("finding nearest samples");
     result.map = {size.width,
                   size.height,

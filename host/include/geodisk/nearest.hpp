@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include <geodisk/cells.hpp>
 #include <geodisk/export.hpp>
 #include <geodisk/mesh.hpp>
 #include <geodisk/runner.hpp>
@@ -49,6 +50,13 @@ class GEODISK_API NearestSamples {
     /// Errors: `invalid_argument` for a point, naming it, in a face that does not exist or repeats
     /// a vertex or with weights that are negative or do not sum to 1; `out_of_host_memory`.
     Result<std::vector<NearestSample>> of(std::span<const Sample> points) const noexcept;
+
+    /// Returns the cells of the samples as find_cells() does, from the same disks: with the dual
+    /// graph, and with the report of the run that computed the disks. Progress counts samples twice
+    /// as candidates, and begins halfway. Several threads may call it at a time.
+    ///
+    /// Errors: `cancelled` if progress asks to stop; `out_of_host_memory`.
+    Result<SurfaceCells> cells(const ProgressCallback& progress = {}) const noexcept;
 
     /// Returns a bound on the error of distances, in mesh units.
     double error() const noexcept;

@@ -7,8 +7,8 @@
 #include <geodisk/cells.hpp>
 
 #include "engine/cells/cell_splitter.hpp"
+#include "engine/cells/cells_of.hpp"
 #include "engine/cells/dual_graph.hpp"
-#include "engine/cells/lit_samples.hpp"
 #include "mesh/face_area.hpp"
 #include "support/blocks.hpp"
 #include "support/guard.hpp"
@@ -31,9 +31,10 @@ std::uint32_t grid_level(const JobFrame& frame, const LitCells& lit) {
 
 class CellSearch {
   public:
-    CellSearch(Runner& runner, const PreparedMesh& mesh, const LitSamples& samples)
-        : impl_(Runner::Impl::of(runner)), mesh_(mesh), samples_(samples), lit_(*samples.lit),
-          grid_(mesh, grid_level(samples.frame, lit_)) {
+    CellSearch(const PreparedMesh& mesh, const LitSamples& samples, const ThreadOptions& threads,
+               const ProgressCallback& progress)
+        : mesh_(mesh), samples_(samples), lit_(*samples.lit), threads_(threads),
+          progress_(progress), grid_(mesh, grid_level(samples.frame, lit_)) {
         cells_.areas.resize(samples.samples.size(), 0);
         doubts_.resize(samples.samples.size(), 0);
     }
@@ -45,10 +46,11 @@ class CellSearch {
     void add(const FoundCells& found);
     bool report(double part) const;
 
-    Runner::Impl& impl_;
     const PreparedMesh& mesh_;
     const LitSamples& samples_;
     const LitCells& lit_;
+    const ThreadOptions& threads_;
+    const ProgressCallback& progress_;
     GridPoints grid_;
     SurfaceCells cells_;
     std::vector<double> doubts_;
@@ -90,18 +92,16 @@ void CellSearch::add(const FoundCells& found) {
 
 bool CellSearch::report(double part) const {
     const auto all = static_cast<std::uint32_t>(cells_.areas.size());
-    return !samples_.progress ||
-           samples_.progress({all + static_cast<std::uint32_t>(part * all), 2 * all, all,
-                              lit_.report().disks, lit_.report().windows});
+    return !progress_ || progress_({all + static_cast<std::uint32_t>(part * all), 2 * all, all,
+                                    lit_.report().disks, lit_.report().windows});
 }
 
 Result<SurfaceCells> CellSearch::go() {
-    const double start = impl_.now();
     const std::uint32_t parts = (mesh_.face_count() + kFacesPerPart - 1) / kFacesPerPart;
     for (std::uint32_t first = 0; first < parts; first += kPartsAtOnce) {
         const std::size_t count = std::min<std::size_t>(kPartsAtOnce, parts - first);
         std::vector<FoundCells> found(count);
-        for_parts(impl_.options.threads, count,
+        for_parts(threads_, count,
                   [&](std::size_t i) { split(first + static_cast<std::uint32_t>(i), found[i]); });
         for (const FoundCells& part : found) {
             add(part);
@@ -123,7 +123,6 @@ Result<SurfaceCells> CellSearch::go() {
         cells_.dual = dual_report(mesh_, cells_);
     }
     cells_.report = lit_.report();
-    cells_.report.seconds.sample += impl_.now() - start;
     return std::move(cells_);
 }
 
@@ -147,6 +146,15 @@ void renumber(SurfaceCells& cells, std::span<const std::uint32_t> numbers, std::
 
 } // namespace
 
+Result<SurfaceCells> cells_of(const PreparedMesh& mesh, const LitSamples& samples,
+                              const ThreadOptions& threads, const ProgressCallback& progress) {
+    auto cells = CellSearch(mesh, samples, threads, progress).go();
+    if (cells) {
+        renumber(*cells, samples.numbers, samples.all);
+    }
+    return cells;
+}
+
 Result<SurfaceCells> find_cells(Runner& runner, const PreparedMesh& mesh,
                                 std::span<const Sample> samples, const CellParams& params,
                                 const ProgressCallback& progress) noexcept {
@@ -155,10 +163,11 @@ Result<SurfaceCells> find_cells(Runner& runner, const PreparedMesh& mesh,
         if (!lit) {
             return lit.error();
         }
-        CellSearch search(runner, mesh, **lit);
-        auto cells = search.go();
+        const Runner::Impl& impl = Runner::Impl::of(runner);
+        const double start = impl.now();
+        auto cells = cells_of(mesh, **lit, impl.options.threads, progress);
         if (cells) {
-            renumber(*cells, (*lit)->numbers, samples.size());
+            cells->report.seconds.sample += impl.now() - start;
         }
         return cells;
     });

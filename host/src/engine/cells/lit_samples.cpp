@@ -61,6 +61,7 @@ Result<std::unique_ptr<LitSamples>> LitSamples::make(Runner& runner, const Prepa
     auto made = std::make_unique<LitSamples>();
     made->params = params;
     made->progress = progress;
+    made->all = samples.size();
     made->numbers = unlike_samples(mesh, samples);
     for (const std::uint32_t sample : made->numbers) {
         made->samples.push_back(samples[sample]);

@@ -1,6 +1,7 @@
 // LitSamples: the disks of samples as the caller numbers them, as large as their cells.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -25,6 +26,7 @@ struct LitSamples {
     /// Returns a bound on the error of distances, in mesh units.
     double distance_error() const;
 
+    std::size_t all = 0;                ///< Number of samples as the caller numbers them.
     std::vector<std::uint32_t> numbers; ///< Of the samples with a disk, among all. Ascending.
     std::vector<Sample> samples;        ///< Those with a disk.
     CellParams params;

@@ -8,8 +8,8 @@
 
 #include <geodisk/nearest.hpp>
 
+#include "engine/cells/cells_of.hpp"
 #include "engine/cells/grid_points.hpp"
-#include "engine/cells/lit_samples.hpp"
 #include "engine/cells/near_lights.hpp"
 #include "engine/domain/given.hpp"
 #include "engine/run/runner_impl.hpp"
@@ -178,6 +178,11 @@ NearestSamples::of(std::span<const Sample> points) const noexcept {
         }
         return found;
     });
+}
+
+Result<SurfaceCells> NearestSamples::cells(const ProgressCallback& progress) const noexcept {
+    return guarded(
+        [&] { return cells_of(*impl_->mesh, *impl_->samples, impl_->threads, progress); });
 }
 
 double NearestSamples::error() const noexcept {
