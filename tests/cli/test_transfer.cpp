@@ -214,6 +214,35 @@ TEST_CASE("meshes of other faces and samples of other meshes are refused") {
                 transfer("a.obj", "a.obj"));
 }
 
+TEST_CASE("samples in the place of a mesh are told the order of arguments") {
+    const TemporaryFolder folder;
+    folder.write("a.obj", square("1"));
+    for (const char* const name : {"a.ply", "a.csv", "a.npz", "a.pcd"}) {
+        REQUIRE(run(folder, {"sample", "a.obj", "-n", "20", "-o", name}).status == 0);
+        const std::string message = std::string(name) + ": holds samples, but a mesh is expected "
+                                                        "here; give SAMPLES MESH_A MESH_B";
+        check_fails(folder, 3, message, {"transfer", "a.obj", name, "a.obj", "-o", "b.ply"});
+        check_fails(folder, 3, message, {"transfer", "a.obj", "a.obj", name, "-o", "b.ply"});
+    }
+    // Points without faces may as well be a mesh that cannot be read.
+    folder.write("points.csv", "x,y,z\n0,0,0\n");
+    check_fails(folder, 3, "points.csv: unknown mesh format",
+                {"transfer", "a.obj", "points.csv", "a.obj", "-o", "b.ply"});
+}
+
+TEST_CASE("a file without samples is carried over, with a warning") {
+    const TemporaryFolder folder;
+    folder.write("a.obj", square("1"));
+    folder.write("none.csv", "x,y,z,face_index,bary_u,bary_v,bary_w\n");
+    const Outcome outcome =
+        run(folder, {"transfer", "none.csv", "a.obj", "a.obj", "-o", "b.csv", "--json", "b.json"});
+    CHECK(outcome.status == 0);
+    CHECK(contains(outcome.err, "warning: none.csv: has no samples\n"));
+    CHECK(tools::read_samples(folder / "b.csv").rows.empty());
+    const Json report = Json::parse(bytes_of(folder / "b.json"));
+    CHECK(report["warnings_a"].back()["kind"] == "no_samples");
+}
+
 TEST_CASE("wrong usage of transfer is explained") {
     const TemporaryFolder folder;
     folder.write("a.obj", square("1"));

@@ -286,6 +286,7 @@ TEST_CASE("no samples are no violation") {
     const Outcome outcome = run(folder, {"verify", kMesh, "b.csv", "-d", "1"});
     CHECK(outcome.status == 0);
     CHECK(contains(outcome.out, "samples       0 in b.csv\n"));
+    CHECK(contains(outcome.err, "warning: b.csv: has no samples\n"));
 }
 
 } // namespace geodisk::test

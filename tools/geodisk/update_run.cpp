@@ -108,8 +108,14 @@ void check_kind(const SampleFile& file, const std::string& path) {
         }
     }
     if (const std::string* const options = header.find("options")) {
+        std::vector<std::string_view> names;
+        split_tokens(*options, names);
+        if (std::ranges::find(names, "selection") != names.end()) {
+            fail_input(path, "has only a selection of the samples of a run, made in Python, so the "
+                             "others are not known; give a file with all samples");
+        }
         fail_input(path, "was made in Python with " + *options +
-                             ", and cannot be updated; sample the mesh again");
+                             ", which cannot be updated; sample the mesh again");
     }
     if (header.find("kept_of") != nullptr) {
         fail_input(path, "has just the first samples of --order farthest, so the others are "

@@ -149,6 +149,14 @@ SampleInput read_samples_on(const std::string& path, const std::string& mesh_pat
     return input;
 }
 
+void warn_of_no_samples(const std::string& path, const SampleFile& file,
+                        std::vector<MeshWarning>& warnings) {
+    if (file.rows.empty()) {
+        warnings.push_back({"no_samples", 1, "", "has no samples", path});
+        print_warning(path + ": " + warnings.back().message);
+    }
+}
+
 SampleFile read_samples_exactly_on(const std::string& path, const std::string& mesh_path,
                                    const MeshInput& mesh, const HeaderEntries* additions,
                                    const std::string& tolerance, std::vector<MeshWarning>& warnings,

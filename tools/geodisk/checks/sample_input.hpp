@@ -33,8 +33,12 @@ SampleInput read_samples_on(const std::string& path, const std::string& mesh_pat
                             const std::string& tolerance, std::vector<MeshWarning>& warnings,
                             ProgressLine& progress);
 
-/// The same, and throws UserError(bad_input) for strays: samples of another mesh would land
-/// anywhere.
+/// Warns of a file without samples.
+void warn_of_no_samples(const std::string& path, const SampleFile& file,
+                        std::vector<MeshWarning>& warnings);
+
+/// As read_samples_on(), and throws UserError(bad_input) for strays: samples of another mesh would
+/// land anywhere.
 SampleFile read_samples_exactly_on(const std::string& path, const std::string& mesh_path,
                                    const MeshInput& mesh, const HeaderEntries* additions,
                                    const std::string& tolerance, std::vector<MeshWarning>& warnings,

@@ -78,6 +78,27 @@ void check_files(const TransferOptions& options) {
     options.out.record.check(options.out.target());
 }
 
+bool holds_samples(const std::string& path) {
+    try {
+        return read_samples(path).has_faces;
+    } catch (const UserError&) {
+        return false;
+    }
+}
+
+/// Loads a mesh. If samples are in its place, the error says the order of the arguments.
+MeshInput load(const MeshOptions& mesh, ProgressLine& progress) {
+    try {
+        return load_mesh(mesh, progress);
+    } catch (const UserError& error) {
+        if (error.code() == ExitCode::bad_input && holds_samples(mesh.mesh)) {
+            fail_input(mesh.mesh, "holds samples, but a mesh is expected here; give SAMPLES MESH_A "
+                                  "MESH_B in this order");
+        }
+        throw;
+    }
+}
+
 std::string corners_text(const MeshFile& mesh, std::size_t face) {
     std::string text;
     for (std::size_t corner = 3 * face; corner < 3 * face + 3; ++corner) {
@@ -192,7 +213,7 @@ void run_transfer(const TransferOptions& options) {
     check_files(options);
     check_tolerance(options.tolerance);
     ProgressLine progress(options.out.quiet);
-    Transfer done{load_mesh(options.from, progress), load_mesh(target_mesh(options), progress)};
+    Transfer done{load(options.from, progress), load(target_mesh(options), progress)};
     const MeshInput& to = done.to;
     check_connectivity(options, done.from.file, to.file);
     check_dimension(options.out.target(), to.dimension());
@@ -200,6 +221,7 @@ void run_transfer(const TransferOptions& options) {
     SampleFile& samples = done.samples;
     samples = read_samples_exactly_on(options.samples, options.from.mesh, done.from, nullptr,
                                       options.tolerance, done.from.warnings, progress);
+    warn_of_no_samples(options.samples, samples, done.from.warnings);
     if (options.is_farthest()) {
         done.farthest = put_farthest_first(options, runner, keep, to, samples, progress);
     }

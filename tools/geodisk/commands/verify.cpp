@@ -89,6 +89,7 @@ void verify_samples(const VerifyOptions& options, const NotePairs& note) {
     const HeaderEntries additions = options.mesh.additions();
     auto [samples, strays] = read_samples_on(options.samples, options.mesh.mesh, mesh, &additions,
                                              options.tolerance, warnings, progress);
+    warn_of_no_samples(options.samples, samples, warnings);
     warn_of_other_rows(options, samples, warnings);
     WantedSpacing spacing = wanted_spacing(options, samples, mesh);
     if (options.is_maximal && !spacing.is_known) {

@@ -24,6 +24,8 @@ def flag(value: object, name: str) -> bool:
 def integer(value: Any, name: str, most: int, least: int = 0) -> int:
     """Returns a whole number from `least` to `most`."""
     try:
+        if isinstance(value, (bool, np.bool_)):
+            raise TypeError
         number = operator.index(value)
     except TypeError:
         raise TypeError(f"{name} is {reprlib.repr(value)}, not an integer") from None
