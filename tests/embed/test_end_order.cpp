@@ -76,6 +76,27 @@ void check_stops(DeviceRun& run) {
     }
 }
 
+/// Changes the end order twice in each so many rounds, one after the other, until the job is
+/// complete.
+void check_changes(DeviceRun& run, std::size_t period) {
+    const std::uint64_t orders[] = {kStage / 2, kStage / 4, 2 * kStage, 1,
+                                    kStage,     5 * kStage, kAllOrders};
+    std::uint32_t paused = 0;
+    for (std::size_t i = 0, changes = 0;; ++i) {
+        REQUIRE(i < 10'000);
+        if (i % period <= 1) {
+            run.job().set_end_order(orders[changes++ % std::size(orders)]);
+        }
+        const Advice advice = expect(run.job().advance(run.control()));
+        if (advice.next == Next::complete) {
+            break;
+        }
+        paused += advice.next == Next::paused ? 1 : 0;
+        run.follow(advice);
+    }
+    CHECK(paused > 0);
+}
+
 RunPlan small_plan(std::uint32_t slots, std::uint32_t stages) {
     RunPlan plan;
     plan.slots = slots;
@@ -144,19 +165,19 @@ TEST_SUITE("end order") {
         const PreparedMesh mesh = prepared(builtin("torus-knot", 8));
         const SampleParams params = params_for(mesh, 100);
         DeviceRun run(mesh, params, small_plan(40, 2));
-        const std::uint64_t orders[] = {kStage / 2, kStage / 4, 2 * kStage, 1, kStage, 5 * kStage};
-        std::uint32_t paused = 0;
-        for (std::size_t i = 0;; ++i) {
-            REQUIRE(i < 10'000);
-            run.job().set_end_order(i % 7 == 6 ? kAllOrders : orders[i % std::size(orders)]);
-            const Advice advice = expect(run.job().advance(run.control()));
-            if (advice.next == Next::complete) {
-                break;
-            }
-            paused += advice.next == Next::paused ? 1 : 0;
-            run.follow(advice);
-        }
-        CHECK(paused > 0);
+        check_changes(run, 2);
+        CHECK(ready_points(run) == float_set(mesh, params, run.plan().error_bound));
+    }
+
+    TEST_CASE("an end order may change while a list of candidates is incomplete") {
+        const PreparedMesh mesh = prepared(builtin("torus-knot", 8));
+        const SampleParams params = params_for(mesh, 1'500);
+        RunPlan plan = small_plan(200, 2);
+        plan.dispatch_items = gpu::kSelectBlock;
+        DeviceRun run(mesh, params, plan);
+        check_changes(run, 20);
+        // A list takes several rounds, so the second change comes while the list is made.
+        CHECK(run.control().drawn > 3 * gpu::kSelectBlock);
         CHECK(ready_points(run) == float_set(mesh, params, run.plan().error_bound));
     }
 
