@@ -1,10 +1,15 @@
 // Attributes, normals and frames of samples, by `geodisk sample` and `transfer`.
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <cstddef>
+#include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "cli/command.hpp"
+#include "unit/png_bytes.hpp"
 
 namespace geodisk::test {
 namespace {
@@ -74,6 +79,99 @@ TEST_CASE("normals are those of faces, of the file, or smooth") {
                 {"sample", "roof.obj", "-o", "d.csv", "-d", "0.5", "--normals", "sharp"});
     check_fails(folder, 2, "an .xyz file holds points alone, so no column of --normals",
                 {"sample", "roof.obj", "-o", "d.xyz", "-d", "0.5", "--normals", "smooth"});
+}
+
+TEST_CASE("--texture auto gives the colours of materials") {
+    const TemporaryFolder folder;
+    folder.write(
+        "ramp.png",
+        tools::png_bytes(4, 1, std::string_view("\0\0\0\x55\0\0\xaa\0\0\xff\0\0", 12), 8, 2));
+    folder.write("a.mtl", "newmtl paint\nmap_Kd ramp.png\nnewmtl dim\nKd 0.5 1 1\n"
+                          "map_Kd ramp.png\nnewmtl plain\nKd 0.25 0.5 0.75\n");
+    const auto roof = [&](const char* name, const std::string& first, const std::string& second) {
+        const std::string text(kRoof);
+        const std::size_t at = text.rfind("f "), before = text.rfind("f ", at - 1);
+        folder.write(name, "mtllib a.mtl\n" + text.substr(0, before) + first +
+                               text.substr(before, at - before) + second + text.substr(at));
+    };
+    const auto table = [&](const Arguments& words) {
+        const Outcome made = run(folder, joined(words, {"-o", "t.csv"}));
+        INFO(made.err);
+        REQUIRE(made.status == 0);
+        const std::vector<std::string> lines = table_of(folder, "t.csv");
+        std::filesystem::remove(folder / "t.csv");
+        return lines;
+    };
+    const Arguments start{"sample", "roof.obj", "-d", "0.5", "--seed", "3"};
+
+    // One image for all is the same image by its material.
+    roof("roof.obj", "usemtl paint\n", "");
+    const std::vector<std::string> image = table(joined(start, {"--texture", "ramp.png"}));
+    CHECK(image[0].ends_with(",red,green,blue"));
+    CHECK(table(joined(start, {"--texture", "auto"})) == image);
+
+    // By material of the face: here with and without an image.
+    roof("roof.obj", "usemtl dim\n", "usemtl plain\n");
+    std::size_t plain = 0;
+    const std::vector<std::string> mixed = table(joined(start, {"--texture", "auto"}));
+    REQUIRE(mixed.size() == image.size());
+    const auto values_of = [](const std::string& line) {
+        std::vector<std::string> values;
+        for (std::size_t begin = 0; begin <= line.size();) {
+            const std::size_t end = std::min(line.find(',', begin), line.size());
+            values.push_back(line.substr(begin, end - begin));
+            begin = end + 1;
+        }
+        return values;
+    };
+    const std::vector<std::string> names = values_of(mixed[0]);
+    const auto column = [&](const char* name) {
+        return static_cast<std::size_t>(std::ranges::find(names, name) - names.begin());
+    };
+    REQUIRE(column("face_index") < names.size());
+    for (std::size_t i = 1; i < mixed.size(); ++i) {
+        const std::vector<std::string> values = values_of(mixed[i]);
+        if (std::stoi(values[column("face_index")]) >= 2) {
+            CHECK(mixed[i].ends_with(",0.25,0.5,0.75"));
+            ++plain;
+        } else {
+            const double red = std::stod(values_of(image[i])[column("red")]);
+            CHECK(std::stod(values[column("red")]) == doctest::Approx(red / 2).epsilon(1e-6));
+        }
+    }
+    CHECK(plain > 0);
+    CHECK(plain < mixed.size() - 1);
+
+    // Batches, manifests and transfer give the same.
+    folder.write("list.txt", "roof.obj -o r.csv --texture auto\n");
+    const Outcome batch =
+        run(folder, {"batch", "list.txt", "-o", "out", "-d", "0.5", "--seed", "3"});
+    INFO(batch.err);
+    REQUIRE(batch.status == 0);
+    CHECK(table_of(folder, "out/r.csv") == mixed);
+    REQUIRE(run(folder, joined(start, {"-o", "bare.csv"})).status == 0);
+    CHECK(table({"transfer", "bare.csv", "roof.obj", "roof.obj", "--texture", "auto"}) == mixed);
+
+    // Faces without material are white, with a warning; of no material at all it is an error.
+    roof("roof.obj", "", "usemtl plain\n");
+    const Outcome white = run(folder, joined(start, {"-o", "w.csv", "--texture", "auto"}));
+    CHECK(white.status == 0);
+    CHECK(contains(white.err, "roof.obj: 1 face without material is white"));
+    const auto fails = [&](int status, const char* part, const Arguments& more) {
+        check_fails(folder, status, part, joined(start, more));
+    };
+    fails(2, "--texture and the attribute color are both the columns red, green and blue",
+          {"-o", "a.csv", "--texture", "auto", "--attributes", "color"});
+    fails(2, "ramp.png: the picture would replace a file that roof.obj names",
+          {"-o", "a.csv", "--texture", "auto", "--picture", "ramp.png"});
+    fails(3, "auto: no such file", {"-o", "a.csv", "--texture", "./auto"});
+    std::filesystem::remove(folder / "ramp.png");
+    roof("roof.obj", "usemtl paint\n", "");
+    fails(3, "a.mtl: line 2: material 'paint': its image ramp.png is not there",
+          {"-o", "a.csv", "--texture", "auto"});
+    folder.write("roof.obj", kRoof);
+    fails(3, "roof.obj: has no materials, which --texture auto needs",
+          {"-o", "a.csv", "--texture", "auto"});
 }
 
 TEST_CASE("attributes that a mesh lacks, and formats that lack columns, are refused") {

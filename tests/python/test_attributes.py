@@ -5,6 +5,7 @@ import pickle
 import struct
 import subprocess
 import zlib
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -186,6 +187,41 @@ def test_sample_has_the_record_of_the_program(roof, tmp_path):
     tilted = by_face.polygon_index == 1
     assert np.allclose(by_face.normals[~tilted], [0, 0, 1])
     assert np.allclose(by_face.normals[tilted], np.array([1, 0, 1]) / np.sqrt(2))
+
+
+def test_colours_of_materials(roof, tmp_path):
+    plain, image = "newmtl plain\nKd 0.25 0.5 0.75\n", "newmtl paint\nmap_Kd ramp.png\n"
+    (tmp_path / "roof.mtl").write_text(plain + image)
+    lines = ROOF.split("f ")
+    roof.write_text(
+        f"mtllib roof.mtl\n{lines[0]}usemtl paint\nf {lines[1]}usemtl plain\nf {lines[2]}"
+    )
+    samples = geodisk.sample(roof, min_distance=0.2, seed=5, texture="auto")
+    by_image = geodisk.sample(roof, min_distance=0.2, seed=5, texture=tmp_path / "ramp.png")
+    first = samples.polygon_index == 0
+    assert first.any() and not first.all()
+    colours = samples.attributes["color"]
+    assert np.array_equal(colours[first], by_image.attributes["color"][first])
+    assert (colours[~first] == [0.25, 0.5, 0.75]).all()
+    (many,) = geodisk.sample_many([roof], min_distance=0.2, seed=5, texture="auto")
+    bare = geodisk.sample(roof, min_distance=0.2, seed=5)
+    moved = geodisk.transfer(bare, roof, texture="auto")
+    updated = geodisk.update(samples, roof)
+    for other in (many, moved, updated):
+        assert np.array_equal(other.attributes["color"], colours)
+
+    with pytest.raises(TypeError, match="path of the mesh"):
+        geodisk.sample(SQUARE, [[0, 1, 2, 3]], min_distance=0.2, texture="auto")
+    with pytest.raises(geodisk.InvalidArgument, match="no such file"):
+        geodisk.sample(roof, min_distance=0.2, texture=Path("auto"))  # An image.
+    with pytest.raises(geodisk.MeshRejected, match="has no materials"):
+        geodisk.sample("builtin:cube", min_distance=0.2, texture="auto")
+    (tmp_path / "ramp.png").write_bytes(b"text")
+    with pytest.raises(geodisk.InvalidArgument, match="material 'paint'.*neither a PNG nor a JPEG"):
+        geodisk.sample(roof, min_distance=0.2, texture="auto")
+    (tmp_path / "ramp.png").unlink()
+    with pytest.raises(geodisk.MeshRejected, match="material 'paint'.*ramp.png is not there"):
+        geodisk.sample(roof, min_distance=0.2, texture="auto")
 
 
 def test_sample_transfer_and_many_have_one_record(roof, tmp_path):

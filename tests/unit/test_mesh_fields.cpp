@@ -1,9 +1,9 @@
 // Attributes of mesh files, from the readers to samples.
-#include "files/grey_image.hpp"
 #include "files/mesh_fields.hpp"
 #include "files/mesh_file.hpp"
 #include "files/output_file.hpp"
 #include "files/sample_fields.hpp"
+#include "files/textures.hpp"
 #include "geometry/frames.hpp"
 
 #include "png_bytes.hpp"
@@ -204,7 +204,7 @@ TEST_CASE("attributes that cannot be used are refused by name and place") {
 
 TEST_CASE("texture colours are those at the texture coordinates") {
     const TemporaryFolder folder;
-    const ColourImage image(
+    const Textures image(
         folder.write("a.png", png_bytes(2, 1, std::string_view("\xff\0\0\0\0\xff", 6), 8, 2)));
     MeshSources sources;
     sources.mesh = folder

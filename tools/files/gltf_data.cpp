@@ -106,11 +106,11 @@ struct GltfData::Elements {
     }
 };
 
-std::string GltfData::load_buffer(const std::string& uri, const std::string& name) const {
+std::string GltfData::uri_bytes(const std::string& uri, const std::string& what) const {
     if (uri.starts_with("data:")) {
         std::optional<std::string> bytes = data_of_uri(uri);
         if (!bytes) {
-            document_.fail(name + ": its data: URI is damaged");
+            document_.fail(what + ": its data: URI is damaged");
         }
         return std::move(*bytes);
     }
@@ -118,7 +118,7 @@ std::string GltfData::load_buffer(const std::string& uri, const std::string& nam
     const std::string plain = percent_decoded(uri);
     for (const std::string& file : {plain, uri}) { // Some programs write '%' as it is.
         if (!is_inside(file)) {
-            document_.fail("its buffer " + in_quotes(file) +
+            document_.fail(what + ": " + in_quotes(file) +
                            " is not a file of its folder, so it is not read");
         }
         std::error_code ignored;
@@ -126,7 +126,7 @@ std::string GltfData::load_buffer(const std::string& uri, const std::string& nam
             return read_file(folder / Path(file));
         }
     }
-    return read_file(folder / Path(plain)); // Which says that there is none.
+    document_.fail(what + ": " + (folder / Path(plain)).string() + ": no such file");
 }
 
 /// Empty for a buffer without data, which only compressed views may name.
@@ -138,7 +138,7 @@ std::string_view GltfData::buffer_bytes(std::uint64_t buffer, const std::string&
     }
     const auto [loaded, is_new] = loaded_.try_emplace(buffer);
     if (is_new) {
-        loaded->second = load_buffer(document_.text(object, "uri", name), name);
+        loaded->second = uri_bytes(document_.text(object, "uri", name), name);
     }
     return loaded->second;
 }

@@ -26,8 +26,8 @@ struct GltfAccessor {
     bool is_whole() const;
 };
 
-/// Reads accessors, and of the buffers only those that they need. Buffers are in the file, in the
-/// text of the document, or in files of the folder that the document is in. Throws
+/// Reads accessors, and of the buffers only those that they need. Buffers and images are in the
+/// file, in the text of the document, or in files of the folder that the document is in. Throws
 /// UserError(bad_input); `where` begins messages, as "mesh 0, primitive 0".
 class GltfData {
   public:
@@ -45,6 +45,8 @@ class GltfData {
     /// The same for single integers.
     std::vector<std::uint32_t> integers(std::uint64_t accessor, const std::string& where);
 
+    /// Returns the bytes of the data or file that a URI names. `what` begins messages.
+    std::string uri_bytes(const std::string& uri, const std::string& what) const;
     /// Returns the bytes of a view, decompressed if need be.
     std::string_view view_bytes(std::uint64_t view, const std::string& where);
 
@@ -55,7 +57,6 @@ class GltfData {
     struct Elements;
 
     std::string_view buffer_bytes(std::uint64_t buffer, const std::string& where);
-    std::string load_buffer(const std::string& uri, const std::string& name) const;
     std::string_view range(std::uint64_t buffer, const GltfJson& object, const std::string& name,
                            const std::string& where);
     bool decompress(const GltfJson& view, std::uint64_t index, const std::string& where);

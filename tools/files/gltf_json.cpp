@@ -259,6 +259,18 @@ std::vector<double> GltfDocument::numbers(const GltfJson& parent, const char* na
     return result;
 }
 
+double GltfDocument::number_or(const GltfJson& parent, const char* name, double otherwise,
+                               const std::string& where) const {
+    const GltfJson* const value = find(parent, name);
+    if (value == nullptr) {
+        return otherwise;
+    }
+    if (!value->is_number() || !std::isfinite(value->get<double>())) {
+        fail_value(name, where, "a number");
+    }
+    return value->get<double>();
+}
+
 std::string GltfDocument::text(const GltfJson& parent, const char* name,
                                const std::string& where) const {
     const GltfJson* const value = find(parent, name);

@@ -56,6 +56,9 @@ class GltfDocument {
     /// none.
     std::vector<double> numbers(const GltfJson& parent, const char* name, std::size_t size,
                                 const std::string& where) const;
+    /// A single number, which must be finite.
+    double number_or(const GltfJson& parent, const char* name, double otherwise,
+                     const std::string& where) const;
     /// Text, or "".
     std::string text(const GltfJson& parent, const char* name, const std::string& where) const;
     bool flag(const GltfJson& parent, const char* name, const std::string& where) const;

@@ -121,6 +121,8 @@ void GltfMeshReader::add_primitive(const GltfJson& primitive, std::uint32_t numb
     if (attributes == nullptr || !document_.find_index(*attributes, "POSITION", place_)) {
         document_.fail(place_ + ": has no POSITION");
     }
+    const std::optional<std::uint32_t> material = material_of(primitive);
+    material_uvs_ = fields_.materials && material ? materials_.read(*material) : "";
     Source source{primitive, *attributes, {}, {}};
     decode_draco(source);
     const auto [known, is_new] = known_.try_emplace(key_of(source), mesh.vertices.size());
@@ -128,8 +130,8 @@ void GltfMeshReader::add_primitive(const GltfJson& primitive, std::uint32_t numb
         mesh.vertices.push_back(read_vertices(source));
     }
     const std::size_t vertices = mesh.vertices[known->second].points.size();
-    mesh.primitives.push_back({number, known->second, corners_of(source, mode, vertices),
-                               material_of(primitive), read_fields(source, vertices)});
+    mesh.primitives.push_back({number, known->second, corners_of(source, mode, vertices), material,
+                               read_fields(source, vertices)});
 }
 
 /// A primitive may bear the same data as they are, for readers that know no compression; these are
@@ -146,7 +148,7 @@ void GltfMeshReader::decode_draco(Source& source) {
     std::vector<std::uint32_t> wanted;
     for (const auto& [name, unused] : ids->items()) {
         if (name == "POSITION" || name.starts_with("JOINTS_") || name.starts_with("WEIGHTS_") ||
-            is_wanted(name)) {
+            name == material_uvs_ || is_wanted(name)) {
             wanted.push_back(
                 static_cast<std::uint32_t>(document_.index(*ids, name.c_str(), place_)));
             source.draco_ids[name] = wanted.back();
@@ -220,6 +222,12 @@ std::vector<GltfField> GltfMeshReader::read_fields(const Source& source, std::si
     }
     for (const auto& [name, unused] : source.attributes.items()) {
         const bool are_normals = name == kNormals;
+        if (name == material_uvs_) {
+            GltfField& uvs =
+                fields.emplace_back(GltfField{make_uvs(), name, GltfField::Role::material_uvs});
+            uvs.field.is_from_top = true;
+            uvs.field.values = field_values(source, name, vertices);
+        }
         if (!are_normals && !is_attribute(name)) {
             continue;
         }
@@ -234,19 +242,32 @@ std::vector<GltfField> GltfMeshReader::read_fields(const Source& source, std::si
             document_.fail(place_ +
                            ": normals of morph targets are not read; use --normals smooth");
         }
-        GltfField& field = fields.emplace_back(GltfField{field_of(name, about), name, are_normals});
+        GltfField& field = fields.emplace_back(
+            GltfField{field_of(name, about), name,
+                      are_normals ? GltfField::Role::normals : GltfField::Role::attribute});
         if (!is_wanted(name)) {
             continue;
         }
-        field.field.values = attribute(source, name, accessor);
-        if (field.field.values.size() != about.components * vertices) {
-            document_.fail(place_ + ": has " + name + " for another number of vertices");
-        }
+        field.field.values = field_values(source, name, vertices);
         if (field.field.is_colour && about.components == 3) {
             field.field.values = with_alpha(field.field.values);
         }
     }
     return fields;
+}
+
+std::vector<double> GltfMeshReader::field_values(const Source& source, const std::string& name,
+                                                 std::size_t vertices) {
+    const std::uint64_t accessor = document_.index(source.attributes, name.c_str(), place_);
+    const std::size_t components = data_.describe(accessor, place_).components;
+    if (name == material_uvs_ && components != 2) {
+        document_.fail(place_ + ": its " + name + " is not of two numbers");
+    }
+    std::vector<double> values = attribute(source, name, accessor);
+    if (values.size() != components * vertices) {
+        document_.fail(place_ + ": has " + name + " for another number of vertices");
+    }
+    return values;
 }
 
 GltfVertices GltfMeshReader::read_vertices(const Source& source) {

@@ -13,6 +13,7 @@
 #include "files/draco_mesh.hpp"
 #include "files/gltf_data.hpp"
 #include "files/gltf_json.hpp"
+#include "files/gltf_materials.hpp"
 #include "files/mesh_fields.hpp"
 
 namespace geodisk::tools {
@@ -28,9 +29,12 @@ struct GltfVertices {
 
 /// Values that an attribute has at the vertices of a primitive.
 struct GltfField {
-    MeshField field;          ///< Without values if they are not wanted.
-    std::string accessor;     ///< Name in the file.
-    bool are_normals = false; ///< Which nodes turn.
+    /// Nodes turn normals. Those of a material are the texture coordinates for its image.
+    enum class Role : std::uint8_t { attribute, normals, material_uvs };
+
+    MeshField field;      ///< Without values if they are not wanted.
+    std::string accessor; ///< Name in the file.
+    Role role = Role::attribute;
 };
 
 struct GltfPrimitive {
@@ -51,8 +55,10 @@ struct GltfMesh {
 /// positions share vertices. Throws UserError(bad_input) naming mesh and primitive.
 class GltfMeshReader {
   public:
-    GltfMeshReader(const GltfDocument& document, GltfData& data, const WantedFields& fields)
-        : document_(document), data_(data), fields_(fields) {}
+    /// Reads `materials` of primitives if WantedFields::materials.
+    GltfMeshReader(const GltfDocument& document, GltfData& data, const WantedFields& fields,
+                   GltfMaterials& materials)
+        : document_(document), data_(data), fields_(fields), materials_(materials) {}
 
     /// Reads mesh `index` with its morph targets by `weights`, or by its own for none.
     GltfMesh read(std::uint64_t index, std::vector<double> weights);
@@ -72,6 +78,8 @@ class GltfMeshReader {
     Key key_of(const Source& source) const;
     GltfVertices read_vertices(const Source& source);
     std::vector<GltfField> read_fields(const Source& source, std::size_t vertices);
+    std::vector<double> field_values(const Source& source, const std::string& name,
+                                     std::size_t vertices);
     bool is_wanted(const std::string& name) const;
     void read_joints(const Source& source, GltfVertices& vertices);
     void move_targets(const Source& source, std::vector<glm::dvec3>& points);
@@ -86,7 +94,9 @@ class GltfMeshReader {
     const GltfDocument& document_;
     GltfData& data_;
     const WantedFields& fields_;
+    GltfMaterials& materials_;
     std::string place_;           ///< The primitive that is being read, for messages.
+    std::string material_uvs_;    ///< Attribute that its material needs, or "".
     std::vector<double> weights_; ///< Of morph targets.
     std::map<Key, std::size_t> known_;
 };

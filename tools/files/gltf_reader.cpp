@@ -12,6 +12,7 @@
 
 #include "files/gltf_data.hpp"
 #include "files/gltf_json.hpp"
+#include "files/gltf_materials.hpp"
 #include "files/gltf_mesh.hpp"
 #include "files/gltf_scene.hpp"
 #include "files/input_file.hpp"
@@ -86,17 +87,20 @@ Chunks chunks_of(const Path& path, const std::string& bytes) {
 
 enum class Extension { read, ignored, unknown };
 
-/// What becomes of an extension that a file requires.
-Extension kind_of(std::string_view name) {
+/// What becomes of an extension that a file requires, also for the colours of materials if wanted.
+Extension kind_of(std::string_view name, bool has_materials) {
     constexpr std::array<std::string_view, 6> kRead{
         "EXT_mesh_gpu_instancing", "EXT_meshopt_compression", "KHR_draco_mesh_compression",
         "KHR_meshopt_compression", "KHR_mesh_quantization",   "KHR_node_visibility"};
+    constexpr std::array<std::string_view, 2> kReadOfMaterials{
+        "KHR_materials_pbrSpecularGlossiness", "KHR_texture_transform"};
     // Of materials, pictures and whatever else leaves the surface as it is.
     constexpr std::array<std::string_view, 17> kHarmless{
         "material",  "texture", "light",    "technique", "image",     "camera",
         "animation", "audio",   "metadata", "xmp",       "packing",   "outline",
         "features",  "_lod",    "hoverab",  "selectab",  "interactiv"};
-    if (std::ranges::find(kRead, name) != kRead.end()) {
+    if (std::ranges::find(kRead, name) != kRead.end() ||
+        (has_materials && std::ranges::find(kReadOfMaterials, name) != kReadOfMaterials.end())) {
         return Extension::read;
     }
     const std::string lower = lower_case(std::string(name));
@@ -171,7 +175,8 @@ class GltfReader {
   public:
     GltfReader(const Path& path, Chunks&& chunks, const WantedFields& fields)
         : document_(path, std::move(chunks.json)), data_(document_, chunks.binary),
-          scene_(document_, data_), meshes_(document_, data_, fields) {}
+          scene_(document_, data_), materials_(document_, data_),
+          meshes_(document_, data_, fields, materials_), has_materials_(fields.materials) {}
 
     PolygonMesh read() && {
         mesh_.names = {"triangle ", "vertex ", {}, {}, 0};
@@ -182,8 +187,13 @@ class GltfReader {
         for (MeshField& field : mesh_.fields) {
             pad(field);
         }
-        if (mesh_.normals) {
-            pad(*mesh_.normals);
+        for (std::optional<MeshField>* const field : {&mesh_.normals, &mesh_.material_uvs}) {
+            if (*field) {
+                pad(**field);
+            }
+        }
+        if (has_materials_) {
+            mesh_.materials = std::move(materials_).take();
         }
         mesh_.part_names = {names_of("materials"), {}, names_of("nodes"), scene_.nodes_above()};
         warn();
@@ -195,7 +205,7 @@ class GltfReader {
         for (const GltfJson& value :
              document_.array(document_.root(), "extensionsRequired", "the file")) {
             const std::string name = value.is_string() ? value.get<std::string>() : value.dump();
-            switch (kind_of(name)) {
+            switch (kind_of(name, has_materials_)) {
             case Extension::read:
                 break;
             case Extension::ignored:
@@ -276,9 +286,10 @@ class GltfReader {
     }
 
     MeshField& field_like(const GltfField& given, const std::string& place) {
-        if (given.are_normals) {
-            return mesh_.normals ? *mesh_.normals
-                                 : mesh_.normals.emplace(without_values(given.field));
+        if (given.role != GltfField::Role::attribute) {
+            std::optional<MeshField>& field =
+                given.role == GltfField::Role::normals ? mesh_.normals : mesh_.material_uvs;
+            return field ? *field : field.emplace(without_values(given.field));
         }
         const auto known = std::ranges::find(mesh_.fields, given.field.name, &MeshField::name);
         if (known == mesh_.fields.end()) {
@@ -303,7 +314,7 @@ class GltfReader {
         const std::string place = "mesh " + std::to_string(placement.mesh) + ", primitive " +
                                   std::to_string(primitive.number);
         for (const GltfField& given : primitive.fields) {
-            if (given.are_normals && given.field.values.empty()) {
+            if (given.role != GltfField::Role::attribute && given.field.values.empty()) {
                 continue;
             }
             MeshField& field = field_like(given, place);
@@ -314,7 +325,7 @@ class GltfReader {
             const std::size_t first = field.values.size() / field.components.size();
             const std::vector<double>& values = given.field.values;
             field.values.insert(field.values.end(), values.begin(), values.end());
-            if (given.are_normals) {
+            if (given.role == GltfField::Role::normals) {
                 turn_normals(placement, mesh.vertices[primitive.vertices], transform,
                              std::span(field.values).last(values.size()));
             }
@@ -374,7 +385,9 @@ class GltfReader {
     GltfDocument document_;
     GltfData data_;
     GltfScene scene_;
+    GltfMaterials materials_;
     GltfMeshReader meshes_;
+    bool has_materials_; ///< Whether they are wanted.
     PolygonMesh mesh_;
     std::uint64_t others_ = 0; ///< Primitives without triangles.
 };

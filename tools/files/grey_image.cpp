@@ -1,5 +1,6 @@
 #include "files/grey_image.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -10,14 +11,31 @@
 namespace geodisk::tools {
 namespace {
 
-/// The index of the pixel, for an image that repeats.
-std::int64_t wrapped(double pixel, std::int64_t count) {
+/// Returns the place from 0 to 1 that has the colour of another one.
+double folded(double at, ImageWrap wrap) {
+    switch (wrap) {
+    case ImageWrap::repeat:
+        break;
+    case ImageWrap::mirror: {
+        const double there_and_back = at - 2 * std::floor(at / 2);
+        return there_and_back > 1 ? 2 - there_and_back : there_and_back;
+    }
+    case ImageWrap::clamp:
+        return std::clamp(at, 0.0, 1.0);
+    }
+    return at - std::floor(at);
+}
+
+/// Returns the index of a pixel, which is no farther than one beyond the edges.
+std::int64_t wrapped(double pixel, std::int64_t count, ImageWrap wrap) {
     const auto index = static_cast<std::int64_t>(pixel);
+    if (wrap != ImageWrap::repeat) {
+        return std::clamp(index, std::int64_t{0}, count - 1);
+    }
     return index < 0 ? index + count : index >= count ? index - count : index;
 }
 
-ImagePixels decode(const Path& path, PixelKind kind) {
-    const std::string bytes = read_file(path);
+ImagePixels decode(const Path& path, const std::string& bytes, PixelKind kind) {
     if (bytes.starts_with("\x89PNG")) {
         return decode_png(path, bytes, kind);
     }
@@ -29,20 +47,29 @@ ImagePixels decode(const Path& path, PixelKind kind) {
 
 } // namespace
 
-Image::Image(const Path& path, PixelKind kind) : components_(kind == PixelKind::grey ? 1 : 3) {
-    ImagePixels pixels = decode(path, kind);
+Image::Image(const Path& name, const std::string& bytes, PixelKind kind)
+    : components_(kind == PixelKind::grey ? 1 : 3) {
+    ImagePixels pixels = decode(name, bytes, kind);
     width_ = pixels.width;
     height_ = pixels.height;
     pixels_ = std::move(pixels.values);
 }
 
-double Image::component(double u, double v, std::size_t index) const {
+GreyImage::GreyImage(const Path& path) : Image(path, read_file(path), PixelKind::grey) {}
+
+ColourImage::ColourImage(const Path& path) : Image(path, read_file(path), PixelKind::colour) {}
+
+ColourImage::ColourImage(const ImageFile& file) : Image(file.name, file.bytes, PixelKind::colour) {}
+
+double Image::component(double u, double v, std::size_t index, ImageWrap wrap_u,
+                        ImageWrap wrap_v) const {
     // Where in units of pixels, from the centre of the upper left one.
-    const double x = (u - std::floor(u)) * static_cast<double>(width_) - 0.5;
-    const double y = (1 - (v - std::floor(v))) * static_cast<double>(height_) - 0.5;
+    const double x = folded(u, wrap_u) * static_cast<double>(width_) - 0.5;
+    const double y = (1 - folded(v, wrap_v)) * static_cast<double>(height_) - 0.5;
     const double left = std::floor(x), top = std::floor(y);
     const auto pixel = [&](double column, double row) {
-        const std::int64_t i = wrapped(row, height_) * width_ + wrapped(column, width_);
+        const std::int64_t i =
+            wrapped(row, height_, wrap_v) * width_ + wrapped(column, width_, wrap_u);
         return static_cast<double>(pixels_[static_cast<std::size_t>(i) * components_ + index]) /
                65535;
     };

@@ -4,19 +4,23 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "files/image_pixels.hpp"
+#include "geometry/material_colours.hpp"
 #include "program/path.hpp"
 
 namespace geodisk::tools {
 
 class Image {
   protected:
-    Image(const Path& path, PixelKind kind);
+    /// `bytes` are those of the file `name`, as messages call it.
+    Image(const Path& name, const std::string& bytes, PixelKind kind);
 
     /// Returns a component of the colour, see GreyImage::at().
-    double component(double u, double v, std::size_t index) const;
+    double component(double u, double v, std::size_t index, ImageWrap wrap_u = ImageWrap::repeat,
+                     ImageWrap wrap_v = ImageWrap::repeat) const;
 
   private:
     std::int64_t width_ = 0, height_ = 0;
@@ -28,7 +32,7 @@ class GreyImage : Image {
   public:
     /// Reads a PNG or JPEG file. Colours become their luminance, transparency does
     /// not matter. Throws UserError(bad_input) naming the file and the cause.
-    explicit GreyImage(const Path& path) : Image(path, PixelKind::grey) {}
+    explicit GreyImage(const Path& path);
 
     /// From 0 (black) to 1, bilinear between the centres of pixels. v = 0 is the lower edge; the
     /// image repeats in both directions. Both must be finite.
@@ -38,11 +42,16 @@ class GreyImage : Image {
 class ColourImage : Image {
   public:
     /// The same with colours.
-    explicit ColourImage(const Path& path) : Image(path, PixelKind::colour) {}
+    explicit ColourImage(const Path& path);
+    /// Decodes a file that has been read.
+    explicit ColourImage(const ImageFile& file);
 
-    /// Returns red, green and blue as GreyImage::at().
-    std::array<double, 3> at(double u, double v) const {
-        return {component(u, v, 0), component(u, v, 1), component(u, v, 2)};
+    /// Returns red, green and blue as GreyImage::at(), of an image that repeats, is mirrored at
+    /// its edges, or continues the colours there.
+    std::array<double, 3> at(double u, double v, ImageWrap wrap_u = ImageWrap::repeat,
+                             ImageWrap wrap_v = ImageWrap::repeat) const {
+        const auto value = [&](std::size_t i) { return component(u, v, i, wrap_u, wrap_v); };
+        return {value(0), value(1), value(2)};
     }
 };
 

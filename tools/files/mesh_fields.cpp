@@ -4,11 +4,13 @@
 #include <cctype>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <set>
 #include <span>
 #include <utility>
 
 #include "files/input_file.hpp"
+#include "files/material_fields.hpp"
 #include "files/part_columns.hpp"
 #include "files/polygon_mesh.hpp"
 #include "files/sample_columns.hpp"
@@ -137,13 +139,14 @@ class FieldTaker {
                names_.vertex_number(faces_.vertices[corner]);
     }
 
-    void take(MeshField& field) const {
+    /// Corners may lack values if `may_have_gaps`.
+    void take(MeshField& field, bool may_have_gaps = false) const {
         if (field.of == Of::corners && !mesh_.polygons.empty()) {
             split_corners(field);
         }
         for (std::size_t t = 0; t < mesh_.triangle_count(); ++t) {
             if (mesh_.takes_part(t)) {
-                check_triangle(field, t);
+                check_triangle(field, t, may_have_gaps);
             }
         }
     }
@@ -181,17 +184,23 @@ class FieldTaker {
     }
 
     static bool are_equal(const MeshField& field, std::size_t a, std::size_t b) {
+        if (a == MeshField::kNone || b == MeshField::kNone) {
+            return a == b;
+        }
         const std::size_t size = field.components.size();
         return std::ranges::equal(std::span(field.values).subspan(a * size, size),
                                   std::span(field.values).subspan(b * size, size));
     }
 
-    void check_triangle(const MeshField& field, std::size_t t) const {
+    void check_triangle(const MeshField& field, std::size_t t, bool may_have_gaps) const {
         const std::size_t size = field.components.size();
         for (std::size_t k = 3 * t; k < 3 * t + 3; ++k) {
             const std::size_t index = field.of == Of::vertices  ? mesh_.triangles[k]
                                       : field.of == Of::corners ? field.corners[k]
                                                                 : face_of(t);
+            if (may_have_gaps && index == MeshField::kNone) {
+                continue;
+            }
             if ((index + 1) * size > field.values.size()) {
                 fail_input(path_, "has " + counted(field.values.size() / size, "value", "values") +
                                       " of " + in_quotes(field.name) + ", but " +
@@ -252,6 +261,19 @@ MeshField texture_uvs(const Path& path, const PolygonMesh& polygons, const Field
     }
     MeshField uvs = *found;
     taker.take(uvs);
+    return uvs;
+}
+
+/// The texture coordinates of faces with materials; nothing if no face has any.
+std::optional<MeshField> material_uvs(PolygonMesh& polygons, const FieldTaker& taker) {
+    std::optional<MeshField> uvs = std::move(polygons.material_uvs);
+    const auto found = std::ranges::find(polygons.fields, kUvField, &MeshField::name);
+    if (!uvs && found != polygons.fields.end() && !found->corners.empty()) {
+        uvs = *found;
+    }
+    if (uvs) {
+        taker.take(*uvs, true);
+    }
     return uvs;
 }
 
@@ -348,6 +370,10 @@ void take_fields(const Path& path, const WantedFields& wanted, PolygonMesh& poly
     const FieldTaker taker(path, polygons, mesh);
     if (wanted.uvs) {
         mesh.texture_uvs = texture_uvs(path, polygons, taker);
+    }
+    if (wanted.materials) {
+        mesh.texture_uvs = material_uvs(polygons, taker);
+        take_materials(path, polygons, mesh);
     }
     Columns columns;
     for (MeshField& field : polygons.fields) {

@@ -13,12 +13,16 @@ namespace geodisk::tools {
 /// Names of attributes that several formats have.
 inline constexpr std::string_view kColourField = "color", kUvField = "uv";
 
+/// Stands for the materials of a mesh, in place of the name of an image.
+inline constexpr std::string_view kAutoTexture = "auto";
+
 /// The attributes of a mesh file to read.
 struct WantedFields {
     std::vector<std::string> names;
-    bool all = false;     ///< All that the file has.
-    bool normals = false; ///< The normals of the file too, which are no attribute.
-    bool uvs = false;     ///< Texture coordinates too, to look up a texture.
+    bool all = false;       ///< All that the file has.
+    bool normals = false;   ///< The normals of the file too, which are no attribute.
+    bool uvs = false;       ///< Texture coordinates too, to look up a texture.
+    bool materials = false; ///< Colours of materials too, with their images and coordinates.
 
     /// Returns true for what is to be read.
     bool has(std::string_view name) const;
@@ -27,7 +31,7 @@ struct WantedFields {
     /// Returns which of `names` means it, or their number for none.
     std::size_t place_of(std::string_view name) const;
     /// Returns true if any attribute is to be read; normals are none.
-    bool are_given() const { return all || uvs || !names.empty(); }
+    bool are_given() const { return all || uvs || materials || !names.empty(); }
 };
 
 /// Reads "all", or names with commas between; nothing for "". Throws UserError(usage) for an empty
@@ -46,7 +50,8 @@ void scale_colours(MeshField& colours);
 
 struct PolygonMesh;
 
-/// Moves the wanted attributes into `mesh`, whose faces are split already but not joined.
+/// Moves the wanted attributes into `mesh`, which has its parts, and whose faces are split already
+/// but not joined.
 /// Throws UserError(bad_input) for those that the file lacks or has for some corners only, values
 /// that are not finite, and names of other columns. With WantedFields::all, attributes of some
 /// corners only are left out, with a warning.

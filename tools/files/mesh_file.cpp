@@ -298,8 +298,8 @@ MeshFile to_triangles(const MeshSources& sources, PolygonMesh&& polygons) {
     }
     check_size(path, polygons);
     split_polygons(polygons, mesh);
-    take_fields(path, sources.fields, polygons, mesh);
     take_parts(polygons, mesh);
+    take_fields(path, sources.fields, polygons, mesh);
     take_properties(polygons, mesh);
     mesh.positions = std::move(polygons.positions);
     mesh.dimension = polygons.dimension;

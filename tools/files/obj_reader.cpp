@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "files/mtl_reader.hpp"
 #include "files/polygon_mesh.hpp"
 #include "files/text_file.hpp"
 #include "files/text_lines.hpp"
@@ -101,6 +102,16 @@ class ObjParts {
         return *current_;
     }
 
+    /// Returns the words behind the first one. Names may hold blanks.
+    static std::string rest_of(std::span<const std::string_view> words) {
+        if (words.size() < 2) {
+            return {};
+        }
+        const char* const begin = words[1].data();
+        const std::string_view last = words.back();
+        return {begin, last.data() + last.size()};
+    }
+
     /// Puts them into the mesh, if the file divides its faces at all.
     void give(PolygonMesh& mesh) {
         if (names_.materials.empty() && names_.groups.empty()) {
@@ -113,16 +124,6 @@ class ObjParts {
 
   private:
     using Numbers = std::map<std::string, std::uint32_t>;
-
-    /// Names may hold blanks.
-    static std::string rest_of(std::span<const std::string_view> words) {
-        if (words.size() < 2) {
-            return {};
-        }
-        const char* const begin = words[1].data();
-        const std::string_view last = words.back();
-        return {begin, last.data() + last.size()};
-    }
 
     static std::uint32_t number_of(Numbers& known, std::vector<std::string>& names,
                                    const std::string& name) {
@@ -148,8 +149,10 @@ class ObjReader {
   public:
     ObjReader(const Path& path, std::string_view bytes, bool has_uvs, const WantedFields& fields,
               const ReadingProgress& progress)
-        : path_(path), lines_(bytes, progress), has_uvs_(has_uvs || fields.has(kUvField)),
-          has_normals_(fields.normals), has_colours_(fields.has(kColourField)) {
+        : path_(path), lines_(bytes, progress),
+          has_uvs_(has_uvs || fields.materials || fields.has(kUvField)),
+          has_normals_(fields.normals), has_colours_(fields.has(kColourField)),
+          has_materials_(fields.materials) {
         mesh_.names.first_vertex = 1;
     }
 
@@ -169,6 +172,8 @@ class ObjReader {
                 add_uv();
             } else if (keyword == "vn") {
                 add_normal();
+            } else if (keyword == "mtllib") {
+                libraries_.push_back(ObjParts::rest_of(tokens_));
             } else {
                 parts_.take(tokens_);
             }
@@ -178,6 +183,9 @@ class ObjReader {
         warn_of_indices();
         give_fields();
         parts_.give(mesh_);
+        if (has_materials_ && !libraries_.empty()) {
+            mesh_.materials = read_mtl_files(path_, libraries_, used_materials(), mesh_.warnings);
+        }
         return std::move(mesh_);
     }
 
@@ -375,6 +383,17 @@ class ObjReader {
         }
     }
 
+    /// Returns the names of materials that faces use, by number.
+    std::vector<std::optional<std::string>> used_materials() const {
+        std::vector<std::optional<std::string>> names(mesh_.part_names.materials.size());
+        for (const MeshPart& part : mesh_.parts) {
+            if (part.material) {
+                names[*part.material] = mesh_.part_names.materials[*part.material];
+            }
+        }
+        return names;
+    }
+
     /// By corners, as some vertices may have no colour.
     void give_colours() {
         for (const std::uint32_t vertex : mesh_.corners) {
@@ -405,7 +424,7 @@ class ObjReader {
     std::string joined_; ///< A line that is continued.
     std::uint32_t line_ = 0;
     std::vector<std::string_view> tokens_;
-    bool has_uvs_, has_normals_, has_colours_; ///< What to read.
+    bool has_uvs_, has_normals_, has_colours_, has_materials_; ///< What to read.
     MeshField colours_ = make_colours(MeshField::Of::corners, 3);
     MeshField normals_ = make_field("normal", MeshField::Of::corners, 3);
     std::vector<std::uint32_t> vertex_colours_; ///< Index of each, or kNone.
@@ -413,6 +432,7 @@ class ObjReader {
     std::size_t uv_count_ = 0, normal_count_ = 0; ///< Records so far.
     PolygonMesh mesh_;
     ObjParts parts_;
+    std::vector<std::string> libraries_; ///< Texts behind `mtllib`.
     UnusedIndices unused_uvs_, unused_normals_;
 };
 

@@ -35,7 +35,10 @@ struct PolygonMesh {
     /// Attributes that the file has, with values where asked for. Texture coordinates are in
     /// `uvs` instead.
     std::vector<MeshField> fields;
-    std::optional<MeshField> normals; ///< Those of the file, where asked for and there.
+    std::optional<MeshField> normals;         ///< Those of the file, where asked for and there.
+    std::optional<MaterialColours> materials; ///< Where asked for and there.
+    /// Texture coordinates of each corner for its material, where they are not the field "uv".
+    std::optional<MeshField> material_uvs;
     ElementNames names;
     std::vector<MeshWarning> warnings;
 
@@ -55,10 +58,10 @@ inline void warn_of_final_nuls(PolygonMesh& mesh, std::uint64_t count) {
                 "NUL bytes after the last line ignored");
 }
 
-/// Reads the `v`, `f`, `usemtl`, `g`, `o` and, where asked for, `vt` and `vn` records of an OBJ
-/// file; everything else in it is ignored. Understands every line end, line continuation, a byte
-/// order mark, relative indices and faces of any size. Throws UserError(bad_input) naming the line,
-/// like the readers of other texts below.
+/// Reads the `v`, `f`, `usemtl`, `g`, `o` and, where asked for, `vt`, `vn` and `mtllib` records of
+/// an OBJ file, for the last with the MTL files that it names; everything else in it is ignored.
+/// Understands every line end, line continuation, a byte order mark, relative indices and faces of
+/// any size. Throws UserError(bad_input) naming the line, like the readers of other texts below.
 PolygonMesh read_obj(const Path& path, bool has_uvs, const WantedFields& fields,
                      const ReadingProgress& progress);
 
@@ -75,8 +78,8 @@ PolygonMesh read_off(const Path& path, const WantedFields& fields, const Reading
 /// and primitive after the other. Nodes place them, or joints and the default weights of morph
 /// targets, also several times as instances; a mirrored one is turned over. Primitives of a mesh
 /// with the same positions share vertices. Compressed ones are read as this build can. Buffers are
-/// read from the folder of the file alone, of materials just their names, images not at all. Throws
-/// UserError(bad_input) naming mesh and primitive.
+/// and images are read from the folder of the file alone, colours and images of materials only
+/// where asked for. Throws UserError(bad_input) naming mesh and primitive.
 PolygonMesh read_gltf(const Path& path, const WantedFields& fields);
 
 /// What to read of element `vertex`.

@@ -1,10 +1,12 @@
 #include "files/sample_fields.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <optional>
 
 #include "files/block_writer.hpp"
 #include "files/mesh_fields.hpp"
@@ -74,17 +76,25 @@ std::vector<SampleField> sample_fields(const MeshFile& mesh, std::span<const Sam
     return fields;
 }
 
-SampleField texture_colours(const MeshFile& mesh, const ColourImage& texture,
+SampleField texture_colours(const MeshFile& mesh, const Textures& textures,
                             std::span<const SampleRow> rows) {
     const MeshField like = make_colours(MeshField::Of::corners, 3);
     SampleField colours{like.name, like.components, false, true,
                         std::vector<double>(3 * rows.size())};
-    const MeshField& uvs = *mesh.texture_uvs;
     for_rows(rows.size(), [&](std::size_t i) {
-        double uv[2];
-        interpolate(mesh, uvs, rows[i], uv);
-        std::ranges::copy(texture.at(uv[0], uvs.is_from_top ? 1 - uv[1] : uv[1]),
-                          &colours.values[3 * i]);
+        const MaterialColour* const material = textures.material(mesh, rows[i].face);
+        if (material == nullptr) {
+            std::fill_n(&colours.values[3 * i], 3, 1.0);
+            return;
+        }
+        std::optional<std::array<double, 2>> place;
+        if (material->image && mesh.has_texture_uvs(rows[i].face)) {
+            double uv[2];
+            interpolate(mesh, *mesh.texture_uvs, rows[i], uv);
+            place = material->place(uv[0], uv[1]);
+            (*place)[1] = mesh.texture_uvs->is_from_top ? 1 - (*place)[1] : (*place)[1];
+        }
+        std::ranges::copy(textures.colour(*material, place), &colours.values[3 * i]);
     });
     return colours;
 }

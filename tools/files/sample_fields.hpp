@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "files/grey_image.hpp"
 #include "files/sample_file.hpp"
+#include "files/textures.hpp"
 #include "geometry/mesh.hpp"
 #include "geometry/vec.hpp"
 
@@ -15,8 +15,9 @@ namespace geodisk::tools {
 /// of the corner with the largest weight.
 std::vector<SampleField> sample_fields(const MeshFile& mesh, std::span<const SampleRow> rows);
 
-/// Returns the colours of a texture at `rows`, by MeshFile::texture_uvs.
-SampleField texture_colours(const MeshFile& mesh, const ColourImage& texture,
+/// Returns the colours of textures and materials at `rows`, by MeshFile::texture_uvs; white without
+/// material.
+SampleField texture_colours(const MeshFile& mesh, const Textures& textures,
                             std::span<const SampleRow> rows);
 
 /// Returns MeshFile::normals at a sample, not of unit length.

@@ -18,7 +18,7 @@ void check_record(const RecordOptions& options, const MeshInput& mesh) {
     }
     const bool has_colours = std::ranges::find(mesh.file.fields, kColourField, &MeshField::name) !=
                              mesh.file.fields.end();
-    if (mesh.texture && has_colours) {
+    if (mesh.textures && has_colours) {
         fail_usage("--texture and the attribute color are both the columns red, green and blue; "
                    "name the other attributes in place of all");
     }
@@ -40,8 +40,8 @@ void set_normals(const RecordOptions& options, const MeshInput& mesh, std::span<
 std::vector<SampleField> record_fields(const RecordOptions& options, const MeshInput& mesh,
                                        std::span<const SampleRow> rows, std::uint64_t seed) {
     std::vector<SampleField> fields = sample_fields(mesh.file, rows);
-    if (mesh.texture) {
-        fields.push_back(texture_colours(mesh.file, *mesh.texture, rows));
+    if (mesh.textures) {
+        fields.push_back(texture_colours(mesh.file, *mesh.textures, rows));
     }
     if (options.frames) {
         fields.push_back(sample_frames(rows, seed));

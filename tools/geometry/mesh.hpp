@@ -1,6 +1,7 @@
 // Triangle meshes as read from files or generated, before the library prepares them.
 #pragma once
 
+#include <algorithm>
 #include <compare>
 #include <cstddef>
 #include <cstdint>
@@ -9,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "geometry/material_colours.hpp"
 #include "geometry/mesh_warning.hpp"
 
 namespace geodisk::tools {
@@ -99,8 +101,10 @@ struct MeshFile {
     /// Attributes asked for, by vertices and triangles' corners of the file, and by its faces.
     std::vector<MeshField> fields;
     std::optional<MeshField> normals; ///< Those of the file, where asked for; not of unit length.
-    std::optional<MeshField> texture_uvs; ///< Texture coordinates, where a texture is looked up.
-    std::optional<WeldCounts> weld;       ///< Where vertices were joined.
+    /// Texture coordinates, where textures are looked up; with gaps if materials have them.
+    std::optional<MeshField> texture_uvs;
+    std::optional<MaterialColours> materials; ///< Where asked for.
+    std::optional<WeldCounts> weld;           ///< Where vertices were joined.
     /// Lowest vertex that each one is joined with. Empty where none are.
     std::vector<std::uint32_t> joined;
     /// Corners of triangles as the file has them, where vertices are joined. Else empty.
@@ -116,6 +120,20 @@ struct MeshFile {
     /// Its face, in the words of the file.
     std::string name_of_triangle(std::size_t triangle) const {
         return names.of_face(polygons.empty() ? triangle : polygons[triangle]);
+    }
+    /// Returns the colour of a triangle's material; null for a triangle without.
+    const MaterialColour* material_colour(std::size_t triangle) const {
+        const std::optional<std::uint32_t> number =
+            parts.empty() ? std::nullopt : parts[part_of_triangle[triangle]].material;
+        const bool is_known = materials && number && *number < materials->colours.size();
+        return is_known && materials->colours[*number] ? &*materials->colours[*number] : nullptr;
+    }
+    /// Returns true if all corners of a triangle have texture coordinates.
+    bool has_texture_uvs(std::size_t triangle) const {
+        return texture_uvs && (texture_uvs->of != MeshField::Of::corners ||
+                               std::none_of(&texture_uvs->corners[3 * triangle],
+                                            &texture_uvs->corners[3 * triangle] + 3,
+                                            [](std::uint32_t i) { return i == MeshField::kNone; }));
     }
     /// Whether the triangle names three vertices.
     bool takes_part(std::size_t triangle) const {

@@ -5,15 +5,15 @@
 #include <cstddef>
 #include <vector>
 
+#include "files/srgb_encoding.hpp"
+
 namespace geodisk::tools::picture {
 
 const std::array<float, 256>& light_of_srgb() {
     static const std::array<float, 256> kTable = [] {
         std::array<float, 256> light{};
         for (std::size_t i = 0; i < light.size(); ++i) {
-            const double c = static_cast<double>(i) / 255;
-            light[i] =
-                static_cast<float>(c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4));
+            light[i] = static_cast<float>(light_of(static_cast<double>(i) / 255));
         }
         return light;
     }();
@@ -27,10 +27,8 @@ std::uint8_t to_srgb(float light) {
         std::vector<std::uint8_t> codes;
         codes.reserve(kSteps);
         for (std::size_t i = 0; i < kSteps; ++i) {
-            const double amount = static_cast<double>(i) / (kSteps - 1);
-            const double c =
-                amount <= 0.0031308 ? 12.92 * amount : 1.055 * std::pow(amount, 1 / 2.4) - 0.055;
-            codes.push_back(static_cast<std::uint8_t>(std::lround(c * 255)));
+            const double encoded = encoded_light(static_cast<double>(i) / (kSteps - 1));
+            codes.push_back(static_cast<std::uint8_t>(std::lround(encoded * 255)));
         }
         return codes;
     }();

@@ -66,7 +66,7 @@ struct Transfer {
 MeshOptions target_mesh(const TransferOptions& options) {
     MeshOptions mesh = options.to;
     mesh.fields = options.out.record.fields();
-    mesh.texture = options.out.record.texture;
+    mesh.texture = options.out.record.image();
     return mesh;
 }
 

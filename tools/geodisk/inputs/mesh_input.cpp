@@ -149,8 +149,11 @@ MeshInput load_silently(const MeshOptions& options, ProgressLine& progress,
     MeshInput mesh{std::move(file),      std::move(prepared), std::move(radii),
                    std::move(face_mask), distance_part,       {},
                    load_seconds,         watch.seconds()};
-    if (!options.texture.empty()) {
-        mesh.texture.emplace(options.texture);
+    if (mesh.file.materials) {
+        mesh.textures.emplace(*mesh.file.materials);
+        mesh.file.materials->images = {}; // Which are decoded now.
+    } else if (!options.texture.empty()) {
+        mesh.textures.emplace(options.texture);
     }
     collect_warnings(path, mesh, lift_attributes(lifts).size() < lifts.size());
     mesh.warnings.insert(mesh.warnings.end(), density_warnings.begin(), density_warnings.end());

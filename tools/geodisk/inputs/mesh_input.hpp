@@ -13,8 +13,8 @@
 #include <geodisk/radius_field.hpp>
 #include <geodisk/sample.hpp>
 
-#include "files/grey_image.hpp"
 #include "files/sample_file.hpp"
+#include "files/textures.hpp"
 #include "geodisk/options/density_options.hpp"
 #include "geodisk/options/mask_options.hpp"
 #include "geodisk/options/mesh_options.hpp"
@@ -41,7 +41,7 @@ struct MeshInput {
     std::vector<MeshWarning> warnings; ///< For the user.
     double load_seconds = 0;
     double prepare_seconds = 0;
-    std::optional<ColourImage> texture = std::nullopt; ///< Whose colours samples get.
+    std::optional<Textures> textures = std::nullopt; ///< Whose colours samples get.
 
     /// Coordinates of a sample: those of the file, 0 for a mesh of edge lengths without any.
     std::uint32_t dimension() const { return file.positions.empty() ? 0 : file.dimension; }

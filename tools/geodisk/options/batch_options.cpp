@@ -139,11 +139,13 @@ LineOptions parse_line(const SampleOptions& common, const std::vector<std::strin
     sample.mesh.mesh = seen_from(folder, sample.mesh.mesh);
     for (const auto& [path, given] :
          {std::pair{&sample.mesh.coordinates, &alone.sample.mesh.coordinates},
-          {&sample.mesh.edge_lengths, &alone.sample.mesh.edge_lengths},
-          {&sample.out.record.texture, &alone.sample.out.record.texture}}) {
+          {&sample.mesh.edge_lengths, &alone.sample.mesh.edge_lengths}}) {
         if (!given->empty()) {
             *path = seen_from(folder, *given);
         }
+    }
+    if (const std::string image = alone.sample.out.record.image(); !image.empty()) {
+        sample.out.record.texture = seen_from(folder, image);
     }
     if (!alone.sample.density.given().empty()) {
         sample.density.place_files(

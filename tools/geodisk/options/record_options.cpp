@@ -30,8 +30,9 @@ NormalKind RecordOptions::normal_kind() const {
 WantedFields RecordOptions::fields() const {
     WantedFields fields = parse_fields(attributes);
     fields.normals = normal_kind() == NormalKind::file;
-    fields.uvs = !texture.empty();
-    if (fields.uvs && fields.lists(kColourField) && !fields.all) {
+    fields.uvs = !image().empty();
+    fields.materials = texture == kAutoTexture;
+    if (!texture.empty() && fields.lists(kColourField) && !fields.all) {
         fail_usage("--texture and the attribute color are both the columns red, green and blue; "
                    "give one of them");
     }
@@ -76,7 +77,8 @@ void add_record_options(Command command, RecordOptions& options, const std::stri
                            "them. Integers are those of the corner with the most weight");
     command.add_option("--texture", options.texture, "IMAGE",
                        "Add the colour of a PNG or JPEG image at the texture coordinates\n"
-                       "of each sample");
+                       "of each sample; auto: that of the materials of a glTF or OBJ file\n"
+                       "and their images");
     command
         .add_option("--normals", options.normals, "NAME",
                     "face: normals of triangles; file: those of the file, as\n"

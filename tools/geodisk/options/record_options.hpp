@@ -18,12 +18,14 @@ enum class NormalKind : std::uint8_t { face, file, smooth };
 /// As given on the command line.
 struct RecordOptions {
     std::string attributes; ///< As parse_fields() reads them.
-    std::string texture;    ///< Image, or "".
+    std::string texture;    ///< Image, kAutoTexture, or "".
     std::string normals = "face";
     bool frames = false;
 
     /// Throws UserError(usage) for another word.
     NormalKind normal_kind() const;
+    /// Returns the image; "" for none, and for the materials of the mesh.
+    std::string image() const { return texture == kAutoTexture ? "" : texture; }
     /// Returns what to read of the mesh. Throws UserError(usage) as parse_fields().
     WantedFields fields() const;
     /// Throws UserError(usage) if the format holds no such columns.

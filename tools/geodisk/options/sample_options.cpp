@@ -173,7 +173,7 @@ SampleJob parse_job(const SampleOptions& options) {
         check_columns(job.out.target(), job.columns);
     }
     job.mesh.fields = options.out.record.fields();
-    job.mesh.texture = options.out.record.texture;
+    job.mesh.texture = options.out.record.image();
     if (!job.out.output.empty() && !job.out.record.entries().empty()) {
         job.out.record.check(job.out.target());
     }

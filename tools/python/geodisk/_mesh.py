@@ -136,7 +136,8 @@ class Mesh:
                     columns=columns,
                     mesh_format=mesh_format,
                     has_normals=_record.normals == "file",
-                    has_uvs=_record.texture is not None,
+                    has_uvs=_record.texture is not None and not _record.has_materials(),
+                    has_materials=_record.has_materials(),
                 )
             )
             surface = _surface_of(source, source.vertices, keep_seams)

@@ -24,13 +24,16 @@ if TYPE_CHECKING:
     from ._samples import Samples
 
 
+_AUTO = "auto"
+
+
 class Record:
     """What to add.
 
     Attributes
     ----------
     texture : str or None
-        Path of an image.
+        Path of an image, or "auto" for the materials of the mesh.
     normals : {"face", "file", "smooth"}
     frames : bool
     """
@@ -39,6 +42,8 @@ class Record:
         self, texture: str | os.PathLike[str] | None, normals: str, frames: bool
     ) -> None:
         self.texture = None if texture is None else path_of(texture, "texture")
+        if self.texture == _AUTO and not isinstance(texture, str):
+            self.texture = os.path.join(os.curdir, _AUTO)  # A path means a file of that name.
         self.normals = choice(normals, "normals", s.NORMALS)
         self.frames = flag(frames, "frames")
 
@@ -55,6 +60,10 @@ class Record:
             raise e.invalid("texture, normals and frames need a mesh with 3 coordinates per vertex")
         if self.texture is not None and "color" in surface.attributes:
             raise e.invalid("the texture and the attribute color are both attributes['color']")
+
+    def has_materials(self) -> bool:
+        """Returns True for the colours of the materials of the mesh."""
+        return self.texture == _AUTO
 
     def is_nothing(self) -> bool:
         return self.texture is None and self.normals == "face" and not self.frames

@@ -144,7 +144,8 @@ def sample(
         Parameters of :class:`Mesh`.
     texture : str or path-like, optional
         PNG or JPEG image whose colours to add, as ``attributes["color"]``, at the texture
-        coordinates that the mesh file has.
+        coordinates that the mesh file has. "auto" adds those of the materials of a glTF or OBJ
+        file and their images. Colours are from 0 to 1, as sRGB encodes them.
     normals : {"face", "file", "smooth"}
         Normals of triangles, those of the mesh file, or interpolated means at vertices.
     frames : bool

@@ -63,6 +63,7 @@ def read_file(
     mesh_format: str | None,
     has_normals: bool = False,
     has_uvs: bool = False,
+    has_materials: bool = False,
 ) -> Source:
     """Reads a mesh file with the readers of the program.
 
@@ -88,6 +89,7 @@ def read_file(
         mesh_format=None if mesh_format is None else mesh_format.encode(),
         has_normals=has_normals,
         has_uvs=has_uvs,
+        has_materials=has_materials,
     )
     return _read(params, stop, weld, keep_seams, joined.split(",") if joined else ())
 

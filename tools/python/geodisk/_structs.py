@@ -304,6 +304,7 @@ class SourceParams(_Sized):
         ("columns", c_char_p),
         ("has_normals", c_int32),
         ("has_uvs", c_int32),
+        ("has_materials", c_int32),
     ]
 
 

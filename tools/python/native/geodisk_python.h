@@ -37,6 +37,7 @@ typedef struct geodisk_source_params {
     const char *columns;       /* Columns of triangles to read: "mesh,primitive". May be NULL. */
     int32_t has_normals;       /* Not 0 to read the file's normals, for geodisk_source_record(). */
     int32_t has_uvs;           /* Not 0 to read texture coordinates, for a texture. */
+    int32_t has_materials;     /* Not 0 to read materials, for the texture "auto". */
 } geodisk_source_params;
 
 /* Reads a mesh. Fails with GEODISK_MESH_REJECTED for a file that cannot be read or used. */
@@ -96,15 +97,15 @@ typedef struct geodisk_record_params {
     const double *weights; /* Three for each sample. */
     size_t count;
     geodisk_normal_kind normal_kind;
-    const char *texture;   /* Image whose colours to look up, or NULL. */
+    const char *texture;   /* Image whose colours to look up, "auto" for materials, or NULL. */
     uint64_t seed;         /* Of the angles of frames. */
     double *normals;       /* In: those of the triangles, three for each sample. Out: those asked for. */
     double *colours;       /* Out: red, green and blue of the texture. */
     double *frames;        /* Out: quaternions x y z w, or NULL. */
 } geodisk_record_params;
 
-/* Fails with GEODISK_INVALID_ARGUMENT for a damaged image, and for normals or texture coordinates that
- * were not read. */
+/* Fails with GEODISK_INVALID_ARGUMENT for a damaged image, and for normals, texture coordinates or
+ * materials that were not read. */
 GEODISK_C_API geodisk_status geodisk_source_record(const geodisk_source *source,
                                                    const geodisk_record_params *params,
                                                    geodisk_error *error);

@@ -5,9 +5,10 @@
 #include <vector>
 
 #include "c/c_call.hpp"
-#include "files/grey_image.hpp"
+#include "files/mesh_fields.hpp"
 #include "files/sample_fields.hpp"
 #include "files/sample_records.hpp"
+#include "files/textures.hpp"
 #include "program/failure.hpp"
 #include "source.hpp"
 
@@ -29,13 +30,22 @@ std::vector<SampleRow> rows_of(const geodisk_record_params& params) {
     return rows;
 }
 
+bool has_materials(const geodisk_record_params& params) {
+    return params.texture == kAutoTexture;
+}
+
+/// Returns true if what the texture needs was read.
+bool has_colours(const MeshFile& mesh, const geodisk_record_params& params) {
+    return has_materials(params) ? mesh.materials.has_value() : mesh.texture_uvs && !mesh.materials;
+}
+
 /// Fails for what the mesh lacks, before it is looked up.
 Result<Done> check(const MeshFile& mesh, const geodisk_record_params& params) {
     if (params.normal_kind == GEODISK_FILE_NORMALS && !mesh.normals) {
         return wrong("the normals of the file were not read");
     }
-    if (params.texture != nullptr && (params.colours == nullptr || !mesh.texture_uvs)) {
-        return wrong("a texture needs texture coordinates, and room for colours");
+    if (params.texture != nullptr && (params.colours == nullptr || !has_colours(mesh, params))) {
+        return wrong("a texture needs texture coordinates or materials, and room for colours");
     }
     const bool is_in_mesh = std::ranges::all_of(std::span(params.faces, params.count),
                                                 [&](auto f) { return f < mesh.triangle_count(); });
@@ -55,8 +65,9 @@ void record(const MeshFile& mesh, const geodisk_record_params& params) {
         }
     }
     if (params.texture != nullptr) {
-        const ColourImage texture{params.texture};
-        std::ranges::copy(texture_colours(mesh, texture, rows).values, params.colours);
+        const Textures textures =
+            has_materials(params) ? Textures(*mesh.materials) : Textures(Path(params.texture));
+        std::ranges::copy(texture_colours(mesh, textures, rows).values, params.colours);
     }
     if (params.frames != nullptr) {
         std::ranges::copy(sample_frames(rows, params.seed).values, params.frames);
