@@ -7,8 +7,6 @@
 #include "operation.glsl"
 #include "recorded.glsl"
 
-uint own_place;
-
 const bool kScans = true;
 
 bool scanning() { return false; }

@@ -15,6 +15,8 @@ uint cell_word;
 
 layout(constant_id = kSpecAvoids) const bool kAvoids = false;
 
+uint own_place; // of the candidate whose disk this is, kNoPlace for a settled sample
+
 // If radii vary, the radius of the candidate whose disk this is; with classes the largest distance of its
 // class. For a point to avoid minus its radius.
 float own_radius;

@@ -21,6 +21,21 @@ uint arrival_of_path(Meeting m, float distance) {
     return arrival_from(inside ? lane.x : along, inside ? lane.y : across, blur);
 }
 
+layout(constant_id = kSpecBounded) const bool kBounded = false;
+
+// Returns the distance of a vertex from which on another settled sample is nearer, and so to all behind it:
+// kFar if none is known to be. Paths that long end, with room for rounding.
+float bound_of(uint vertex) {
+    if (!kBounded) {
+        return kFar;
+    }
+    bool is_bounded = (job.path_rules & kRuleBounded) != 0u && own_place == kNoPlace && !keeps_out();
+    uint row = is_bounded ? after_fans() + (vertex >> 2) : 0u;
+    float bound = uintBitsToFloat(row_at(fans, row)[vertex & 3u]);
+    precise float end = bound + 2.0 * margin;
+    return is_bounded ? end : kFar;
+}
+
 // Ends the paths in flight at vertices: those of a window at the apex, others at the ends of the edge.
 // Vertices where shortest paths may bend become events. Returns the known distances of start, end and
 // apex; `source_square` is the squared distance of the candidate from the start.
@@ -38,7 +53,7 @@ vec3 reach_vertices(inout Meeting m, float source_square) {
                          : i == 1u ? (from_vertex ? end_distance : kFar)
                                    : (m.sees_apex ? m.distance : kFar);
         VertexRow row = find_vertex(vertex);
-        float best = row.distance;
+        float best = min(row.distance, bound_of(vertex));
         if (i == 2u) {
             split_once(m, row.found && row.through == lane.half_edge, row.distance, row.crossing);
         }

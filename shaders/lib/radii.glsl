@@ -10,11 +10,15 @@
 
 layout(constant_id = kSpecAdaptive) const bool kAdaptive = false;
 
-// Returns a row of RadiiRec; they come after vertices, corners and angles.
-vec4 radii_row(uint face, uint row) {
+// Returns the first row after vertices, corners and angles: of radii, or of bounds if radii do not vary.
+uint after_fans() {
     uint corners = 3u * job.faces;
-    uint first = job.vertices + ((corners + 1u) >> 1) + ((corners + 3u) >> 2);
-    return uintBitsToFloat(row_at(fans, first + kRadiiRows * face + row));
+    return job.vertices + ((corners + 1u) >> 1) + ((corners + 3u) >> 2);
+}
+
+// Returns a row of RadiiRec.
+vec4 radii_row(uint face, uint row) {
+    return uintBitsToFloat(row_at(fans, after_fans() + kRadiiRows * face + row));
 }
 
 // Returns, for a face, the radii of its corners, or their packing (negative), and how far disks reach

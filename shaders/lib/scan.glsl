@@ -9,8 +9,6 @@
 #include "many_rows.glsl"
 #include "strip.glsl"
 
-uint own_place;
-
 #ifndef GEODISK_REACH
 uint weight_word(uint at) { return word_at(weights, at); }
 #endif

@@ -61,6 +61,8 @@ GEODISK_CONST uint kEndless = 0xffffffffu;
 GEODISK_CONST uint kRuleSplitsOnce = 1u;
 // Within a face no path is shorter than the straight one, see turns_back() there.
 GEODISK_CONST uint kRuleStraightFaces = 2u;
+// Another settled sample is as near to each vertex as its bound, see bound_of() there.
+GEODISK_CONST uint kRuleBounded = 4u;
 // Number of crossed edges, a power of two, from which a window remembers a face, see turns_back() there. It
 // is more than in disks of real meshes, and too small to widen the guard.
 GEODISK_CONST uint kFirstRemembered = 128u;
@@ -284,6 +286,7 @@ GEODISK_CONST uint kSpecLanesApart = 12u; // pool blocks of one lane
 GEODISK_CONST uint kSpecAvoids = 15u; // points to avoid have disks
 GEODISK_CONST uint kSpecClasses = 16u; // candidates have classes
 GEODISK_CONST uint kSpecPoints = 17u;  // disks tell which candidates they reach, else which vertices
+GEODISK_CONST uint kSpecBounded = 18u; // vertices may have bounds where disks of settled samples end
 GEODISK_CONST uint kSpecGroupLanes = 14u; // local size of group_detect: lanes that compute one disk
 
 // Candidates per work group of kernels over candidates: lanes, and candidates per lane.

@@ -260,6 +260,34 @@ TEST_SUITE("given") {
         CHECK(all.size() > before + 100);
     }
 
+    TEST_CASE("given samples far closer than the distance reject as if each had a whole disk") {
+        const PreparedMesh mesh = prepared(knot());
+        SampleParams params = params_for(mesh, 60);
+        // On half of the knot: others have room there is, and the border crosses faces.
+        std::vector<Sample> dense = sample(mesh, params_for(mesh, 1'200, 7)).samples;
+        std::erase_if(dense, [&](const Sample& s) { return s.face > mesh.face_count() / 2; });
+        REQUIRE(dense.size() > 400);
+        check_as_twin(mesh, params, dense);
+        params.given = dense;
+        const SampleSet set = sample(mesh, params);
+        RunnerOptions groups;
+        groups.plan.disks_by = DisksBy::groups;
+        CHECK(points_of(sample(mesh, params, groups)) == points_of(set));
+        // Points to avoid have whole disks.
+        std::vector<KeepOut> avoid;
+        for (const Sample& s : dense) {
+            avoid.push_back({s, params.min_distance});
+        }
+        params.given = {};
+        params.avoid = avoid;
+        const SampleSet others = sample(mesh, params);
+        const Points all = points_of(set);
+        const auto first_new = all.begin() + static_cast<std::ptrdiff_t>(set.given);
+        CHECK(Points(first_new, all.end()) == points_of(others));
+        CHECK(set.report.disks == others.report.disks);
+        CHECK(set.report.windows < others.report.windows / 2);
+    }
+
     TEST_CASE("points are avoided by radii smaller and larger than the distance") {
         const PreparedMesh mesh = prepared(knot());
         const RadiusField radii = radius_field(mesh, wavy_factors(knot(), 0.3));

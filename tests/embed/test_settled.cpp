@@ -187,6 +187,22 @@ TEST_SUITE("settled") {
         CHECK(narrow.control().longest_chain > 0);
     }
 
+    TEST_CASE("samples settled in place of many given ones have disks of their own") {
+        const PreparedMesh mesh = prepared(knot());
+        SampleParams params = params_for(mesh, 60);
+        const Records few = sparse_samples(mesh, 20);
+        DeviceRun plain(mesh, params);
+        const Records expected = run_with(plain, few);
+        const std::vector<Sample> many = sample(mesh, params_for(mesh, 1'000, 7)).samples;
+        params.given = many;
+        RunPlan plan;
+        plan.sample_capacity = 4'000;
+        DeviceRun run(mesh, params, plan);
+        const Records all = run_with(run, few);
+        REQUIRE(all.size() == expected.size());
+        CHECK(std::equal(all.begin(), all.end(), expected.begin(), same));
+    }
+
     TEST_CASE("settled samples that cannot be are refused, by their number") {
         const PreparedMesh mesh = prepared(knot());
         DeviceRun run(mesh, params_for(mesh, 100));

@@ -11,8 +11,10 @@
 #include <vector>
 
 #include <geodisk/farthest.hpp>
+#include <geodisk/neighbours.hpp>
 
 #include "device_run.hpp"
+#include "engine/domain/vertex_bounds.hpp"
 #include "support/geodesic_query.hpp"
 #include "support/meshes.hpp"
 
@@ -205,6 +207,55 @@ TEST_SUITE("farthest") {
         CHECK(last > 20);
         const Error error = refusal(mesh, samples, 0, [](const Progress&) { return false; });
         CHECK(error.status == Status::cancelled);
+    }
+
+    TEST_CASE("vertices are no farther than their bounds, and not much nearer") {
+        const PreparedMesh meshes[] = {
+            prepared(builtin("torus-knot", 8)), prepared(builtin("plate", 4)),
+            prepared(twice(builtin("icosphere", 2), 3)), prepared(tetrahedra(2, 0.2))};
+        for (const PreparedMesh& mesh : meshes) {
+            const double size = 4 * std::sqrt(mesh.statistics().area);
+            std::vector<Sample> points = samples_on(mesh, 5, 40);
+            std::erase_if(points, [](const Sample& s) { return s.face % 3 == 0; });
+            std::vector<float> distances(points.size());
+            for (std::size_t i = 0; i < points.size(); ++i) {
+                distances[i] = 0.01f * static_cast<float>(size) * static_cast<float>(i % 5);
+            }
+            NeighbourQuery query;
+            query.sources = points;
+            query.within = size;
+            const Neighbours found = expect(find_neighbours(shared_runner(), mesh, query));
+            std::vector<double> least(mesh.vertex_count(), kInfinite);
+            for (std::size_t i = 0; i < points.size(); ++i) {
+                for (std::size_t at = found.offsets[i]; at < found.offsets[i + 1]; ++at) {
+                    double& own = least[found.indices[at]];
+                    own = std::min(own, double{distances[i]} + double{found.distances[at]});
+                }
+            }
+            const std::vector<double> bounds = vertex_bounds(mesh, points, distances);
+            REQUIRE(bounds.size() == least.size());
+            double most = 0;
+            for (std::size_t v = 0; v < bounds.size(); ++v) {
+                REQUIRE(std::isinf(bounds[v]) == std::isinf(least[v]));
+                if (!std::isinf(least[v])) {
+                    CHECK(bounds[v] >= least[v] - found.error);
+                    most = std::max(most, bounds[v] - least[v]);
+                }
+            }
+            CHECK(most < 0.1 * size);
+        }
+    }
+
+    TEST_CASE("disks end where samples before are nearer") {
+        const PreparedMesh mesh = prepared(builtin("icosphere", 5));
+        const std::vector<Sample> samples = samples_on(mesh, 5, 200);
+        NeighbourQuery query;
+        query.sources = std::span(samples).first(1);
+        query.within = 4;
+        const auto whole = expect(find_neighbours(shared_runner(), mesh, query)).report.windows;
+        const FarthestOrder order = ordered(mesh, samples);
+        CHECK(order.report.windows < 6 * whole);
+        CHECK(order.report.disks == samples.size());
     }
 
     TEST_CASE("what is no sample is refused") {

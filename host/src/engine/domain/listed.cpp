@@ -144,7 +144,8 @@ Result<Domain> SurfaceDomain::listed(const PreparedMesh& mesh, const SampleParam
 Result<Domain> SurfaceDomain::recording(const PreparedMesh& mesh, const SampleParams& params,
                                         const JobFrame& frame, Ending ending,
                                         std::span<const ListedCandidate> targets,
-                                        std::uint32_t most_records) {
+                                        std::uint32_t most_records,
+                                        std::span<const double> bounds) {
     // A job needs a candidate. No candidate is ever decided.
     const ListedCandidate candidate{0, 0, 0};
     const auto candidates = targets.empty() ? std::span(&candidate, 1) : targets;
@@ -167,6 +168,9 @@ Result<Domain> SurfaceDomain::recording(const PreparedMesh& mesh, const SamplePa
     const std::size_t bytes = ending == Ending::light ? sizeof(gpu::LitRec) : sizeof(gpu::HitRec);
     made->record_bytes_ = words.size() * sizeof words[0] + std::uint64_t{most_records} * bytes;
     made->samples = std::max<double>(1, static_cast<double>(made->settled.size()));
+    if (!bounds.empty()) {
+        made->set_bounds(bounds);
+    }
     return Domain::Impl::wrap(std::move(made));
 }
 

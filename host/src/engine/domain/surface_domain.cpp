@@ -13,6 +13,7 @@
 #include "engine/domain/face_mask.hpp"
 #include "engine/domain/given.hpp"
 #include "engine/domain/stages.hpp"
+#include "engine/domain/vertex_bounds.hpp"
 #include "records.h"
 #include "support/guard.hpp"
 #include "support/invalid.hpp"
@@ -32,6 +33,14 @@ constexpr double kVeryLargeCost = 0.9;
 // Conflicts to provide for, per candidate that a full surface has for each sample.
 constexpr double kListPerCrowd = 8;
 constexpr double kLeastList = 8;
+
+// Given samples per sample that a full surface holds, from which on their disks overlap so much
+// that bounds pay.
+constexpr double kCrowdedGiven = 4;
+// Paths end at vertices that are this much farther than their bound, in units of the frame: more
+// than rounding does to distances. Bounds are not above the most, far beyond any disk.
+constexpr double kBoundMargin = 0.002;
+constexpr double kMostBound = 1e30;
 
 // Of several surfaces, as of one.
 constexpr std::uint64_t kMostHalfEdges = std::uint64_t{1} << 30;
@@ -190,8 +199,9 @@ SurfaceDomain::make(std::vector<PlacedSurface> surfaces) {
     if (!cells) {
         return cells.error();
     }
-    return std::unique_ptr<const Impl>(
-        std::make_unique<SurfaceDomain>(std::move(surfaces), std::move(*cells)));
+    auto made = std::make_unique<SurfaceDomain>(std::move(surfaces), std::move(*cells));
+    made->bound_given();
+    return std::unique_ptr<const Impl>(std::move(made));
 }
 
 Result<Domain> SurfaceDomain::plain(const PreparedMesh& mesh, const SampleParams& params,
@@ -248,6 +258,26 @@ SurfaceDomain::SurfaceDomain(std::vector<PlacedSurface> surfaces, FaceCells cell
     bytes_per_candidate = 16;
 }
 
+void SurfaceDomain::set_bounds(std::span<const double> bounds) {
+    const double unit = surfaces_[0].frame.unit;
+    bounds_.assign((bounds.size() + 3) / 4 * 4, 0); // Whole rows.
+    std::ranges::transform(bounds, bounds_.begin(), [unit](double bound) {
+        return static_cast<float>(std::min(bound / unit + kBoundMargin, kMostBound));
+    });
+    kernels.bounded = true;
+}
+
+void SurfaceDomain::bound_given() {
+    const std::span<const Sample> given = surfaces_[0].params.given;
+    // With radii or distances that differ, a sample that is farther may reject what a nearer one
+    // does not.
+    if (kernels.several || kernels.adaptive || kernels.classes || maximal ||
+        static_cast<double>(given.size()) < kCrowdedGiven * whole_) {
+        return;
+    }
+    set_bounds(vertex_bounds(*surfaces_[0].mesh, given, std::vector<float>(given.size())));
+}
+
 std::uint64_t SurfaceDomain::most_candidates(const DeviceLimits& limits, std::uint32_t) const {
     return limits.max_storage_buffer_range / (2 * sizeof(std::uint32_t)); // Two weights each.
 }
@@ -256,7 +286,8 @@ void SurfaceDomain::plan_disks(RunPlan& plan, std::uint32_t candidates,
                                const DeviceReport& report) const {
     const double faces = faces_per_disk();
     const bool cpu = report.type == VK_PHYSICAL_DEVICE_TYPE_CPU;
-    const bool may_group = plan.disks_by != DisksBy::lanes && !kernels.records();
+    const bool may_group =
+        plan.disks_by != DisksBy::lanes && !kernels.records() && !kernels.bounded;
     if (may_group && suits_groups(faces, plan.slots, report)) {
         plan.disks_by = DisksBy::groups;
         plan.pool_block = 1;
@@ -330,8 +361,9 @@ void SurfaceDomain::set_constants(gpu::JobRec& job, const RunPlan& plan) const {
     job.base_error = static_cast<float>(error.error_of(0));
     const auto has_keys = [](const PlacedSurface& s) { return !s.params.face_keys.empty(); };
     job.has_keys = std::all_of(surfaces_.begin(), surfaces_.end(), has_keys) ? 1 : 0;
-    job.first_key_row =
-        static_cast<std::uint32_t>((fan_bytes(surfaces_) + radii_bytes(surfaces_)) / kRowBytes);
+    job.first_key_row = static_cast<std::uint32_t>(
+        (fan_bytes(surfaces_) + radii_bytes(surfaces_) + std::span(bounds_).size_bytes()) /
+        kRowBytes);
     job.first_mask_row =
         mask_bytes(surfaces_) == 0
             ? 0
@@ -345,6 +377,7 @@ void SurfaceDomain::set_constants(gpu::JobRec& job, const RunPlan& plan) const {
         job.path_rules &= (surface.frame.splits_once ? ~0u : ~gpu::kRuleSplitsOnce) &
                           (surface.frame.straight_faces ? ~0u : ~gpu::kRuleStraightFaces);
     }
+    job.path_rules |= kernels.bounded ? gpu::kRuleBounded : 0;
 }
 
 std::size_t SurfaceDomain::upload_size(BufferRole role) const {
@@ -352,8 +385,8 @@ std::size_t SurfaceDomain::upload_size(BufferRole role) const {
     case BufferRole::faces:
         return half_edge_bytes(surfaces_) + length_bytes(surfaces_);
     case BufferRole::fans:
-        return fan_bytes(surfaces_) + radii_bytes(surfaces_) + key_bytes(surfaces_) +
-               mask_bytes(surfaces_) + class_bytes(surfaces_[0].params);
+        return fan_bytes(surfaces_) + radii_bytes(surfaces_) + std::span(bounds_).size_bytes() +
+               key_bytes(surfaces_) + mask_bytes(surfaces_) + class_bytes(surfaces_[0].params);
     case BufferRole::samples:
         return settled.size() * sizeof settled[0];
     default:
@@ -398,6 +431,9 @@ Result<UploadParts> SurfaceDomain::upload_parts(const RunPlan&, BufferRole role)
             if (auto added = add_radii(surfaces_, parts); !added) {
                 return added.error();
             }
+        }
+        if (!bounds_.empty()) {
+            parts.push_back(upload_part(std::span(bounds_)));
         }
         add_keys(surfaces_, parts);
         add_mask(surfaces_, parts);

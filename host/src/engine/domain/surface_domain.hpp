@@ -25,11 +25,12 @@ class SurfaceDomain : public Domain::Impl {
 
     /// Makes the domain of the given samples and points to avoid of `params`, whose disks record
     /// what `ending` says, at most so many times. To record what they reach is for these targets,
-    /// or without any for vertices.
+    /// or without any for vertices. `bounds` as for set_bounds(), if there are any.
     static Result<Domain> recording(const PreparedMesh& mesh, const SampleParams& params,
                                     const JobFrame& frame, Ending ending,
                                     std::span<const ListedCandidate> targets,
-                                    std::uint32_t most_records);
+                                    std::uint32_t most_records,
+                                    std::span<const double> bounds = {});
     /// Makes the domain of a surface whose parameters are checked.
     static Result<Domain> plain(const PreparedMesh& mesh, const SampleParams& params,
                                 const JobFrame& frame);
@@ -54,6 +55,12 @@ class SurfaceDomain : public Domain::Impl {
     double guard_for(double error_bound) const override { return error.guard_for(error_bound); }
 
   private:
+    /// Ends the disks of given samples at vertices that are farther than this, in mesh units: only
+    /// where something else is nearer, whatever is behind. For one surface whose radii do not vary.
+    void set_bounds(std::span<const double> bounds);
+    /// Sets those by which the disks of given samples, if they overlap a lot, end where another of
+    /// them is nearer.
+    void bound_given();
     /// Returns what the host gives of a buffer of candidates.
     std::span<const std::uint32_t> listed_words(BufferRole role) const;
     double faces_per_disk() const { return 2.0 * face_count(surfaces_) / whole_; }
@@ -62,6 +69,7 @@ class SurfaceDomain : public Domain::Impl {
     double first_error_ = 0;
     FaceCells cells_;
     std::uint64_t record_bytes_ = 0; ///< Of recording(): the head, weights and records.
+    std::vector<float> bounds_;      ///< In units of the frame, whole rows.
     ListedBuffers listed_;           ///< Empty unless the host gives the candidates.
     double full_ = 0;                ///< Samples that full surfaces hold, at least two each.
     double whole_ = 0; ///< The same without masks: no disk covers more than all faces.

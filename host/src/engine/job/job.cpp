@@ -220,6 +220,8 @@ Result<Done> Job::set_settled(std::span<const gpu::SampleRec> samples) noexcept 
             impl_->constants.stop_count -= impl_->avoided;
         }
         impl_->avoided = 0;
+        // Bounds are those of the samples before.
+        impl_->constants.path_rules &= ~gpu::kRuleBounded;
         impl_->begin_first_stages();
         return Done{};
     });

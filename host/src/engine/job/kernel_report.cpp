@@ -42,7 +42,8 @@ std::string text_of(const KernelVariant& variant) {
         return surfaces + (variant.many_rows ? ", rows of cells" : "") +
                (variant.event_heap ? ", heap" : ", ring") + (variant.trims ? ", trimming" : "") +
                (variant.lanes_apart ? ", lanes apart" : "") + (variant.keyed ? ", keys" : "") +
-               (variant.avoids ? ", points to avoid" : "") + (variant.classes ? ", classes" : "");
+               (variant.avoids ? ", points to avoid" : "") + (variant.classes ? ", classes" : "") +
+               (variant.bounded ? ", bounds" : "");
     case DomainKind::placement:
         return surfaces;
     case DomainKind::lists:

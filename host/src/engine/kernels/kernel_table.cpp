@@ -63,6 +63,7 @@ std::vector<KernelVariant> all_kernel_variants() {
             }
             if (!adaptive) {
                 variants.emplace_back(surface).classes = true;
+                variants.emplace_back(surface).bounded = true;
             }
         }
         for (const bool avoids : {false, true}) {
@@ -74,7 +75,9 @@ std::vector<KernelVariant> all_kernel_variants() {
             if (!adaptive) {
                 variant.ending = Ending::reach;
                 variants.push_back(variant);
-                variants.emplace_back(variant).points = true;
+                variant.points = true;
+                variants.push_back(variant);
+                variants.emplace_back(variant).bounded = true;
             }
         }
         if (!adaptive) {

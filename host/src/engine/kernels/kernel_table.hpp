@@ -57,6 +57,7 @@ constexpr std::size_t index_of(DomainKind kind) {
     X(avoids, kSpecAvoids)          /* Points to avoid have disks. */                              \
     X(classes, kSpecClasses)        /* Candidates have classes. */                                 \
     X(points, kSpecPoints)          /* Disks tell which candidates they reach, not vertices. */    \
+    X(bounded, kSpecBounded)        /* Vertices have bounds where settled disks end. */            \
     X(lanes_apart, kSpecLanesApart) /* Pool blocks of one lane, whatever Tuning::pool_block is. */
 // clang-format on
 

@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "engine/domain/vertex_bounds.hpp"
 #include "engine/neighbours/check_query.hpp"
 #include "engine/neighbours/search_within.hpp"
 #include "mesh/components.hpp"
@@ -27,8 +28,9 @@ constexpr double kMargin = 1.001;
 constexpr float kInfinite = std::numeric_limits<float>::infinity();
 
 /// Chooses samples one after the other. A disk about each one chosen lowers the distances of the
-/// others. It only needs to reach as far as the largest of these, so disks of samples that are far
-/// now will do when their turn comes, and are computed many at a time.
+/// others. It only needs to reach as far as the largest of these, and where no sample chosen before
+/// is nearer. So disks of samples that are far now will do when their turn comes, and are computed
+/// many at a time.
 class FarthestSearch {
   public:
     FarthestSearch(Runner& runner, const PreparedMesh& mesh, std::span<const Sample> samples,
@@ -61,6 +63,8 @@ class FarthestSearch {
     Result<Done> search(std::uint32_t first);
     std::vector<std::uint32_t> first_of_parts() const;
     std::vector<std::uint32_t> farthest_open() const;
+    /// Returns how far each vertex is at most from a sample chosen.
+    std::vector<double> bounds() const;
     void keep(const std::vector<std::uint32_t>& sources, const Neighbours& found);
     void choose(std::uint32_t sample);
     bool report(const Progress& now) const;
@@ -120,6 +124,17 @@ std::vector<std::uint32_t> FarthestSearch::farthest_open() const {
     return open;
 }
 
+std::vector<double> FarthestSearch::bounds() const {
+    std::vector<float> distances = distances_;
+    for (const std::uint32_t chosen : order_.indices) {
+        distances[chosen] = 0;
+    }
+    for (float& distance : distances) {
+        distance += 2 * static_cast<float>(order_.error);
+    }
+    return vertex_bounds(mesh_, samples_, distances);
+}
+
 Result<Done> FarthestSearch::search(std::uint32_t first) {
     const float distance = distances_[first];
     const bool is_infinite = distance == kInfinite;
@@ -136,8 +151,9 @@ Result<Done> FarthestSearch::search(std::uint32_t first) {
                                : std::max(kMargin * double{distance}, shortest_distance(mesh_));
     const ProgressCallback heard = [this](const Progress& now) { return report(now); };
     Runner::Impl& impl = Runner::Impl::of(runner_);
+    const std::vector<double> ends = is_infinite ? std::vector<double>() : bounds();
     const auto found =
-        impl.complete(search_within(impl, mesh_, query), 0, progress_ ? heard : nullptr);
+        impl.complete(search_within(impl, mesh_, query, {}, ends), 0, progress_ ? heard : nullptr);
     if (!found) {
         return found.error();
     }

@@ -51,14 +51,16 @@ Result<Done> check_edges(const PreparedMesh& mesh, double largest) {
                    number_text(kLongestEdge) + " times; split long edges");
 }
 
-SearchJobs::SearchJobs(const PreparedMesh& mesh, const NeighbourQuery& query)
-    : mesh_(&mesh), query_(&query), targets_(targets_of(query)) {
+SearchJobs::SearchJobs(const PreparedMesh& mesh, const NeighbourQuery& query,
+                       std::span<const double> bounds)
+    : mesh_(&mesh), query_(&query), bounds_(bounds), targets_(targets_of(query)) {
     params_.min_distance =
         query.radii.empty() ? query.within : *std::ranges::max_element(query.radii);
 }
 
-Result<SearchJobs> SearchJobs::create(const PreparedMesh& mesh, const NeighbourQuery& query) {
-    SearchJobs jobs(mesh, query);
+Result<SearchJobs> SearchJobs::create(const PreparedMesh& mesh, const NeighbourQuery& query,
+                                      std::span<const double> bounds) {
+    SearchJobs jobs(mesh, query, bounds);
     SampleParams& params = jobs.params_;
     if (auto checked = check_edges(mesh, params.min_distance); !checked) {
         return checked.error();
@@ -93,7 +95,7 @@ Result<Domain> SearchJobs::job(std::size_t first, std::size_t sources, std::uint
         }
         params.avoid = disks;
     }
-    return SurfaceDomain::recording(*mesh_, params, frame_, Ending::reach, targets_, room);
+    return SurfaceDomain::recording(*mesh_, params, frame_, Ending::reach, targets_, room, bounds_);
 }
 
 std::size_t PartSizes::sources(double most_records, std::size_t done, std::size_t left) const {

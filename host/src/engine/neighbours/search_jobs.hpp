@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include <geodisk/domain.hpp>
@@ -16,11 +17,13 @@
 
 namespace geodisk {
 
-/// What the jobs of a search have in common. Mesh and query must outlive it.
+/// What the jobs of a search have in common. Mesh, query and bounds must outlive it.
 class SearchJobs {
   public:
-    /// Errors: `invalid_argument` for edges that are too long for the distances of a checked query.
-    static Result<SearchJobs> create(const PreparedMesh& mesh, const NeighbourQuery& query);
+    /// `bounds` as for search_within(), where all sources have one distance. Errors:
+    /// `invalid_argument` for edges that are too long for the distances of a checked query.
+    static Result<SearchJobs> create(const PreparedMesh& mesh, const NeighbourQuery& query,
+                                     std::span<const double> bounds = {});
 
     const JobFrame& frame() const { return frame_; }
     /// Returns the points to find, in the order of their numbers; empty for vertices.
@@ -31,10 +34,12 @@ class SearchJobs {
     Result<Domain> job(std::size_t first, std::size_t sources, std::uint32_t room) const;
 
   private:
-    SearchJobs(const PreparedMesh& mesh, const NeighbourQuery& query);
+    SearchJobs(const PreparedMesh& mesh, const NeighbourQuery& query,
+               std::span<const double> bounds);
 
     const PreparedMesh* mesh_;
     const NeighbourQuery* query_;
+    std::span<const double> bounds_;
     SampleParams params_;
     JobFrame frame_;
     std::vector<ListedCandidate> targets_;

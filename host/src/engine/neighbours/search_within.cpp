@@ -107,8 +107,9 @@ double shortest_distance(const PreparedMesh& mesh) {
 }
 
 Task<Result<Neighbours>> search_within(Runner::Impl& runner, const PreparedMesh& mesh,
-                                       const NeighbourQuery& query, WholeProgress whole) {
-    const auto jobs = SearchJobs::create(mesh, query);
+                                       const NeighbourQuery& query, WholeProgress whole,
+                                       std::span<const double> bounds) {
+    const auto jobs = SearchJobs::create(mesh, query, bounds);
     if (!jobs) {
         co_return jobs.error();
     }

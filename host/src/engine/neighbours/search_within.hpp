@@ -1,6 +1,8 @@
 // The search for all neighbours within given distances, by the disks of the sources.
 #pragma once
 
+#include <span>
+
 #include <geodisk/neighbours.hpp>
 
 #include "engine/run/runner_impl.hpp"
@@ -13,8 +15,11 @@ double shortest_distance(const PreparedMesh& mesh);
 
 /// Implements find_neighbours() for a checked query with distances, but for joined vertices.
 /// Runner, mesh and query must outlive it. `whole`, if not empty, returns the progress of what the
-/// search is a part of.
+/// search is a part of. If there are `bounds`, one for each vertex in mesh units, some points are
+/// left out: those whose shortest path passes a vertex that is farther from the source than its
+/// bound.
 Task<Result<Neighbours>> search_within(Runner::Impl& runner, const PreparedMesh& mesh,
-                                       const NeighbourQuery& query, WholeProgress whole = {});
+                                       const NeighbourQuery& query, WholeProgress whole = {},
+                                       std::span<const double> bounds = {});
 
 } // namespace geodisk
