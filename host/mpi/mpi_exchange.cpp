@@ -13,6 +13,7 @@ constexpr std::size_t kChunk = std::size_t{1} << 30;
 constexpr int kTag = 1;
 constexpr std::chrono::microseconds kShortestNap{20};
 constexpr std::chrono::microseconds kLongestNap{2000};
+constexpr std::uint32_t kLanesAwake = 8; ///< With more lanes, all nap longer.
 
 } // namespace
 
@@ -28,10 +29,10 @@ struct MpiExchange::Channel {
     std::mutex calls; ///< Guards calls of MPI, and all below.
     std::mutex turns;
     bool is_broken = false; ///< A lane stopped while others went on.
-    // Of the sum that lanes add up to, one after another.
-    std::uint64_t added = 0, summed = 0;
+    // Of the sums that lanes add up to, one after another.
+    std::vector<std::uint64_t> added, summed;
     std::uint32_t lanes_added = 0;
-    std::uint64_t sums = 0; ///< Sums that are complete.
+    std::uint64_t times = 0; ///< How often sums were complete.
 };
 
 Result<std::unique_ptr<MpiExchange>> MpiExchange::create(MPI_Comm communicator, GoesOn goes_on) {
@@ -71,6 +72,7 @@ std::unique_lock<std::mutex> MpiExchange::turn() {
 
 Result<Done> MpiExchange::wait_until(const std::function<bool()>& is_done) {
     auto nap = kShortestNap;
+    const auto longest = kLongestNap * std::max(1u, lanes_ / kLanesAwake);
     for (;;) {
         {
             const std::scoped_lock lock(channel_->calls);
@@ -84,7 +86,7 @@ Result<Done> MpiExchange::wait_until(const std::function<bool()>& is_done) {
             return Error{Status::cancelled, "stopped while waiting for other processes"};
         }
         std::this_thread::sleep_for(nap);
-        nap = std::min(2 * nap, kLongestNap);
+        nap = std::min(2 * nap, longest);
     }
 }
 
@@ -145,20 +147,26 @@ Result<std::vector<Bytes>> MpiExchange::swap(std::span<const std::uint32_t> othe
     return received;
 }
 
-Result<std::uint64_t> MpiExchange::sum(std::uint64_t value) {
+Result<std::vector<std::uint64_t>> MpiExchange::sums(std::vector<std::uint64_t> values) {
     Channel& channel = *channel_;
-    std::uint64_t own = 0, all = 0, before = 0;
+    std::vector<std::uint64_t> own, all;
+    std::uint64_t before = 0;
     bool is_last = false;
     MPI_Request request = MPI_REQUEST_NULL;
     {
         const std::scoped_lock lock(channel.calls);
-        before = channel.sums;
-        channel.added += value;
+        before = channel.times;
+        channel.added.resize(values.size());
+        for (std::size_t i = 0; i < values.size(); ++i) {
+            channel.added[i] += values[i];
+        }
         is_last = ++channel.lanes_added == lanes_;
         if (is_last) { // It asks the other processes.
-            own = std::exchange(channel.added, 0);
+            own = std::exchange(channel.added, {});
             channel.lanes_added = 0;
-            MPI_Iallreduce(&own, &all, 1, MPI_UINT64_T, MPI_SUM, channel.own, &request);
+            all.resize(own.size());
+            MPI_Iallreduce(own.data(), all.data(), static_cast<int>(own.size()), MPI_UINT64_T,
+                           MPI_SUM, channel.own, &request);
         }
     }
     const auto is_done = [&] {
@@ -166,11 +174,11 @@ Result<std::uint64_t> MpiExchange::sum(std::uint64_t value) {
         if (is_last) {
             MPI_Test(&request, &flag, MPI_STATUS_IGNORE);
             if (flag != 0) {
-                channel.summed = all;
-                ++channel.sums;
+                channel.summed = std::move(all);
+                ++channel.times;
             }
         }
-        return channel.sums != before;
+        return channel.times != before;
     };
     if (auto waited = wait_until(is_done); !waited) {
         return waited.error();

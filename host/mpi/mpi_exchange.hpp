@@ -38,7 +38,7 @@ class MpiExchange : public Exchange {
     std::unique_lock<std::mutex> turn() override;
     Result<std::vector<Bytes>> swap(std::span<const std::uint32_t> others,
                                     std::span<const Bytes> messages) override;
-    Result<std::uint64_t> sum(std::uint64_t value) override;
+    Result<std::vector<std::uint64_t>> sums(std::vector<std::uint64_t> values) override;
 
   private:
     struct Channel; ///< What the lanes of a process share.

@@ -33,22 +33,24 @@ Result<std::vector<Bytes>> ThreadsExchange::swap(std::span<const std::uint32_t> 
     return received;
 }
 
-Result<std::uint64_t> ThreadsExchange::sum(std::uint64_t value) {
+Result<std::vector<std::uint64_t>> ThreadsExchange::sums(std::vector<std::uint64_t> values) {
     std::vector<std::uint32_t> others;
     for (std::uint32_t other = 0; other < size_; ++other) {
         if (other != rank_) {
             others.push_back(other);
         }
     }
-    Bytes own(sizeof value);
-    std::memcpy(own.data(), &value, sizeof value);
-    const auto received = swap(others, std::vector<Bytes>(others.size(), own));
-    std::uint64_t all = value;
+    const auto bytes = std::as_bytes(std::span(values));
+    const auto received =
+        swap(others, std::vector<Bytes>(others.size(), Bytes(bytes.begin(), bytes.end())));
     for (const Bytes& message : *received) {
-        std::memcpy(&value, message.data(), sizeof value);
-        all += value;
+        for (std::size_t i = 0; i < values.size(); ++i) {
+            std::uint64_t value = 0;
+            std::memcpy(&value, &message[i * sizeof value], sizeof value);
+            values[i] += value;
+        }
     }
-    return all;
+    return values;
 }
 
 void run_threads(std::uint32_t count, const std::function<void(Exchange&)>& work) {

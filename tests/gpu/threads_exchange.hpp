@@ -35,7 +35,7 @@ class ThreadsExchange : public Exchange {
     std::uint32_t size() const override { return size_; }
     Result<std::vector<Bytes>> swap(std::span<const std::uint32_t> others,
                                     std::span<const Bytes> messages) override;
-    Result<std::uint64_t> sum(std::uint64_t value) override;
+    Result<std::vector<std::uint64_t>> sums(std::vector<std::uint64_t> values) override;
 
   private:
     Mailbox& mailbox_;

@@ -34,7 +34,7 @@ def test_no_memory_for_a_message_of_sampling(tmp_path, rank, message):
 
 
 # From the arguments of all, by messages of ranges, to the last ones of several parts.
-@pytest.mark.parametrize("rank, message", [(0, 60), (1, 9), (2, 400), (1, 3000)])
+@pytest.mark.parametrize("rank, message", [(0, 60), (1, 9), (2, 400), (1, 1500)])
 def test_no_memory_for_a_message_of_a_part(tmp_path, rank, message):
     mesh = tmp_path / "torus.ply"
     write_ply(mesh, *torus(30, 16))

@@ -28,13 +28,19 @@ Result<std::uint64_t> keep_first(Exchange& exchange, PartRun& run, std::uint32_t
     return cut.count();
 }
 
-/// Draws the candidates of stages. Returns how many all processes have that take part.
+/// Draws the candidates of stages, and decides those of pools. Returns how many all processes have
+/// that take part.
 Result<std::uint64_t> draw(Exchange& exchange, Part& part, PartRun& run, std::uint64_t drawn,
                            std::uint32_t first, std::uint32_t count) {
     const auto begun = guarded([&]() -> Result<Done> {
         const MeshTurn turn(exchange, part);
         run.begin(first, count);
-        return Done{};
+        if (run.stages().is_counted()) {
+            return Done{}; // Candidates may still be left out.
+        }
+        // Else the mesh would soon be made once more.
+        const auto own = run.decide(nullptr);
+        return own ? Result<Done>(Done{}) : own.error();
     });
     if (auto well = exchange.check_all(begun ? nullptr : &begun.error()); !well) {
         return well.error();

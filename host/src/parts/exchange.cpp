@@ -32,6 +32,11 @@ std::vector<std::uint32_t> Exchange::all_others() const {
     return others;
 }
 
+Result<std::uint64_t> Exchange::sum(std::uint64_t value) {
+    const auto all = sums({value});
+    return all ? Result<std::uint64_t>(all->front()) : all.error();
+}
+
 Result<Bytes> Exchange::scatter(std::vector<Bytes> messages) {
     if (rank() != kRoot) {
         auto received = swap(std::vector{kRoot}, std::vector<Bytes>(1));

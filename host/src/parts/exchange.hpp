@@ -40,8 +40,10 @@ class GEODISK_API Exchange {
     /// in the same order. Those must name this process too.
     virtual Result<std::vector<Bytes>> swap(std::span<const std::uint32_t> others,
                                             std::span<const Bytes> messages) = 0;
-    /// Returns the sum over all processes.
-    virtual Result<std::uint64_t> sum(std::uint64_t value) = 0;
+    /// Returns the sum of each value over all processes, which give equally many.
+    virtual Result<std::vector<std::uint64_t>> sums(std::vector<std::uint64_t> values) = 0;
+
+    Result<std::uint64_t> sum(std::uint64_t value);
 
     // All of these take the first process for the root. Its message to itself costs nothing.
 

@@ -61,6 +61,7 @@ void PartRun::begin(std::uint32_t first_stage, std::uint32_t stages) {
     own_.clear();
     near_.clear();
     drawn_.clear();
+    is_decided_ = false;
     own_count_ = 0;
     for (std::uint32_t face = 0; face < part_.mesh.face_count(); ++face) {
         if (part_.roles[face] == FaceRole::surface) {
@@ -75,6 +76,7 @@ void PartRun::begin(std::uint32_t first_stage, std::uint32_t stages) {
             drawn_[i].point.face = part_.faces[face];
         }
     }
+    drawn_.shrink_to_fit(); // A process with many parts holds those of all.
     std::ranges::sort(drawn_, order_);
 }
 
@@ -140,19 +142,23 @@ Result<Darts> PartRun::accepted_of(const Darts& candidates, std::span<const Samp
 }
 
 bool PartRun::has_to_decide(const Darts* near) const {
-    return own_count_ != 0 && (near == nullptr || *near != near_);
+    return own_count_ != 0 && (near == nullptr ? !is_decided_ : *near != near_);
 }
 
 Result<Darts> PartRun::decide(const Darts* near) {
     if (!has_to_decide(near)) {
-        near_ = near != nullptr ? *near : Darts();
+        if (near != nullptr) {
+            near_ = *near;
+        }
         return own_;
     }
+    is_decided_ = true;
     Result<Darts> all = Darts();
     if (near == nullptr) {
         all = accepted_of(drawn_, settled_);
         ++whole_runs_;
         std::erase_if(drawn_, [&](const DrawnCandidate& dart) { return !is_own(dart); });
+        drawn_.shrink_to_fit();
     } else {
         auto border = decide_border(*near);
         if (!border) {

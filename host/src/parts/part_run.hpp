@@ -27,9 +27,9 @@ class PartRun {
     /// Leaves out candidates of these stages beyond a priority, of which there is only one.
     void end_at(std::uint32_t priority);
 
-    /// Implements Decide. From the second time on, only own candidates near others are decided
-    /// anew, or all if that changes samples farther away. Errors: those of listed_domain() and
-    /// Runner::sample_and_wait().
+    /// Implements Decide; decides once without near samples. From the second time on, only own
+    /// candidates near others are decided anew, or all if that changes samples farther away.
+    /// Errors: those of listed_domain() and Runner::sample_and_wait().
     Result<Darts> decide(const Darts* near);
     /// Returns true if decide() is not sure to give what it gave before.
     bool has_to_decide(const Darts* near) const;
@@ -72,6 +72,7 @@ class PartRun {
     Darts near_;
     std::vector<double> from_near_; ///< Lower bounds on the distance of vertices from near faces.
     double border_reach_ = 0;       ///< How far samples may be to reject candidates in the border.
+    bool is_decided_ = false;       ///< The candidates of these stages.
     std::uint64_t own_count_ = 0;
     RunReport report_;
     std::uint32_t whole_runs_ = 0, border_runs_ = 0;

@@ -79,17 +79,15 @@ struct Before {
 };
 
 std::vector<Before> before_all(Talk& talk, const Sorted& own, const std::vector<Place>& ends) {
-    std::vector<Before> counts;
+    std::vector<std::uint64_t> counts;
     for (const Place& end : ends) {
         const std::size_t faces = own.before(end);
-        counts.push_back({faces, own.work[faces]});
+        counts.insert(counts.end(), {faces, own.work[faces]});
     }
+    counts = talk.sums(std::move(counts));
     std::vector<Before> all(ends.size());
-    for (const auto& some : talk.swap(ByProcess<Before>(talk.size(), counts))) {
-        for (std::size_t i = 0; i < some.size(); ++i) {
-            all[i].faces += some[i].faces;
-            all[i].work += some[i].work;
-        }
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        all[i] = {counts[2 * i], counts[2 * i + 1]};
     }
     return all;
 }

@@ -4,8 +4,9 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <iterator>
+#include <numeric>
 #include <queue>
-#include <unordered_map>
 #include <unordered_set>
 #include <utility>
 
@@ -73,32 +74,31 @@ struct Request {
 constexpr std::uint32_t kMostRings = 64;
 // Ways along edges are longer than distances, by about so much.
 constexpr double kShorter = 0.75;
-// Lower bounds are shorter still where angles are obtuse. There the halo has to grow again, and
-// then takes ways for shorter by this factor each time, so that it needs few turns.
-constexpr double kShorterEachTime = 0.5;
+// Lower bounds are shorter still where angles are obtuse, and now and then far too short where the
+// halo ends. There it has to grow again, by so many rings, and then by more of them each time.
+constexpr std::uint32_t kFirstRings = 2;
 
-/// A halo that grows.
+/// A halo that grows. All of it is in flat arrays, since each part of a process has one.
 class Halo {
   public:
     Halo(Talk& talk, const KnownSurface& known, double reach)
         : talk_(talk), known_(known), reach_(reach), own_(known.faces),
-          is_shared_(known.directory.shared().begin(), known.directory.shared().end()),
           mean_edge_(known.statistics.longest_edge) {
         for (const WholeFace& face : known.faces) {
-            if (std::ranges::any_of(face.corners,
-                                    [&](std::uint32_t v) { return is_shared_.contains(v); })) {
+            if (std::ranges::any_of(face.corners, [&](std::uint32_t v) { return is_shared(v); })) {
                 rim_.push_back(face);
             }
         }
-        for (const WholeFace& face : rim_) {
-            for (const std::uint32_t vertex : face.corners) {
-                // All faces at other own vertices are own ones.
-                ways_[vertex] = {.length = 0, .is_complete = !is_shared_.contains(vertex)};
-            }
+        numbers_ = numbers_of(rim_);
+        for (const std::uint32_t vertex : numbers_.vertices()) {
+            lengths_.push_back(0);
+            // All faces at other own vertices are own ones.
+            is_complete_.push_back(is_shared(vertex) ? 0 : 1);
         }
     }
 
-    /// Adds rings until ways along edges are longer than the reach. Returns true if there was one.
+    /// Adds rings until ways along edges are longer than the reach; once measured, a few where
+    /// lower bounds are not. Returns true if there was one.
     bool grow() {
         bool has_grown = false;
         for (;;) {
@@ -107,19 +107,20 @@ class Halo {
                 break;
             }
             has_grown = true;
-            for (const std::uint32_t vertex : open) {
-                ways_[vertex].is_complete = true;
-            }
             add_rings(open);
+            if (rings_ > 0) {
+                break;
+            }
         }
-        shorter_ *= kShorterEachTime;
+        rings_ = rings_ > 0 ? std::min(kMostRings, 2 * rings_) : kFirstRings;
         return has_grown;
     }
 
     /// Shortens ways to lower bounds on distances.
     void measure() {
         std::vector<WholeFace> faces = rim_;
-        for (const HaloFace& one : faces_) {
+        faces.reserve(rim_.size() + faces_.size());
+        for (const Member& one : faces_) {
             faces.push_back(one.face);
         }
         std::ranges::sort(faces, {}, &WholeFace::face);
@@ -129,49 +130,50 @@ class Halo {
             MeshPieces::piece(MeshView{places.positions, places.triangles, 3}, known_.statistics);
         std::vector<std::uint8_t> is_own(faces.size());
         for (std::size_t i = 0; i < faces.size(); ++i) {
-            is_own[i] = seen_.contains(faces[i].face) ? 0 : 1;
+            is_own[i] =
+                std::ranges::binary_search(faces_, faces[i].face, {}, &Member::number) ? 0 : 1;
         }
-        const std::vector<double> distances = distances_from(mesh, is_own, reach_);
-        const VertexNumbers numbers = numbers_of(faces);
-        for (std::size_t i = 0; i < numbers.size(); ++i) {
-            ways_[numbers.vertices()[i]].length = distances[i];
-        }
+        lengths_ = distances_from(mesh, is_own, reach_); // Of the same vertices.
     }
 
-    std::vector<HaloFace> take() {
-        for (HaloFace& one : faces_) {
-            const auto length = [&](std::uint32_t v) { return ways_[v].length; };
+    std::vector<HaloFace> take() const {
+        std::vector<HaloFace> faces;
+        for (const Member& one : faces_) {
+            const auto length = [&](std::uint32_t v) { return lengths_[numbers_.of(v)]; };
             const auto& [a, b, c] = one.face.corners;
-            one.distance = std::min({length(a), length(b), length(c)});
+            const double distance = std::min({length(a), length(b), length(c)});
+            if (distance <= reach_) {
+                faces.push_back({one.face, one.owner, distance});
+            }
         }
-        std::erase_if(faces_, [&](const HaloFace& one) { return one.distance > reach_; });
-        std::ranges::sort(faces_, {}, [](const HaloFace& one) { return one.face.face; });
-        return std::move(faces_);
+        return faces;
     }
 
   private:
-    struct Edge {
-        std::uint32_t end;
-        float length; ///< Only decides how far the halo grows at a time.
+    /// A face of the halo, and the lengths of its sides, each from its corner to the next. They
+    /// only decide how far the halo grows at a time.
+    struct Member {
+        WholeFace face;
+        std::uint32_t owner;
+        float sides[3];
+
+        std::uint32_t number() const { return face.face; }
     };
 
-    /// Length of a way from own faces, whether all faces at its end are known, and edges there.
-    struct Way {
-        double length = HUGE_VAL;
-        bool is_complete = false;
-        std::vector<Edge> edges{};
-    };
+    bool is_shared(std::uint32_t vertex) const {
+        return std::ranges::binary_search(known_.directory.shared(), vertex);
+    }
 
     /// Returns the vertices, in ascending order, to which a way is no longer than `limit`, and
-    /// whose faces are not all known.
-    std::vector<std::uint32_t> open_within(double limit) const {
+    /// whose faces are not all known. They are, from then on.
+    std::vector<std::uint32_t> open_within(double limit) {
         std::vector<std::uint32_t> open;
-        for (const auto& [vertex, way] : ways_) {
-            if (!way.is_complete && way.length <= limit) {
-                open.push_back(vertex);
+        for (std::size_t i = 0; i < lengths_.size(); ++i) {
+            if (is_complete_[i] == 0 && lengths_[i] <= limit) {
+                open.push_back(numbers_.vertices()[i]);
+                is_complete_[i] = 1;
             }
         }
-        std::ranges::sort(open);
         return open;
     }
 
@@ -190,9 +192,10 @@ class Halo {
         auto vertex = open.begin();
         for (const auto& heard : talk_.swap(std::move(told))) {
             for (std::size_t at = 0; at < heard.size(); at += 1 + heard[at]) {
+                const std::uint32_t rings = rings_from(lengths_[numbers_.of(*vertex)]);
                 for (const std::uint32_t holder : std::span(heard).subspan(at + 1, heard[at])) {
                     if (holder != talk_.rank()) {
-                        wanted[holder].push_back({*vertex, rings_from(ways_[*vertex].length)});
+                        wanted[holder].push_back({*vertex, rings});
                     }
                 }
                 ++vertex;
@@ -206,23 +209,45 @@ class Halo {
         }
         faces = talk_.swap(std::move(faces));
         complete = talk_.swap(std::move(complete));
-        const std::size_t before = faces_.size();
-        for (std::uint32_t owner = 0; owner < talk_.size(); ++owner) {
-            for (const WholeFace& face : faces[owner]) {
-                if (seen_.insert(face.face).second) {
-                    faces_.push_back({face, owner, 0});
-                }
-            }
-            for (const std::uint32_t one : complete[owner]) {
-                ways_[one].is_complete = true;
+        add(faces);
+        for (const auto& vertices : complete) {
+            for (const std::uint32_t one : vertices) {
+                is_complete_[numbers_.of(one)] = 1;
             }
         }
-        follow_edges(before);
+    }
+
+    /// Adds the faces that are not yet known, by their owners, and follows their edges.
+    void add(const ByProcess<WholeFace>& faces) {
+        std::vector<Member> newest;
+        for (std::uint32_t owner = 0; owner < talk_.size(); ++owner) {
+            for (const WholeFace& face : faces[owner]) {
+                if (!std::ranges::binary_search(faces_, face.face, {}, &Member::number)) {
+                    newest.push_back({face, owner, {}});
+                }
+            }
+        }
+        std::ranges::sort(newest, {}, &Member::number);
+        const auto same = std::ranges::unique(newest, {}, &Member::number);
+        newest.erase(same.begin(), same.end());
+        measure_sides(newest);
+        if (newest.empty()) {
+            return;
+        }
+        std::vector<Member> all;
+        all.reserve(faces_.size() + newest.size());
+        std::ranges::merge(faces_, newest, std::back_inserter(all), {}, &Member::number,
+                           &Member::number);
+        faces_ = std::move(all);
+        number_again();
+        const auto turn = talk_.exchange().turn();
+        shorten(newest);
     }
 
     std::uint32_t rings_from(double length) const {
-        return 1 + static_cast<std::uint32_t>(
-                       std::min<double>(kMostRings, (reach_ - length) / mean_edge_));
+        return rings_ > 0 ? rings_
+                          : 1 + static_cast<std::uint32_t>(
+                                    std::min<double>(kMostRings, (reach_ - length) / mean_edge_));
     }
 
     /// Finds the own faces that another process asks for, and vertices of which these are all.
@@ -238,7 +263,7 @@ class Halo {
                 if (!vertices.insert(vertex).second) {
                     continue;
                 }
-                if (!is_shared_.contains(vertex)) {
+                if (!is_shared(vertex)) {
                     complete.push_back(vertex);
                 }
                 for (const std::uint32_t i : own_.at(vertex)) {
@@ -253,56 +278,95 @@ class Halo {
         }
     }
 
-    /// Takes ways along the edges of the newest faces.
-    void follow_edges(std::size_t first) {
-        std::vector<WholeFace> newest;
-        for (const HaloFace& one : std::span(faces_).subspan(first)) {
-            newest.push_back(one.face);
+    void measure_sides(std::vector<Member>& newest) {
+        std::vector<std::uint32_t> vertices;
+        vertices.reserve(3 * newest.size());
+        for (const Member& one : newest) {
+            vertices.insert(vertices.end(), one.face.corners, one.face.corners + 3);
         }
-        const VertexNumbers numbers = numbers_of(newest);
+        const VertexNumbers numbers(std::move(vertices));
         const std::vector<double> positions =
             fetch_positions(talk_, known_.vertices, known_.positions, numbers.vertices());
-        const auto between = [&](std::uint32_t from, std::uint32_t to) {
-            const double* const a = &positions[std::size_t{3} * numbers.of(from)];
-            const double* const b = &positions[std::size_t{3} * numbers.of(to)];
-            return std::hypot(b[0] - a[0], b[1] - a[1], b[2] - a[2]);
-        };
-        std::vector<std::uint32_t> changed;
-        for (const WholeFace& face : newest) {
-            for (int side = 0; side < 3; ++side) {
-                const std::uint32_t from = face.corners[side], to = face.corners[(side + 1) % 3];
-                const double length = between(from, to);
+        for (Member& one : newest) {
+            for (std::size_t side = 0; side < 3; ++side) {
+                const double* const a =
+                    &positions[std::size_t{3} * numbers.of(one.face.corners[side])];
+                const double* const b =
+                    &positions[std::size_t{3} * numbers.of(one.face.corners[(side + 1) % 3])];
+                const double length = std::hypot(b[0] - a[0], b[1] - a[1], b[2] - a[2]);
                 edges_ += length;
-                ways_[from].edges.push_back({to, static_cast<float>(length)});
-                ways_[to].edges.push_back({from, static_cast<float>(length)});
-                changed.push_back(from);
+                one.sides[side] = static_cast<float>(length);
             }
         }
-        shorten(std::move(changed));
+        const auto faces = static_cast<double>(faces_.size() + newest.size());
         if (edges_ > 0) {
-            mean_edge_ = edges_ / (3.0 * static_cast<double>(faces_.size()));
+            mean_edge_ = edges_ / (3 * faces);
         }
     }
 
-    /// Shortens ways that lead through vertices that have changed.
-    void shorten(std::vector<std::uint32_t> changed) {
+    /// Numbers the vertices once more, with those of new faces.
+    void number_again() {
+        std::vector<std::uint32_t> vertices = numbers_.vertices();
+        vertices.reserve(vertices.size() + 3 * faces_.size());
+        for (const Member& one : faces_) {
+            vertices.insert(vertices.end(), one.face.corners, one.face.corners + 3);
+        }
+        VertexNumbers numbers(std::move(vertices));
+        std::vector<double> lengths(numbers.size(), HUGE_VAL);
+        std::vector<std::uint8_t> is_complete(numbers.size(), 0);
+        for (std::size_t i = 0; i < lengths_.size(); ++i) {
+            const std::uint32_t number = numbers.of(numbers_.vertices()[i]);
+            lengths[number] = lengths_[i];
+            is_complete[number] = is_complete_[i];
+        }
+        numbers_ = std::move(numbers);
+        lengths_ = std::move(lengths);
+        is_complete_ = std::move(is_complete);
+    }
+
+    /// Shortens ways that lead along the edges of new faces.
+    void shorten(const std::vector<Member>& newest) {
+        struct Edge {
+            std::uint32_t end;
+            float length;
+        };
+        const auto for_edges = [&](const auto& visit) {
+            for (const Member& one : faces_) {
+                for (std::size_t side = 0; side < 3; ++side) {
+                    const std::uint32_t from = numbers_.of(one.face.corners[side]);
+                    const std::uint32_t to = numbers_.of(one.face.corners[(side + 1) % 3]);
+                    visit(from, Edge{to, one.sides[side]});
+                    visit(to, Edge{from, one.sides[side]});
+                }
+            }
+        };
+        std::vector<std::uint32_t> starts(numbers_.size() + 1, 0);
+        for_edges([&](std::uint32_t from, const Edge&) { ++starts[from + 1]; });
+        std::partial_sum(starts.begin(), starts.end(), starts.begin());
+        std::vector<Edge> edges(starts.back());
+        std::vector<std::uint32_t> places(starts.begin(), starts.end() - 1);
+        for_edges([&](std::uint32_t from, const Edge& edge) { edges[places[from]++] = edge; });
         using Entry = std::pair<double, std::uint32_t>;
         std::priority_queue<Entry, std::vector<Entry>, std::greater<>> next;
-        for (const std::uint32_t vertex : changed) {
-            next.emplace(ways_[vertex].length, vertex);
+        for (const Member& one : newest) {
+            for (const std::uint32_t vertex : one.face.corners) {
+                const std::uint32_t number = numbers_.of(vertex);
+                if (lengths_[number] < HUGE_VAL) {
+                    next.emplace(lengths_[number], number);
+                }
+            }
         }
         while (!next.empty()) {
             const auto [length, vertex] = next.top();
             next.pop();
-            const Way& way = ways_[vertex];
-            if (length > way.length) {
+            if (length > lengths_[vertex]) {
                 continue;
             }
-            for (const Edge& edge : way.edges) {
-                double& there = ways_[edge.end].length;
-                if (length + shorter_ * edge.length < there) {
-                    there = length + shorter_ * edge.length;
-                    next.emplace(there, edge.end);
+            for (std::uint32_t at = starts[vertex]; at < starts[vertex + 1]; ++at) {
+                const double there = length + kShorter * edges[at].length;
+                if (there < lengths_[edges[at].end]) {
+                    lengths_[edges[at].end] = there;
+                    next.emplace(there, edges[at].end);
                 }
             }
         }
@@ -311,14 +375,14 @@ class Halo {
     Talk& talk_;
     const KnownSurface& known_;
     double reach_;
-    double shorter_ = kShorter; ///< For ways along edges, when it grows next.
+    std::uint32_t rings_ = 0; ///< To grow by, or 0 until distances are measured.
     FacesAtVertices own_;
-    std::unordered_set<std::uint32_t> is_shared_; ///< Own vertices that others hold too.
-    double mean_edge_, edges_ = 0;                ///< Edges of the halo.
-    std::vector<WholeFace> rim_;                  ///< Own faces at vertices that are shared.
-    std::unordered_map<std::uint32_t, Way> ways_;
-    std::unordered_set<std::uint32_t> seen_; ///< Faces of the halo.
-    std::vector<HaloFace> faces_;
+    double mean_edge_, edges_ = 0;          ///< Edges of the halo.
+    std::vector<WholeFace> rim_;            ///< Own faces at vertices that are shared.
+    std::vector<Member> faces_;             ///< Ascending.
+    VertexNumbers numbers_{{}};             ///< Vertices of the rim and the halo.
+    std::vector<double> lengths_;           ///< Of a way from own faces to each of them.
+    std::vector<std::uint8_t> is_complete_; ///< 1 if all faces at a vertex are known.
 };
 
 } // namespace

@@ -51,17 +51,25 @@ class Talk {
         return records;
     }
 
-    /// Returns what each process gives.
+    /// Returns what each process gives, as the sum of arrays in which all else is zero.
     template <class Record>
     std::vector<Record> all(const Record& own) {
-        std::vector<Record> of_all;
-        for (const auto& one : swap(ByProcess<Record>(size(), {own}))) {
-            of_all.push_back(one.front());
+        static_assert(std::is_trivially_copyable_v<Record>);
+        constexpr std::size_t kWords = (sizeof own + 7) / 8;
+        std::vector<std::uint64_t> words(size() * kWords);
+        std::memcpy(&words[rank() * kWords], &own, sizeof own);
+        words = sums(std::move(words));
+        std::vector<Record> of_all(size());
+        for (std::uint32_t other = 0; other < size(); ++other) {
+            std::memcpy(static_cast<void*>(&of_all[other]), &words[other * kWords], sizeof own);
         }
         return of_all;
     }
 
     std::uint64_t sum(std::uint64_t own) { return value(exchange_.sum(own)); }
+    std::vector<std::uint64_t> sums(std::vector<std::uint64_t> own) {
+        return value(exchange_.sums(std::move(own)));
+    }
 
     /// Hands a value from each process to the next one: returns what the one before gives, by
     /// `next(before)`, from the first one's `start` on. The last one's goes nowhere.
