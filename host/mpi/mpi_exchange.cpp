@@ -35,7 +35,8 @@ struct MpiExchange::Channel {
     std::uint64_t times = 0; ///< How often sums were complete.
 };
 
-Result<std::unique_ptr<MpiExchange>> MpiExchange::create(MPI_Comm communicator, GoesOn goes_on) {
+Result<std::unique_ptr<MpiExchange>> MpiExchange::create(MPI_Comm communicator,
+                                                         const GoesOn& goes_on) {
     auto lanes = create_lanes(communicator, 1, goes_on);
     return lanes ? Result<std::unique_ptr<MpiExchange>>(std::move(lanes->front())) : lanes.error();
 }

@@ -22,7 +22,8 @@ class MpiExchange : public Exchange {
     using GoesOn = std::function<bool()>;
 
     /// All processes of the communicator make one.
-    static Result<std::unique_ptr<MpiExchange>> create(MPI_Comm communicator, GoesOn goes_on);
+    static Result<std::unique_ptr<MpiExchange>> create(MPI_Comm communicator,
+                                                       const GoesOn& goes_on);
     /// All processes make so many, up to kMostLanes, each for a thread of its own. Several need
     /// MPI_THREAD_SERIALIZED.
     static Result<std::vector<std::unique_ptr<MpiExchange>>>

@@ -147,7 +147,7 @@ void check_areas(const PreparedMesh& mesh, std::uint32_t count) {
 }
 
 Triangle turned(Triangle t) {
-    std::ranges::rotate(t, std::ranges::min_element(t));
+    std::rotate(t.begin(), std::ranges::min_element(t), t.end());
     return t;
 }
 

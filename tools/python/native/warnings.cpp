@@ -53,7 +53,7 @@ std::vector<MeshWarning> warnings_of(const c::Mesh& mesh, const geodisk_source* 
         std::ranges::move(surface_warnings(source->mesh, mesh.prepared),
                           std::back_inserter(warnings));
     }
-    std::ranges::stable_partition(warnings, is_about_seams);
+    std::stable_partition(warnings.begin(), warnings.end(), is_about_seams);
     return warnings;
 }
 

@@ -201,8 +201,7 @@ void CellSplitter::merge(FoundCells& found) {
     }
     found.shares.resize(count);
     std::ranges::sort(found.pairs);
-    const auto repeated = std::ranges::unique(found.pairs);
-    found.pairs.erase(repeated.begin(), repeated.end());
+    found.pairs.erase(std::unique(found.pairs.begin(), found.pairs.end()), found.pairs.end());
 }
 
 } // namespace geodisk

@@ -143,8 +143,7 @@ std::vector<Edge> dual_edges(std::vector<Edge> pairs, std::span<const Triangle> 
         pairs.push_back(edge_between(c, a));
     }
     std::ranges::sort(pairs);
-    const auto repeated = std::ranges::unique(pairs);
-    pairs.erase(repeated.begin(), repeated.end());
+    pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
     return pairs;
 }
 

@@ -23,8 +23,8 @@ NearLights::Range NearLights::begin(std::uint32_t face) {
         return std::tuple(r.sample_index, r.place, r.sigma, r.x, r.y, r.low, r.high);
     };
     std::ranges::sort(stack_, {}, content);
-    const auto repeated = std::ranges::unique(stack_, {}, content);
-    stack_.erase(repeated.begin(), repeated.end());
+    const auto is_same = [&](std::uint32_t a, std::uint32_t b) { return content(a) == content(b); };
+    stack_.erase(std::unique(stack_.begin(), stack_.end(), is_same), stack_.end());
     return {0, stack_.size()};
 }
 

@@ -68,15 +68,16 @@ void FaceSearch::search(const GapCell& cell, std::span<NumberedPlace> points,
     const NearLights::View view = near_.look(cell, lit_.target(cell), lights);
     const std::array<GapCell, 4> children = cell.children();
     for (std::size_t child = 0; child < children.size(); ++child) {
-        const auto rest = std::ranges::partition(points, [&](const NumberedPlace& point) {
-            return cell.child_with(point.place.weights) == child;
-        });
-        const auto own = points.first(points.size() - rest.size());
+        const auto rest =
+            std::partition(points.begin(), points.end(), [&](const NumberedPlace& point) {
+                return cell.child_with(point.place.weights) == child;
+            });
+        const auto own = points.first(static_cast<std::size_t>(rest - points.begin()));
         if (!own.empty()) {
             search(children[child], own, view.lights);
             near_.pop_to(view.lights);
         }
-        points = points.last(rest.size());
+        points = points.subspan(own.size());
     }
 }
 

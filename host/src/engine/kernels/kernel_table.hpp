@@ -5,6 +5,7 @@
 #include <compare>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <span>
 #include <vector>
 
@@ -22,11 +23,12 @@ enum class Kernel : std::uint32_t {
 #include "kernel_list.inc"
 #undef GEODISK_KERNEL
 };
-#define GEODISK_KERNEL(name, domain, spirv, texels_spirv) +1
-inline constexpr std::size_t kKernels =
+#define GEODISK_KERNEL(name, domain, spirv, texels_spirv) Kernel::name,
+inline constexpr Kernel kEachKernel[] = {
 #include "kernel_list.inc"
-    ;
+};
 #undef GEODISK_KERNEL
+inline constexpr std::size_t kKernels = std::size(kEachKernel);
 
 /// What is sampled, and by what distance: a bit each, so that a kernel may serve several.
 enum class DomainKind : std::uint8_t {

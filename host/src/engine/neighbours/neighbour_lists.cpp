@@ -24,8 +24,9 @@ std::size_t NeighbourLists::reduce(std::size_t source, std::span<Hit> hits) cons
     const auto by_target = [](const Hit& hit) { return std::tuple(hit.target, hit.distance); };
     const auto by_distance = [](const Hit& hit) { return std::tuple(hit.distance, hit.target); };
     std::ranges::sort(hits.begin(), kept, {}, by_target);
-    const auto same = std::ranges::unique(hits.begin(), kept, {}, &Hit::target);
-    const auto count = static_cast<std::size_t>(same.begin() - hits.begin());
+    const auto end = std::unique(hits.begin(), kept,
+                                 [](const Hit& a, const Hit& b) { return a.target == b.target; });
+    const auto count = static_cast<std::size_t>(end - hits.begin());
     if (query_.nearest == 0) {
         return count;
     }

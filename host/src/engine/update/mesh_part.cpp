@@ -25,7 +25,7 @@ Shape shape_of(const MeshView& mesh, std::span<const std::uint32_t> faces) {
     }
     std::vector<std::uint32_t> vertices = shape.triangles;
     std::ranges::sort(vertices);
-    vertices.erase(std::ranges::unique(vertices).begin(), vertices.end());
+    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
     for (std::uint32_t& vertex : shape.triangles) {
         vertex = static_cast<std::uint32_t>(std::ranges::lower_bound(vertices, vertex) -
                                             vertices.begin());

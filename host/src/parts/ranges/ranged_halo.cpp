@@ -228,8 +228,10 @@ class Halo {
             }
         }
         std::ranges::sort(newest, {}, &Member::number);
-        const auto same = std::ranges::unique(newest, {}, &Member::number);
-        newest.erase(same.begin(), same.end());
+        const auto is_same = [](const Member& a, const Member& b) {
+            return a.number() == b.number();
+        };
+        newest.erase(std::unique(newest.begin(), newest.end(), is_same), newest.end());
         measure_sides(newest);
         if (newest.empty()) {
             return;
