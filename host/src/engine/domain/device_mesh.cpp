@@ -123,7 +123,7 @@ void for_elements(PlacedSurfaces surfaces, std::size_t begin, std::size_t end,
 /// zero.
 template <class FirstOf, class RecordOf>
 void add_part(UploadParts& parts, PlacedSurfaces surfaces, std::size_t records, std::size_t count,
-              const FirstOf& first_of, const RecordOf& record_of) {
+              FirstOf first_of, RecordOf record_of) {
     using Record = std::invoke_result_t<RecordOf, const PlacedSurface&, std::uint32_t>;
     parts.push_back(
         {sizeof(Record), records, [=](std::size_t begin, std::size_t end, std::byte* out) {
