@@ -40,12 +40,11 @@ void take_materials(const Path& path, PolygonMesh& polygons, MeshFile& mesh) {
         const std::size_t face = mesh.polygons.empty() ? t : mesh.polygons[t];
         const bool is_new = std::exchange(last, face) != face;
         const MaterialColour* const material = mesh.material_colour(t);
-        if (material != nullptr && material->image && mesh.has_texture_uvs(t)) {
+        const bool has_image = material != nullptr && material->image;
+        if (has_image && mesh.has_texture_uvs(t)) {
             check_places(path, polygons.names, face, *material, *mesh.texture_uvs, t);
-        } else if (is_new && material == nullptr) {
-            without.add(face);
-        } else if (is_new && material != nullptr && material->image) {
-            bare.add(face);
+        } else if (is_new && (has_image || material == nullptr)) {
+            (has_image ? bare : without).add(face);
         }
     }
     const auto place = [&](const Found& found) {

@@ -77,9 +77,9 @@ PolygonMesh read_off(const Path& path, const WantedFields& fields, const Reading
 /// Reads all triangles, strips and fans of the scene of a glTF 2.0 file, text or binary, one mesh
 /// and primitive after the other. Nodes place them, or joints and the default weights of morph
 /// targets, also several times as instances; a mirrored one is turned over. Primitives of a mesh
-/// with the same positions share vertices. Compressed ones are read as this build can. Buffers are
-/// and images are read from the folder of the file alone, colours and images of materials only
-/// where asked for. Throws UserError(bad_input) naming mesh and primitive.
+/// with the same positions share vertices. Compressed ones are read as this build can. Buffers and
+/// images are read from the folder of the file alone, colours and images of materials only where
+/// asked for. Throws UserError(bad_input) naming mesh and primitive.
 PolygonMesh read_gltf(const Path& path, const WantedFields& fields);
 
 /// What to read of element `vertex`.
