@@ -344,6 +344,16 @@ TEST_SUITE("neighbours") {
         const Error too_many = refusal(cube, good);
         CHECK(too_many.status == Status::job_too_large);
         CHECK(too_many.message.find("about 676 pairs are to be expected, more than the 100") == 0);
+        // That is told before the search, of which nothing is heard.
+        CHECK(refusal(cube, good, [](const Progress&) { return false; }).status ==
+              Status::job_too_large);
+        good.kind = NeighbourKind::sources;
+        CHECK(refusal(cube, good).message.find("about 650 pairs are to be expected") == 0);
+        good.nearest = 4;
+        good.most_pairs = 103;
+        CHECK(refusal(cube, good).message.find("about 104 pairs are to be expected") == 0);
+        good.kind = NeighbourKind::vertices;
+        good.nearest = 0;
         good.most_pairs = 676;
         CHECK(found(cube, good).indices.size() == 676);
         CHECK(refusal(cube, good, [](const Progress&) { return false; }).status ==

@@ -124,8 +124,9 @@ def sample(
     existing : Samples, or a pair of face_index and barycentric, optional
         Samples of the mesh to keep: the first of the result, with a 1 in ``columns["given"]``.
         Samples without `face_index` are put on the nearest triangles, at most a thousandth of the
-        bounding-box diagonal away. New ones keep the minimum distance from them. They count towards `count` and `stop_count`.
-        Distances among them are not checked; :func:`verify` tells them apart.
+        bounding-box diagonal away. New ones keep the minimum distance from them. They count towards
+        `count` and `stop_count`. Distances among them are not checked; :func:`verify` tells them
+        apart.
     avoid : pair of points and radius, optional
         Points to keep away from, as for `existing`, and their radius or radii along the surface.
         No new sample is within the radius of its point, which may be larger or smaller than the

@@ -34,14 +34,10 @@ class EdgePaths {
 };
 
 void EdgePaths::begin_at(const Sample& point, double distance) {
-    const auto face = mesh_.half_edges().subspan(std::size_t{3} * point.face, 3);
-    const HalfEdge& first = face[0];
-    const double second = point.weights[1], third = point.weights[2];
-    const double x = second * first.length + third * first.apex_x;
-    const double y = third * first.apex_y;
-    lower(first.origin, distance + std::hypot(x, y));
-    lower(face[1].origin, distance + std::hypot(x - first.length, y));
-    lower(face[2].origin, distance + std::hypot(x - first.apex_x, y - first.apex_y));
+    const std::array<double, 3> corners = corner_distances(mesh_, point);
+    for (std::uint32_t i = 0; i < 3; ++i) {
+        lower(mesh_.half_edges()[std::size_t{3} * point.face + i].origin, distance + corners[i]);
+    }
 }
 
 std::vector<double> EdgePaths::go() {
@@ -66,6 +62,15 @@ std::vector<double> EdgePaths::go() {
 }
 
 } // namespace
+
+std::array<double, 3> corner_distances(const PreparedMesh& mesh, const Sample& point) {
+    const HalfEdge& first = mesh.half_edges()[std::size_t{3} * point.face];
+    const double second = point.weights[1], third = point.weights[2];
+    const double x = second * first.length + third * first.apex_x;
+    const double y = third * first.apex_y;
+    return {std::hypot(x, y), std::hypot(x - first.length, y),
+            std::hypot(x - first.apex_x, y - first.apex_y)};
+}
 
 std::vector<double> vertex_bounds(const PreparedMesh& mesh, std::span<const Sample> points,
                                   std::span<const float> distances) {

@@ -1,7 +1,9 @@
 #include "engine/neighbours/search_jobs.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <span>
 #include <string>
 
@@ -9,6 +11,7 @@
 #include "engine/domain/stages.hpp"
 #include "engine/domain/surface_domain.hpp"
 #include "engine/domain/tolerances.hpp"
+#include "engine/domain/vertex_bounds.hpp"
 #include "support/invalid.hpp"
 #include "support/number_text.hpp"
 
@@ -22,6 +25,10 @@ constexpr double kMoreRecords = 16;
 constexpr double kSpareRecords = 1.25;
 // Maximum of sources of a job.
 constexpr double kMostSources = 0x1p20;
+// A disk has at most about this times the square of its radius, on most meshes.
+constexpr double kDiskArea = 3.2;
+// Sources whose pairs are counted before the search, at most.
+constexpr std::size_t kCountedSources = 16;
 // Sources after which the number of all pairs is estimated, at least.
 constexpr std::size_t kFewSources = 64;
 
@@ -37,6 +44,56 @@ std::vector<ListedCandidate> targets_of(const NeighbourQuery& query) {
                            static_cast<std::uint32_t>(third * 0x1p24f)});
     }
     return targets;
+}
+
+/// Returns the error of so many pairs, if they are too many.
+Result<Done> check_expected(const NeighbourQuery& query, double pairs) {
+    if (pairs <= static_cast<double>(query.most_pairs)) {
+        return Done{};
+    }
+    return Error{Status::job_too_large,
+                 "about " + number_text(std::round(pairs)) +
+                     " pairs are to be expected, more than the " +
+                     std::to_string(query.most_pairs) +
+                     " that are allowed; take a smaller distance or fewer sources"};
+}
+
+/// Returns no more targets than are within the distance of the source: those to which a path along
+/// edges is short enough. Among sources it is one of them.
+std::size_t count_along_edges(const PreparedMesh& mesh, const NeighbourQuery& query,
+                              const Sample& source, double within) {
+    const std::vector<double> bounds = vertex_bounds(mesh, std::span(&source, 1), {{0.0F}});
+    if (query.kind == NeighbourKind::vertices) {
+        return static_cast<std::size_t>(
+            std::ranges::count_if(bounds, [&](double bound) { return bound <= within; }));
+    }
+    const auto points = query.kind == NeighbourKind::points ? query.points : query.sources;
+    return static_cast<std::size_t>(std::ranges::count_if(points, [&](const Sample& point) {
+        const std::array<double, 3> corners = corner_distances(mesh, point);
+        const HalfEdge* const face = &mesh.half_edges()[std::size_t{3} * point.face];
+        return bounds[face[0].origin] + corners[0] <= within ||
+               bounds[face[1].origin] + corners[1] <= within ||
+               bounds[face[2].origin] + corners[2] <= within;
+    }));
+}
+
+/// Checks the same before the search, by some sources all over the list. So disks that are far too
+/// large are not computed first.
+Result<Done> check_ahead(const PreparedMesh& mesh, const NeighbourQuery& query) {
+    const std::size_t sources = query.sources.size();
+    const std::size_t counted = std::min(sources, kCountedSources);
+    const std::size_t own = query.kind == NeighbourKind::sources ? 1 : 0;
+    double pairs = 0;
+    for (std::size_t i = 0; i < counted; ++i) {
+        const std::size_t at = i * sources / counted;
+        const double within = query.radii.empty() ? query.within : query.radii[at];
+        std::size_t found = count_along_edges(mesh, query, query.sources[at], within);
+        found -= std::min(found, own);
+        pairs += static_cast<double>(
+            query.nearest == 0 ? found : std::min<std::size_t>(found, query.nearest));
+    }
+    const double of_all = pairs / static_cast<double>(counted) * static_cast<double>(sources);
+    return check_expected(query, of_all);
 }
 
 } // namespace
@@ -72,15 +129,24 @@ Result<SearchJobs> SearchJobs::create(const PreparedMesh& mesh, const NeighbourQ
         return frame.error();
     }
     jobs.frame_ = *frame;
+    if (jobs.targets_per_source() * static_cast<double>(query.sources.size()) >
+        static_cast<double>(query.most_pairs)) {
+        if (auto checked = check_ahead(mesh, query); !checked) {
+            return checked.error();
+        }
+    }
     return jobs;
 }
 
-double SearchJobs::records_per_source() const {
+double SearchJobs::targets_per_source() const {
     const auto all =
         static_cast<double>(targets_.empty() ? mesh_->vertex_count() : targets_.size());
-    const double part =
-        3.2 * params_.min_distance * params_.min_distance / mesh_->statistics().area;
-    return kPathsPerTarget * all * std::min(1.0, part) + kMoreRecords;
+    const double largest = params_.min_distance;
+    return all * std::min(1.0, kDiskArea * largest * largest / mesh_->statistics().area);
+}
+
+double SearchJobs::records_per_source() const {
+    return kPathsPerTarget * targets_per_source() + kMoreRecords;
 }
 
 Result<Domain> SearchJobs::job(std::size_t first, std::size_t sources, std::uint32_t room) const {
@@ -123,14 +189,7 @@ Result<Done> check_pairs(const NeighbourQuery& query, std::size_t done, std::uin
     if (done < kFewSources && done < query.sources.size()) {
         return Done{};
     }
-    if (expected > static_cast<double>(query.most_pairs)) {
-        return Error{Status::job_too_large,
-                     "about " + number_text(std::round(expected)) +
-                         " pairs are to be expected, more than the " +
-                         std::to_string(query.most_pairs) +
-                         " that are allowed; take a smaller distance or fewer sources"};
-    }
-    return Done{};
+    return check_expected(query, expected);
 }
 
 } // namespace geodisk

@@ -21,7 +21,8 @@ namespace geodisk {
 class SearchJobs {
   public:
     /// `bounds` as for search_within(), where all sources have one distance. Errors:
-    /// `invalid_argument` for edges that are too long for the distances of a checked query.
+    /// `invalid_argument` for edges that are too long for the distances of a checked query;
+    /// `job_too_large` for more pairs than it allows.
     static Result<SearchJobs> create(const PreparedMesh& mesh, const NeighbourQuery& query,
                                      std::span<const double> bounds = {});
 
@@ -36,6 +37,9 @@ class SearchJobs {
   private:
     SearchJobs(const PreparedMesh& mesh, const NeighbourQuery& query,
                std::span<const double> bounds);
+
+    /// Returns the targets that a disk of the largest distance has, where it is about flat.
+    double targets_per_source() const;
 
     const PreparedMesh* mesh_;
     const NeighbourQuery* query_;
