@@ -14,7 +14,7 @@
 #include <geodisk/neighbours.hpp>
 
 #include "device_run.hpp"
-#include "engine/domain/vertex_bounds.hpp"
+#include "mesh/edge_paths.hpp"
 #include "support/geodesic_query.hpp"
 #include "support/meshes.hpp"
 
@@ -232,7 +232,11 @@ TEST_SUITE("farthest") {
                     own = std::min(own, double{distances[i]} + double{found.distances[at]});
                 }
             }
-            const std::vector<double> bounds = vertex_bounds(mesh, points, distances);
+            EdgePaths paths(mesh);
+            for (std::size_t i = 0; i < points.size(); ++i) {
+                paths.begin_at(points[i], distances[i]);
+            }
+            const std::vector<double>& bounds = paths.lengths();
             REQUIRE(bounds.size() == least.size());
             double most = 0;
             for (std::size_t v = 0; v < bounds.size(); ++v) {

@@ -3,10 +3,9 @@
 #include "parts/halo.hpp"
 
 #include <algorithm>
-#include <functional>
-#include <queue>
 #include <utility>
 
+#include "mesh/edge_paths.hpp"
 #include "mesh/slopes.hpp"
 
 namespace geodisk {
@@ -14,41 +13,17 @@ namespace {
 
 constexpr double kBeyond = 1.25;
 
-/// Shortest ways along edges, no longer than `most`, which is the value of all other vertices.
+/// Returns the shortest ways along edges, no longer than `most`, which is the value of all other
+/// vertices.
 std::vector<double> along_edges(const PreparedMesh& mesh, std::span<const std::uint8_t> is_marked,
                                 double most) {
-    const auto edges = mesh.half_edges();
-    std::vector<double> distances(mesh.vertex_count(), most);
-    using Entry = std::pair<double, std::uint32_t>;
-    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> next;
-    for (std::uint32_t h = 0; h < edges.size(); ++h) {
-        if (is_marked[h / 3] != 0 && distances[edges[h].origin] > 0) {
-            distances[edges[h].origin] = 0;
-            next.emplace(0, edges[h].origin);
+    EdgePaths paths(mesh, most);
+    for (std::uint32_t h = 0; h < 3 * mesh.face_count(); ++h) {
+        if (is_marked[h / 3] != 0) {
+            paths.begin_at(mesh.half_edges()[h].origin, 0);
         }
     }
-    while (!next.empty()) {
-        const auto [distance, vertex] = next.top();
-        next.pop();
-        if (distance > distances[vertex]) {
-            continue;
-        }
-        const VertexFan& fan = mesh.fans()[vertex];
-        for (const std::uint32_t corner :
-             mesh.corners().subspan(fan.first_corner, fan.corner_count)) {
-            const std::uint32_t back = previous_in_face(corner);
-            const std::pair<std::uint32_t, double> sides[] = {
-                {edges[next_in_face(corner)].origin, edges[corner].length},
-                {edges[back].origin, edges[back].length}};
-            for (const auto& [other, length] : sides) {
-                if (distance + length < distances[other]) {
-                    distances[other] = distance + length;
-                    next.emplace(distances[other], other);
-                }
-            }
-        }
-    }
-    return distances;
+    return paths.lengths();
 }
 
 } // namespace

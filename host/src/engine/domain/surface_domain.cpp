@@ -13,7 +13,7 @@
 #include "engine/domain/face_mask.hpp"
 #include "engine/domain/given.hpp"
 #include "engine/domain/stages.hpp"
-#include "engine/domain/vertex_bounds.hpp"
+#include "mesh/edge_paths.hpp"
 #include "records.h"
 #include "support/guard.hpp"
 #include "support/invalid.hpp"
@@ -275,7 +275,11 @@ void SurfaceDomain::bound_given() {
         static_cast<double>(given.size()) < kCrowdedGiven * whole_) {
         return;
     }
-    set_bounds(vertex_bounds(*surfaces_[0].mesh, given, std::vector<float>(given.size())));
+    EdgePaths paths(*surfaces_[0].mesh);
+    for (const Sample& sample : given) {
+        paths.begin_at(sample, 0);
+    }
+    set_bounds(paths.lengths());
 }
 
 std::uint64_t SurfaceDomain::most_candidates(const DeviceLimits& limits, std::uint32_t) const {

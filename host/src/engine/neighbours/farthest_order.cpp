@@ -8,10 +8,10 @@
 #include <string>
 #include <utility>
 
-#include "engine/domain/vertex_bounds.hpp"
 #include "engine/neighbours/check_query.hpp"
 #include "engine/neighbours/search_within.hpp"
 #include "mesh/components.hpp"
+#include "mesh/edge_paths.hpp"
 #include "mesh/extent.hpp"
 #include "support/guard.hpp"
 #include "support/invalid.hpp"
@@ -37,7 +37,7 @@ class FarthestSearch {
                    std::uint32_t count, const ProgressCallback& progress)
         : runner_(runner), mesh_(mesh), samples_(samples), count_(count), progress_(progress),
           distances_(samples.size(), kInfinite), states_(samples.size(), State::open),
-          disks_(samples.size()) {}
+          disks_(samples.size()), paths_(mesh), bounded_(samples.size(), kInfinite) {}
 
     Result<FarthestOrder> go();
 
@@ -64,7 +64,7 @@ class FarthestSearch {
     std::vector<std::uint32_t> first_of_parts() const;
     std::vector<std::uint32_t> farthest_open() const;
     /// Returns how far each vertex is at most from a sample chosen.
-    std::vector<double> bounds() const;
+    const std::vector<double>& bounds();
     void keep(const std::vector<std::uint32_t>& sources, const Neighbours& found);
     void choose(std::uint32_t sample);
     bool report(const Progress& now) const;
@@ -78,6 +78,8 @@ class FarthestSearch {
     std::vector<State> states_;
     std::vector<std::vector<Near>> disks_; ///< Samples that come nearer when this one is chosen.
     std::priority_queue<Candidate> queue_; ///< With those of all distances before.
+    EdgePaths paths_;
+    std::vector<float> bounded_; ///< Distances of the samples where paths have begun.
     FarthestOrder order_;
     std::uint32_t searched_ = 0; ///< Disks.
 };
@@ -124,15 +126,15 @@ std::vector<std::uint32_t> FarthestSearch::farthest_open() const {
     return open;
 }
 
-std::vector<double> FarthestSearch::bounds() const {
-    std::vector<float> distances = distances_;
-    for (const std::uint32_t chosen : order_.indices) {
-        distances[chosen] = 0;
+const std::vector<double>& FarthestSearch::bounds() {
+    for (std::uint32_t i = 0; i < samples_.size(); ++i) {
+        const float distance = states_[i] == State::chosen ? 0 : distances_[i];
+        if (distance < bounded_[i]) {
+            bounded_[i] = distance;
+            paths_.begin_at(samples_[i], distance + 2 * order_.error);
+        }
     }
-    for (float& distance : distances) {
-        distance += 2 * static_cast<float>(order_.error);
-    }
-    return vertex_bounds(mesh_, samples_, distances);
+    return paths_.lengths();
 }
 
 Result<Done> FarthestSearch::search(std::uint32_t first) {
@@ -151,7 +153,7 @@ Result<Done> FarthestSearch::search(std::uint32_t first) {
                                : std::max(kMargin * double{distance}, shortest_distance(mesh_));
     const ProgressCallback heard = [this](const Progress& now) { return report(now); };
     Runner::Impl& impl = Runner::Impl::of(runner_);
-    const std::vector<double> ends = is_infinite ? std::vector<double>() : bounds();
+    const std::span<const double> ends = is_infinite ? std::span<const double>() : bounds();
     const auto found =
         impl.complete(search_within(impl, mesh_, query, {}, ends), 0, progress_ ? heard : nullptr);
     if (!found) {

@@ -11,7 +11,7 @@
 #include "engine/domain/stages.hpp"
 #include "engine/domain/surface_domain.hpp"
 #include "engine/domain/tolerances.hpp"
-#include "engine/domain/vertex_bounds.hpp"
+#include "mesh/edge_paths.hpp"
 #include "support/invalid.hpp"
 #include "support/number_text.hpp"
 
@@ -62,18 +62,20 @@ Result<Done> check_expected(const NeighbourQuery& query, double pairs) {
 /// edges is short enough. Among sources it is one of them.
 std::size_t count_along_edges(const PreparedMesh& mesh, const NeighbourQuery& query,
                               const Sample& source, double within) {
-    const std::vector<double> bounds = vertex_bounds(mesh, std::span(&source, 1), {{0.0F}});
+    EdgePaths paths(mesh);
+    paths.begin_at(source, 0);
+    const std::vector<double>& lengths = paths.lengths();
     if (query.kind == NeighbourKind::vertices) {
         return static_cast<std::size_t>(
-            std::ranges::count_if(bounds, [&](double bound) { return bound <= within; }));
+            std::ranges::count_if(lengths, [&](double length) { return length <= within; }));
     }
     const auto points = query.kind == NeighbourKind::points ? query.points : query.sources;
     return static_cast<std::size_t>(std::ranges::count_if(points, [&](const Sample& point) {
         const std::array<double, 3> corners = corner_distances(mesh, point);
         const HalfEdge* const face = &mesh.half_edges()[std::size_t{3} * point.face];
-        return bounds[face[0].origin] + corners[0] <= within ||
-               bounds[face[1].origin] + corners[1] <= within ||
-               bounds[face[2].origin] + corners[2] <= within;
+        return lengths[face[0].origin] + corners[0] <= within ||
+               lengths[face[1].origin] + corners[1] <= within ||
+               lengths[face[2].origin] + corners[2] <= within;
     }));
 }
 
