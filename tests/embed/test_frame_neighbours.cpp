@@ -430,7 +430,13 @@ TEST_SUITE("frame neighbours") {
             REQUIRE_FALSE(recorded);
             CHECK(recorded.error().message ==
                   "the buffers hold no mesh: a command buffer with uploads was not submitted");
-            subject.query.most_pairs = 100;
+            subject.query.most_pairs = 100; // Seen before the search.
+            const auto seen = FrameNeighbours::create(bench.sampler, subject.mesh, subject.query);
+            REQUIRE_FALSE(seen);
+            CHECK(seen.error().status == Status::job_too_large);
+            // Along edges a few seem too far, so that so many are seen only by the search.
+            subject.query.most_pairs = NeighbourQuery().most_pairs;
+            subject.query.most_pairs = bench.wanted(subject.mesh, subject.query).indices.size() - 1;
             FrameNeighbours many = bench.frames(subject.mesh, subject.query);
             Runner runner = expect(Runner::create(bench.sampler, context.queue()));
             const auto done = many.find_and_wait(runner);
