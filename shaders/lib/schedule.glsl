@@ -36,11 +36,14 @@ uint order_after(uint first, float idle) {
 // Returns true if exactly the first candidates that are due get the slots.
 bool is_ranked() { return push.slots <= kMostRanked; }
 
+// Returns the slots for the next batch: all of them if it is for candidates of a single order.
+uint batch_slots() { return control.longest_span == 1u ? push.slots : push.batch; }
+
 // Returns the number of idle candidates to aim at: if ranked, so many that mostly all slots are filled;
 // else so few that mostly all find a slot, since one without a slot cuts the batch short.
 float wanted_idle() {
-    precise float deviation = sqrt(float(push.slots));
-    precise float wanted = float(push.slots) + (is_ranked() ? 3.0 : -1.5) * deviation;
+    precise float deviation = sqrt(float(push.batch));
+    precise float wanted = float(push.batch) + (is_ranked() ? 3.0 : -1.5) * deviation;
     return wanted;
 }
 
@@ -146,7 +149,8 @@ void limit_span(bool is_stuck, uint end) {
 
 // Begins the batch that select has put into the slots.
 void begin_batch() {
-    uint used = min(control.due, push.slots);
+    uint most = control.mode == kSelectSettled ? push.slots : batch_slots();
+    uint used = min(control.due, most);
     control.select_x = 0u;
     limit_span(control.first_left <= control.first_order, control.batch_end);
     if (used == 0u) {

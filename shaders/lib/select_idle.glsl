@@ -126,7 +126,7 @@ void give_slots() {
         uint slot = group_slot + (is_ranked() ? rank_among(due, i) : i);
         uint place = group_places[i];
         uint order = group_orders[i];
-        if (slot < push.slots) {
+        if (slot < batch_slots()) {
             fill_slot(slot, place, sample_at(place, order));
             atomicOr(orders[active_word(place)], state_bit(place));
             orders[place] = slot;

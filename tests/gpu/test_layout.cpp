@@ -29,17 +29,17 @@ const Offsets kJob{GEODISK_OFFSET(JobRec, capacity),       GEODISK_OFFSET(JobRec
                    GEODISK_OFFSET(JobRec, buckets),        GEODISK_OFFSET(JobRec, base_error),
                    GEODISK_OFFSET(JobRec, first_mask_row), GEODISK_OFFSET(JobRec, first_class_row)};
 
-const Offsets kPush{GEODISK_OFFSET(Push, slots),           GEODISK_OFFSET(Push, lanes),
-                    GEODISK_OFFSET(Push, lanes_per_group), GEODISK_OFFSET(Push, window_capacity),
-                    GEODISK_OFFSET(Push, table_capacity),  GEODISK_OFFSET(Push, list_capacity),
-                    GEODISK_OFFSET(Push, lane_rows),       GEODISK_OFFSET(Push, first_list_row),
-                    GEODISK_OFFSET(Push, first_slice_row), GEODISK_OFFSET(Push, large_groups),
-                    GEODISK_OFFSET(Push, large_after),     GEODISK_OFFSET(Push, step_budget),
-                    GEODISK_OFFSET(Push, sample_capacity), GEODISK_OFFSET(Push, list_groups),
-                    GEODISK_OFFSET(Push, first_stage),     GEODISK_OFFSET(Push, stages),
-                    GEODISK_OFFSET(Push, intensity),       GEODISK_OFFSET(Push, end_order),
-                    GEODISK_OFFSET(Push, bucket_shift),    GEODISK_OFFSET(Push, scan_count),
-                    GEODISK_OFFSET(Push, first_group)};
+const Offsets kPush{GEODISK_OFFSET(Push, slots),           GEODISK_OFFSET(Push, batch),
+                    GEODISK_OFFSET(Push, lanes),           GEODISK_OFFSET(Push, lanes_per_group),
+                    GEODISK_OFFSET(Push, window_capacity), GEODISK_OFFSET(Push, table_capacity),
+                    GEODISK_OFFSET(Push, list_capacity),   GEODISK_OFFSET(Push, lane_rows),
+                    GEODISK_OFFSET(Push, first_list_row),  GEODISK_OFFSET(Push, first_slice_row),
+                    GEODISK_OFFSET(Push, large_groups),    GEODISK_OFFSET(Push, large_after),
+                    GEODISK_OFFSET(Push, step_budget),     GEODISK_OFFSET(Push, sample_capacity),
+                    GEODISK_OFFSET(Push, list_groups),     GEODISK_OFFSET(Push, first_stage),
+                    GEODISK_OFFSET(Push, stages),          GEODISK_OFFSET(Push, intensity),
+                    GEODISK_OFFSET(Push, end_order),       GEODISK_OFFSET(Push, bucket_shift),
+                    GEODISK_OFFSET(Push, scan_count),      GEODISK_OFFSET(Push, first_group)};
 
 const Offsets kPlacePush{
     GEODISK_OFFSET(PlacePush, most),          GEODISK_OFFSET(PlacePush, last_vertex),

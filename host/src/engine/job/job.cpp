@@ -111,12 +111,16 @@ Result<Done> Job::Impl::choose_kernels(KernelVariant wanted, const RunPlan& for_
 
 void Job::Impl::apply_plan(const RunPlan& new_plan) {
     plan = new_plan;
+    const bool by_groups = plan.disks_by == DisksBy::groups;
     push.slots = plan.slots;
+    // Where disks are so large that there are no more slots than those that share an order need,
+    // disks beyond the groups would be computed after the others, many of them in vain.
+    const bool is_least = by_groups && plan.slots == kLeastSlots;
+    push.batch = is_least ? std::min(plan.lanes, plan.slots) : plan.slots;
     push.window_capacity = plan.window_capacity;
     push.table_capacity = plan.table_capacity;
     push.list_capacity = plan.list_capacity;
     push.lanes = has_lane_per_slot ? plan.slots : plan.lanes;
-    const bool by_groups = plan.disks_by == DisksBy::groups;
     push.lanes_per_group = by_groups ? 1 : sampler->choices.tuning.slot_local_size;
     push.lane_rows = plan.lane_rows();
     push.first_list_row = static_cast<std::uint32_t>(plan.first_list_row());
