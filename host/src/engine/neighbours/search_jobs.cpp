@@ -62,7 +62,7 @@ Result<Done> check_expected(const NeighbourQuery& query, double pairs) {
 /// edges is short enough. Among sources it is one of them.
 std::size_t count_along_edges(const PreparedMesh& mesh, const NeighbourQuery& query,
                               const Sample& source, double within) {
-    EdgePaths paths(mesh);
+    EdgePaths paths(mesh, std::nextafter(within, HUGE_VAL));
     paths.begin_at(source, 0);
     const std::vector<double>& lengths = paths.lengths();
     if (query.kind == NeighbourKind::vertices) {
