@@ -69,8 +69,10 @@ TEST_CASE("marks that do not fit their places are found") {
     const tools::SampleFile samples = tools::read_samples(folder / "a.ply");
     const auto marks = samples.extra_values("feature");
     const std::size_t last = marks.size() - 1;
-    for (const auto& [row, mark] : std::vector<std::pair<std::size_t, std::uint32_t>>{
+    for (const auto& [sample, wrong] : std::vector<std::pair<std::size_t, std::uint32_t>>{
              {0, 0}, {0, 1}, {8, 0}, {8, 2}, {last, 1}, {last, 2}, {last, 7}}) {
+        const std::size_t row = sample;
+        const std::uint32_t mark = wrong;
         std::string bad = "# features: 30\nx,y,z,face_index,bary_u,bary_v,bary_w,feature\n";
         for (std::size_t i = 0; i < marks.size(); ++i) {
             const tools::SampleRow& at = samples.rows[i];

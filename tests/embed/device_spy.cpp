@@ -225,6 +225,7 @@ struct DeviceSpy::Functions {
     static PFN_vkVoidFunction VKAPI_CALL get_device_proc_addr(VkDevice device, const char* name) {
         const auto get = reinterpret_cast<PFN_vkGetDeviceProcAddr>(
             active->real_(active->instance_, "vkGetDeviceProcAddr"));
+        active->device_ = device;
         active->real_functions_[name] = get(device, name);
         const PFN_vkVoidFunction replacement = find(name);
         return replacement != nullptr ? replacement : active->real_functions_[name];
@@ -321,6 +322,9 @@ std::string DeviceSpy::alive() const {
 }
 
 void DeviceSpy::destroy_what_is_alive() {
+    const auto get =
+        reinterpret_cast<PFN_vkGetDeviceProcAddr>(real_(instance_, "vkGetDeviceProcAddr"));
+    reinterpret_cast<PFN_vkDeviceWaitIdle>(get(device_, "vkDeviceWaitIdle"))(device_);
     while (!objects_.empty()) {
         objects_.back().destroy_now();
         objects_.pop_back();

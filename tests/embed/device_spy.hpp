@@ -59,7 +59,7 @@ class DeviceSpy {
     std::string alive() const;
     /// Handles destroyed that nobody created, or twice.
     std::uint32_t strangers() const { return strangers_; }
-    /// Destroys what is alive, as nobody else can.
+    /// Waits for the work of the device, and destroys what is alive, as nobody else can.
     void destroy_what_is_alive();
 
   private:
@@ -78,6 +78,7 @@ class DeviceSpy {
 
     PFN_vkGetInstanceProcAddr real_;
     VkInstance instance_ = VK_NULL_HANDLE;
+    VkDevice device_ = VK_NULL_HANDLE;
     std::map<std::string, PFN_vkVoidFunction, std::less<>> real_functions_;
     std::map<std::string, std::uint32_t, std::less<>> calls_;
     std::optional<Fault> fault_;

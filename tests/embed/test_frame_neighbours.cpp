@@ -172,9 +172,10 @@ TEST_SUITE("frame neighbours") {
         const Context context = validated_context();
         {
             Bench bench(context);
-            for (const auto& [name, resolution] :
+            for (const auto& [shape, resolution] :
                  {std::pair("torus-knot", 8), std::pair("cube", 6), std::pair("plate", 6),
                   std::pair("moebius", 6)}) {
+                const std::string name = shape;
                 CAPTURE(name);
                 Subject subject(builtin(name, resolution));
                 NeighbourQuery& query = subject.query;

@@ -359,7 +359,8 @@ TEST_CASE("frame: bad bytes are refused") {
         {&JobFrame::pool_ratio, "its pool ratio"},
         {&JobFrame::longest_edge, "its longest edge"},
         {&JobFrame::error_bound, "its error bound"}};
-    for (const auto& [number, text] : numbers) {
+    for (const auto& [number, name] : numbers) {
+        const char* const text = name;
         for (const double value : {kNan, kInfinity, -1.0, 0.0}) {
             CAPTURE(text);
             CAPTURE(value);

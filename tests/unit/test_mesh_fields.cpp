@@ -231,13 +231,14 @@ TEST_CASE("attributes become columns behind all others") {
         {"color", {"red", "green", "blue"}, false, true, {1, 0.5, 0, 0, 0, 2}},
         {"label", {"label"}, true, false, {-1, 70000}},
         {"heat", {"heat"}, false, false, {0.5, 1e300}}};
-    for (const auto& [name, part] :
+    for (const auto& [file_name, part] :
          {std::pair{"a.csv",
                     "bary_w,red,green,blue,label,heat\n0,0,0,0,0,0,0,1,0,0,1,0.5,0,-1,0.5\n"},
           {"a.ply", "property uchar red\nproperty uchar green\nproperty uchar blue\n"
                     "property int label\nproperty double heat\n"},
           {"a.pcd", "red green blue label heat\n"},
           {"a.npz", "label.npy"}}) {
+        const std::string name = file_name;
         CAPTURE(name);
         AtomicFile file(folder / name);
         write_samples(file, sample_target(folder / name, {}, true), {}, rows, 3, {{}, fields});

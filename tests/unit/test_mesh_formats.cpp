@@ -224,7 +224,7 @@ TEST_CASE("files that hold something else say what it is") {
 TEST_CASE("texts may begin with a byte order mark and end with NULs") {
     const std::string mark = "\xEF\xBB\xBF";
     const std::string nuls(3, '\0');
-    for (const auto& [name, text] :
+    for (const auto& [file_name, text] :
          {std::pair<std::string, std::string>{"a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"},
           {"a.off", "OFF 3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"},
           {"a.stl", ascii_stl(kFacet)},
@@ -233,6 +233,7 @@ TEST_CASE("texts may begin with a byte order mark and end with NULs") {
                     "property float z\nelement face 1\n"
                     "property list uchar int vertex_indices\n"
                     "end_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"}}) {
+        const std::string name = file_name;
         CAPTURE(name);
         CHECK(mesh_of(name, mark + text).triangle_count() == 1);
         const MeshFile padded = mesh_of(name, text + nuls);

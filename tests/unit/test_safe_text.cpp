@@ -58,7 +58,8 @@ bool has_control(const std::string& text) {
 } // namespace
 
 TEST_CASE("no text controls a terminal") {
-    for (const auto& [text, shown] : hostile()) {
+    for (const auto& [text, printed] : hostile()) {
+        const std::string shown = printed;
         CAPTURE(shown);
         CHECK(one_line(text) == shown);
         CHECK_FALSE(has_control(one_line(text)));
@@ -71,7 +72,8 @@ TEST_CASE("no text controls a terminal") {
 }
 
 TEST_CASE("JSON holds every name, and no control character as it is") {
-    for (const auto& [text, shown] : hostile()) {
+    for (const auto& [text, printed] : hostile()) {
+        const std::string shown = printed;
         CAPTURE(shown);
         const std::string line = json_text({{"mesh", text}}, -1);
         CHECK_FALSE(has_control(line));
@@ -110,7 +112,8 @@ TEST_CASE("no text ends the script of a page or begins a comment in it") {
 TEST_CASE("a header holds each entry on one line, and the file is read") {
     const TemporaryFolder folder;
     for (const char* const name : {"a.ply", "a.csv", "a.pcd", "a.obj"}) {
-        for (const auto& [text, shown] : hostile()) {
+        for (const auto& [text, printed] : hostile()) {
+            const std::string shown = printed;
             CAPTURE(name);
             CAPTURE(shown);
             const SampleHeader header{{{"mesh", text + ",=1\nend_header"}, {"seed", "7"}}};

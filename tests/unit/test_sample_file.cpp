@@ -257,11 +257,12 @@ TEST_CASE("broken sample files are refused with their line or record") {
 
 TEST_CASE("sample files that are cut short are refused") {
     const TemporaryFolder folder;
-    for (const auto& [name, is_text] : {std::pair{"a.csv", true},
-                                        {"b.ply", true},
-                                        {"c.ply", false},
-                                        {"d.pcd", true},
-                                        {"e.pcd", false}}) {
+    for (const auto& [file_name, is_text] : {std::pair{"a.csv", true},
+                                             {"b.ply", true},
+                                             {"c.ply", false},
+                                             {"d.pcd", true},
+                                             {"e.pcd", false}}) {
+        const std::string name = file_name;
         write_samples(folder / name, kHeader, some_rows(0), is_text);
         const std::string bytes = bytes_of(folder / name);
         INFO(name);
@@ -269,9 +270,8 @@ TEST_CASE("sample files that are cut short are refused") {
         for (const std::size_t cut : {1u, 2u, 5u, 9u, 200u, 1000u}) {
             INFO(cut);
             folder.write("cut", bytes.substr(0, bytes.size() - cut));
-            std::filesystem::rename(folder / "cut", folder / ("cut" + std::string(name)));
-            const auto error =
-                error_of([&] { read_samples(folder / ("cut" + std::string(name))); });
+            std::filesystem::rename(folder / "cut", folder / ("cut" + name));
+            const auto error = error_of([&] { read_samples(folder / ("cut" + name)); });
             REQUIRE(error);
             CHECK(error->code() == ExitCode::bad_input);
         }

@@ -7,6 +7,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include <geodisk/context.hpp>
@@ -84,6 +85,9 @@ void check_run(const Error& error, bool bounded);
 
 /// A device that is open, and the kernels compiled there.
 struct OpenDevice {
+    OpenDevice(Context opened, const RunnerOptions& tuned, std::shared_ptr<const Sampler> compiled)
+        : context(std::move(opened)), options(tuned), sampler(std::move(compiled)) {}
+
     Context context;
     RunnerOptions options; ///< With the tuning that is kept for the device.
     std::shared_ptr<const Sampler> sampler;
