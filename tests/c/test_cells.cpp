@@ -1,8 +1,9 @@
 // Cells by the C API are those of the C++ API.
 #include <doctest/doctest.h>
 
-#include <cstring>
+#include <algorithm>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -66,9 +67,10 @@ TEST_CASE("cells are those of C++") {
     REQUIRE(arrays.edge_count == expected.edges.size());
     REQUIRE(arrays.triangle_count == expected.triangles.size());
     CHECK(std::vector(arrays.areas, arrays.areas + arrays.sample_count) == expected.areas);
-    CHECK(std::memcmp(arrays.edges, expected.edges.data(), 8 * arrays.edge_count) == 0);
-    CHECK(std::memcmp(arrays.triangles, expected.triangles.data(), 12 * arrays.triangle_count) ==
-          0);
+    CHECK(std::ranges::equal(std::as_bytes(std::span(arrays.edges, 2 * arrays.edge_count)),
+                             std::as_bytes(std::span(expected.edges))));
+    CHECK(std::ranges::equal(std::as_bytes(std::span(arrays.triangles, 3 * arrays.triangle_count)),
+                             std::as_bytes(std::span(expected.triangles))));
     CHECK(arrays.area_error == expected.area_error);
     CHECK(arrays.distance_error == expected.distance_error);
     CHECK(arrays.unreached == 0);

@@ -3,8 +3,8 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
-#include <cstring>
 #include <functional>
+#include <span>
 #include <vector>
 
 #include <geodisk/runner.hpp>
@@ -27,7 +27,8 @@ std::vector<gpu::SampleRec> samples_of(const DeviceRun& run) {
 
 bool is_prefix(const std::vector<gpu::SampleRec>& part, const std::vector<gpu::SampleRec>& all) {
     return part.size() <= all.size() &&
-           std::memcmp(part.data(), all.data(), part.size() * sizeof part[0]) == 0;
+           std::ranges::equal(std::as_bytes(std::span(part)),
+                              std::as_bytes(std::span(all).first(part.size())));
 }
 
 /// Stops at each of the orders; returns the samples in the end.
