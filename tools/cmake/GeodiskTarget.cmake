@@ -48,3 +48,18 @@ endif()
 function(geodisk_compile_quickly)
     set_source_files_properties(${ARGN} PROPERTIES COMPILE_OPTIONS "${geodisk_quick_options}")
 endfunction()
+
+option(GEODISK_PRECOMPILE "Compile the standard headers once per target: builds all in less time, but finds no forgotten #include" OFF)
+
+# geodisk_precompile(NAME): for a target of many sources.
+function(geodisk_precompile name)
+    if(GEODISK_PRECOMPILE)
+        target_precompile_headers(${name} PRIVATE
+            "$<$<COMPILE_LANGUAGE:CXX>:${CMAKE_CURRENT_FUNCTION_LIST_DIR}/standard_headers.hpp>")
+        # GCC 12 warns of std::string itself, whose header it no longer knows to be the system's.
+        if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+            target_compile_options(${name} PRIVATE
+                -Wno-array-bounds -Wno-restrict -Wno-stringop-overflow -Wno-stringop-overread)
+        endif()
+    endif()
+endfunction()

@@ -102,7 +102,7 @@ std::string bash_case(const CommandFacts& command, const std::string& pattern) {
 }
 
 /// Within single quotes of a shell.
-std::string quoted(std::string_view text) {
+std::string zsh_quoted(std::string_view text) {
     std::string result = "'";
     for (const char c : text) {
         result += c == '\'' ? "'\\''" : std::string(1, c);
@@ -166,7 +166,7 @@ std::string zsh_arguments(const CommandFacts& command, const std::string& indent
     }
     std::string lines;
     for (const std::string& spec : specs) {
-        lines += " \\\n" + indent + "    " + quoted(spec);
+        lines += " \\\n" + indent + "    " + zsh_quoted(spec);
     }
     return lines;
 }
@@ -203,7 +203,7 @@ std::string zsh_completion(const CommandFacts& program, const std::string& usual
     script += "    case $state in\n        command)\n            local -a commands=(\n";
     for (const CommandFacts& command : program.commands) {
         script += "                " +
-                  quoted(command.name + ':' + zsh_text(beginning(command.text))) + '\n';
+                  zsh_quoted(command.name + ':' + zsh_text(beginning(command.text))) + '\n';
     }
     script += "            )\n            _describe -t commands command commands\n"
               "            _files\n            ;;\n        rest)\n            case $words[1] in\n";
