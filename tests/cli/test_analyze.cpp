@@ -11,7 +11,7 @@
 namespace geodisk::test {
 namespace {
 
-constexpr const char* kMesh = "builtin:icosphere:4";
+constexpr const char* kMesh = "builtin:icosphere:3";
 
 void make_set(const TemporaryFolder& folder, const std::string& file, const Arguments& more) {
     REQUIRE(run(folder, joined({"sample", kMesh, "-o", file}, more)).status == 0);
@@ -111,7 +111,7 @@ TEST_CASE("what cannot be analyzed is told") {
     check_fails(folder, 2, "--seed", {"analyze", kMesh, "a.ply", "--seed", "x"});
     check_fails(folder, 2, "--radius", {"analyze", kMesh, "a.ply", "-r", "-1"});
     check_fails(folder, 2, "would replace", {"analyze", kMesh, "a.ply", "--json", "a.ply"});
-    check_fails(folder, 3, "another mesh", {"analyze", "builtin:icosphere:5", "a.ply"});
+    check_fails(folder, 3, "another mesh", {"analyze", "builtin:icosphere:4", "a.ply"});
     check_fails(folder, 3, "b.ply", {"analyze", kMesh, "a.ply", "b.ply"});
     folder.write("none.csv", "# min_distance: 0.1\nface_index,bary_u,bary_v,bary_w,x,y,z\n");
     check_fails(folder, 3, "no samples", {"analyze", kMesh, "none.csv"});
