@@ -652,6 +652,8 @@ typedef struct geodisk_neighbour_arrays {
     double error;              /* Bound on the error of the distances, in mesh units. */
 } geodisk_neighbour_arrays;
 
+/* Points `arrays` at the neighbours found. Set struct_size first. The arrays are valid until
+ * the neighbours are released. */
 GEODISK_C_API geodisk_status geodisk_neighbours_describe(const geodisk_neighbours *neighbours,
                                                          geodisk_neighbour_arrays *arrays,
                                                          geodisk_error *error);
@@ -699,6 +701,8 @@ typedef struct geodisk_cell_arrays {
     int64_t mesh_euler;        /* Euler characteristic of the mesh. */
 } geodisk_cell_arrays;
 
+/* Points `arrays` at the cells and their dual. Set struct_size first. The arrays are valid until
+ * the cells are released. */
 GEODISK_C_API geodisk_status geodisk_cells_describe(const geodisk_cells *cells,
                                                     geodisk_cell_arrays *arrays,
                                                     geodisk_error *error);

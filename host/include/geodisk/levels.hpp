@@ -10,9 +10,11 @@
 
 namespace geodisk {
 
-/// Default of Levels::factor, and its range.
+/// Default of Levels::factor.
 inline constexpr double kLevelFactor = 2;
+/// Minimum of Levels::factor.
 inline constexpr double kLeastLevelFactor = 1.1;
+/// Maximum of Levels::factor.
 inline constexpr double kMostLevelFactor = 8;
 /// Samples that the first level should have at least.
 inline constexpr double kFirstLevelSamples = 16;

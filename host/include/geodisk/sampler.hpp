@@ -364,12 +364,15 @@ class GEODISK_API Sampler {
                       std::uint32_t dispatches = kAllDispatches) const noexcept;
     /// Records this many rounds; those without work are empty dispatches.
     void record_rounds(VkCommandBuffer commands, Job& job, std::uint32_t rounds) const noexcept;
-    /// Record the parts of a round one by one, for commands of your own between them. Always record
-    /// all three, in this order. record_select() lists the candidates that come next, or puts them
-    /// into slots; record_detect() computes their disks; record_resolve() decides them once all of
-    /// these are complete.
+    // The parts of a round one by one, for commands of your own between them. Always record all
+    // three, in this order.
+
+    /// Records the first part of a round: lists the candidates that come next, or puts them into
+    /// slots.
     void record_select(VkCommandBuffer commands, Job& job) const noexcept;
+    /// Records the second part: computes their disks.
     void record_detect(VkCommandBuffer commands, Job& job) const noexcept;
+    /// Records the third part: decides them once all of these disks are complete.
     void record_resolve(VkCommandBuffer commands, Job& job) const noexcept;
     /// Restarts the batch in progress, after Job::set_plan() or set_samples().
     void record_rewind(VkCommandBuffer commands, Job& job) const noexcept;
