@@ -187,7 +187,7 @@ TEST_SUITE("faults") {
         }
     }
 
-    TEST_CASE("nor does one in any other domain" * doctest::test_suite("slow")) {
+    TEST_CASE("nor does one in any other domain") {
         const TestMesh shape = builtin("torus-knot", 4);
         const PreparedMesh knot = prepared(shape);
         const RadiusField radii = radius_field(knot, wavy_factors(shape, 0.5));
@@ -218,8 +218,7 @@ TEST_SUITE("faults") {
         }
     }
 
-    TEST_CASE("nor does one while a disk that trims gets kernels and memory for that" *
-              doctest::test_suite("slow")) {
+    TEST_CASE("nor does one while a disk that trims gets kernels and memory for that") {
         const PreparedMesh tube = prepared(builtin("tube", 6));
         SampleParams params;
         params.min_distance = 1;
