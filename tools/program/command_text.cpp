@@ -29,6 +29,14 @@ std::string escaped(std::string_view text) {
 
 } // namespace
 
+std::string in_shell_quotes(std::string_view text) {
+    std::string quoted = "'";
+    for (const char c : text) {
+        quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    }
+    return quoted + '\'';
+}
+
 std::string shell_word(std::string_view argument) {
     if (!argument.empty() && std::all_of(argument.begin(), argument.end(), is_plain)) {
         return std::string(argument);
@@ -36,11 +44,7 @@ std::string shell_word(std::string_view argument) {
     if (!is_printable(argument)) {
         return escaped(argument);
     }
-    std::string word = "'";
-    for (const char c : argument) {
-        word += c == '\'' ? std::string("'\\''") : std::string(1, c);
-    }
-    return word + '\'';
+    return in_shell_quotes(argument);
 }
 
 std::string command_text(std::string_view program, std::span<const std::string> arguments) {

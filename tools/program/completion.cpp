@@ -4,6 +4,8 @@
 #include <string_view>
 #include <vector>
 
+#include "program/command_text.hpp"
+
 namespace geodisk::tools {
 namespace {
 
@@ -101,15 +103,6 @@ std::string bash_case(const CommandFacts& command, const std::string& pattern) {
            joined(arguments, " ") + "' ;;\n            esac\n            ;;\n";
 }
 
-/// Within single quotes of a shell.
-std::string zsh_quoted(std::string_view text) {
-    std::string result = "'";
-    for (const char c : text) {
-        result += c == '\'' ? "'\\''" : std::string(1, c);
-    }
-    return result + "'";
-}
-
 /// `text` where zsh takes brackets and colons for its own.
 std::string zsh_text(std::string_view text) {
     std::string result;
@@ -166,7 +159,7 @@ std::string zsh_arguments(const CommandFacts& command, const std::string& indent
     }
     std::string lines;
     for (const std::string& spec : specs) {
-        lines += " \\\n" + indent + "    " + zsh_quoted(spec);
+        lines += " \\\n" + indent + "    " + in_shell_quotes(spec);
     }
     return lines;
 }
@@ -203,7 +196,7 @@ std::string zsh_completion(const CommandFacts& program, const std::string& usual
     script += "    case $state in\n        command)\n            local -a commands=(\n";
     for (const CommandFacts& command : program.commands) {
         script += "                " +
-                  zsh_quoted(command.name + ':' + zsh_text(beginning(command.text))) + '\n';
+                  in_shell_quotes(command.name + ':' + zsh_text(beginning(command.text))) + '\n';
     }
     script += "            )\n            _describe -t commands command commands\n"
               "            _files\n            ;;\n        rest)\n            case $words[1] in\n";
