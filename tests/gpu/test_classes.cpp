@@ -9,6 +9,7 @@
 
 #include <geodisk/domain.hpp>
 
+#include "constants.h"
 #include "device_run.hpp"
 #include "sets.hpp"
 #include "support/geodesic_query.hpp"
@@ -24,6 +25,15 @@ using Factors = std::vector<float>;
 const Factors kThree{1, 0.577f, 0.577f, 0.577f, 1, 0.577f, 0.577f, 0.577f, 1};
 const Factors kUneven{1, 0.3f, 0.3f, 0.2f};
 const Factors kRepelling{0.2f, 1, 1, 0.1f};
+
+/// As many classes as there may be.
+Factors most_factors() {
+    Factors factors(std::size_t{gpu::kMostClasses} * gpu::kMostClasses, 0.4f);
+    for (std::size_t i = 0; i < gpu::kMostClasses; ++i) {
+        factors[i * (gpu::kMostClasses + 1)] = 1;
+    }
+    return factors;
+}
 
 /// Checks that the set is that of both twins, with its classes.
 SampleSet check_classed(const PreparedMesh& mesh, const SampleParams& params,
@@ -69,6 +79,15 @@ TEST_SUITE("classes") {
                 CHECK(std::ranges::all_of(counts, [](std::size_t n) { return n > 0; }));
             }
         }
+    }
+
+    TEST_CASE("as many classes as there may be") {
+        const PreparedMesh mesh = prepared(builtin("torus-knot", 8));
+        SampleParams params = params_for(mesh, 60, 3);
+        params.class_factors = most_factors();
+        const SampleSet set = check_classed(mesh, params);
+        const auto counts = counts_of(set.classes, gpu::kMostClasses);
+        CHECK(std::ranges::all_of(counts, [](std::size_t n) { return n > 0; }));
     }
 
     TEST_CASE("in pieces of the pool, with few slots, and by work groups") {
