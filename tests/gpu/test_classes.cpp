@@ -84,7 +84,8 @@ TEST_SUITE("classes") {
     TEST_CASE("as many classes as there may be") {
         const PreparedMesh mesh = prepared(builtin("torus-knot", 8));
         SampleParams params = params_for(mesh, 60, 3);
-        params.class_factors = most_factors();
+        const Factors factors = most_factors();
+        params.class_factors = factors;
         const SampleSet set = check_classed(mesh, params);
         const auto counts = counts_of(set.classes, gpu::kMostClasses);
         CHECK(std::ranges::all_of(counts, [](std::size_t n) { return n > 0; }));

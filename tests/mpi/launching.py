@@ -13,9 +13,9 @@ ENVIRONMENT = {
     "OMPI_MCA_rmaps_base_oversubscribe": "1",
 }
 
-def launch(processes, *arguments, program=(), env=ENVIRONMENT):
-    """Starts mpirun; `program` is what geodisk_mpi is started by."""
-    command = [os.environ["GEODISK_MPIEXEC"], "-q", "-n", str(processes), *program, PROGRAM,
+def launch(processes, *arguments, program=(), within=(), env=ENVIRONMENT):
+    """Starts mpirun; `program` is what geodisk_mpi is started by, and `within` what mpirun is."""
+    command = [*within, os.environ["GEODISK_MPIEXEC"], "-q", "-n", str(processes), *program, PROGRAM,
                *arguments]
     return subprocess.Popen(command, env=env, text=True, stdout=subprocess.PIPE,
                             stderr=subprocess.PIPE)

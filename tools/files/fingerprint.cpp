@@ -61,14 +61,22 @@ std::string fingerprint_of(std::span<const double> coordinates) {
     return hexadecimal(hash.value());
 }
 
-std::string digest_of(std::span<const SampleRow> rows) {
+std::uint64_t digest_number(std::span<const SampleRow> rows) {
     std::uint64_t sum = 0;
     for (const SampleRow& row : rows) {
         Fnv1a hash;
         hash.add(row);
         sum += hash.value();
     }
-    return hexadecimal(sum);
+    return sum;
+}
+
+std::string digest_text(std::uint64_t number) {
+    return hexadecimal(number);
+}
+
+std::string digest_of(std::span<const SampleRow> rows) {
+    return digest_text(digest_number(rows));
 }
 
 void check_digest(const Path& path, const SampleHeader& header) {

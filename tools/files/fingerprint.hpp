@@ -24,6 +24,9 @@ inline constexpr std::string_view kDigest = "digest";
 
 /// Returns the digest of samples on a surface: the sum of the fingerprints of each one by itself,
 /// modulo 2^64. It is the same in any order.
+std::uint64_t digest_number(std::span<const SampleRow> rows);
+/// Returns it as it is written.
+std::string digest_text(std::uint64_t number);
 std::string digest_of(std::span<const SampleRow> rows);
 
 /// Throws UserError(bad_input) for a header with a digest that is none.

@@ -19,7 +19,7 @@ void append_triple(std::string& text, std::string_view name, const Number* tripl
 
 void write_obj(AtomicFile& file, const SampleHeader& header, std::span<const SampleRow> rows,
                const SampleLayout& layout) {
-    write_entries(file, header, "# ");
+    file.write(entry_lines(header, "# "));
     // Writes what `append(text, i)` appends for each row.
     const auto write_each = [&](const auto& append) {
         write_rows(file, rows.size(), [&](std::string& text, std::size_t begin, std::size_t end) {

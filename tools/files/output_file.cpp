@@ -61,14 +61,19 @@ void AtomicFile::write(std::string_view bytes) {
     }
 }
 
+std::filesystem::path AtomicFile::share() {
+    errno = 0;
+    if (!stream() && std::fflush(file_) != 0) {
+        fail(errno);
+    }
+    return temporary_;
+}
+
 void AtomicFile::sync() {
     if (stream()) {
         return;
     }
-    errno = 0;
-    if (std::fflush(file_) != 0) {
-        fail(errno);
-    }
+    share();
     if (const int error = sync_to_disk(file_); error != 0) {
         fail(error);
     }

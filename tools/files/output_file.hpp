@@ -30,6 +30,10 @@ class AtomicFile {
 
     void write(std::string_view bytes);
 
+    /// Hands all bytes to the system, and returns the temporary file, for other processes to write
+    /// further ones. Returns "" for a stream.
+    std::filesystem::path share();
+
     /// Brings all bytes to the disk, so that of several files none is committed when one cannot be
     /// written.
     void sync();

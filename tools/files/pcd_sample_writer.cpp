@@ -1,6 +1,7 @@
 #include <array>
 #include <concepts>
 
+#include "files/block_writer.hpp"
 #include "files/sample_writers.hpp"
 #include "program/exact_text.hpp"
 
@@ -38,15 +39,19 @@ void write_pcd(AtomicFile& file, const SampleHeader& header, std::span<const Sam
     });
     const std::string count = std::to_string(rows.size());
     file.write("# .PCD v0.7 - Point Cloud Data file format\n");
-    write_entries(file, all, "# ");
+    file.write(entry_lines(all, "# "));
     file.write("VERSION 0.7\nFIELDS" + fields + "\nSIZE" + sizes + "\nTYPE" + types + "\nCOUNT" +
                counts + "\nWIDTH " + count + "\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS " +
                count + "\nDATA " + (target.is_text ? "ascii" : "binary") + '\n');
-    if (target.is_text) {
-        write_text_rows(file, rows, layout, ' ');
-    } else {
-        write_binary_rows(file, rows, layout);
-    }
+    write_rows(file, rows.size(), [&](std::string& bytes, std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            if (target.is_text) {
+                append_text_row(bytes, rows[i], i, layout, ' ');
+            } else {
+                append_binary_row(bytes, rows[i], i, layout);
+            }
+        }
+    });
 }
 
 } // namespace geodisk::tools

@@ -18,25 +18,49 @@ constexpr double kSmallestFloat = 1e-30; // Well above where float loses digits.
 
 } // namespace
 
-bool float_is_enough(std::span<const SampleRow> rows, std::uint32_t dimension) {
-    double least[std::size(SampleRow{}.position)], most[std::size(least)];
+SampleBox::SampleBox() {
     std::ranges::fill(least, std::numeric_limits<double>::infinity());
     std::ranges::fill(most, -std::numeric_limits<double>::infinity());
+}
+
+SampleBox::SampleBox(std::span<const SampleRow> rows) : SampleBox() {
     for (const SampleRow& row : rows) {
-        for (std::uint32_t axis = 0; axis < dimension; ++axis) {
+        for (std::size_t axis = 0; axis < std::size(least); ++axis) {
             least[axis] = std::min(least[axis], row.position[axis]);
             most[axis] = std::max(most[axis], row.position[axis]);
         }
     }
+}
+
+void SampleBox::add(const SampleBox& other) {
+    for (std::size_t axis = 0; axis < std::size(least); ++axis) {
+        least[axis] = std::min(least[axis], other.least[axis]);
+        most[axis] = std::max(most[axis], other.most[axis]);
+    }
+}
+
+bool float_is_enough(const SampleBox& box, std::uint32_t dimension) {
     double largest = 0;
     double extent = 0;
-    for (std::uint32_t axis = 0; axis < dimension && !rows.empty(); ++axis) {
-        largest = std::max({largest, std::abs(least[axis]), std::abs(most[axis])});
-        extent = std::max(extent, most[axis] - least[axis]);
+    for (std::uint32_t axis = 0; axis < dimension && box.least[axis] <= box.most[axis]; ++axis) {
+        largest = std::max({largest, std::abs(box.least[axis]), std::abs(box.most[axis])});
+        extent = std::max(extent, box.most[axis] - box.least[axis]);
     }
     constexpr double kLargestFloat = 1e38;
     const bool in_range = largest == 0 || (largest > kSmallestFloat && largest < kLargestFloat);
     return in_range && largest <= 16 * extent;
+}
+
+bool is_for_programs(SampleFormat format) {
+    return format == SampleFormat::csv || format == SampleFormat::npz;
+}
+
+SampleLayout layout_in(SampleFormat format, std::uint32_t dimension, bool is_float_enough) {
+    const bool is_exact = is_for_programs(format);
+    const bool is_named = is_exact ? dimension == 3 : dimension >= 3;
+    SampleLayout layout{dimension, is_named ? 3u : 0u, !is_exact && is_float_enough, false};
+    layout.has_byte_colours = format == SampleFormat::ply;
+    return layout;
 }
 
 std::array<double, 3> middle_of(std::span<const SampleRow> rows) {
@@ -50,8 +74,8 @@ std::array<double, 3> middle_of(std::span<const SampleRow> rows) {
 }
 
 std::array<double, 3> origin_for_float(std::span<const SampleRow> rows, std::uint32_t dimension) {
-    return float_is_enough(rows, std::min(dimension, 3u)) ? std::array<double, 3>{}
-                                                          : middle_of(rows);
+    return float_is_enough(SampleBox(rows), std::min(dimension, 3u)) ? std::array<double, 3>{}
+                                                                     : middle_of(rows);
 }
 
 void check_float_range(const SampleTarget& target, std::span<const SampleRow> rows,
@@ -74,11 +98,13 @@ void check_float_range(const SampleTarget& target, std::span<const SampleRow> ro
     }
 }
 
-void write_entries(AtomicFile& file, const SampleHeader& header, const char* prefix) {
+std::string entry_lines(const SampleHeader& header, const char* prefix) {
+    std::string lines;
     for (const auto& [key, value] : header.entries) {
         // Some of these formats end in spreadsheets.
-        file.write(prefix + csv_comment(key + ": " + value) + "\n");
+        lines += prefix + csv_comment(key + ": " + value) + '\n';
     }
+    return lines;
 }
 
 std::string json_text(const SampleHeader& header) {

@@ -110,8 +110,25 @@ void visit_columns(const SampleRow& row, std::size_t index, const SampleLayout& 
     }
 }
 
+/// The bounding box of samples.
+struct SampleBox {
+    double least[8], most[8]; ///< In each dimension; infinite without samples.
+
+    SampleBox();
+    explicit SampleBox(std::span<const SampleRow> rows);
+    /// Takes in another box.
+    void add(const SampleBox& other);
+};
+
 /// Whether rounding to float moves no position by more than a millionth of the set's extent.
-bool float_is_enough(std::span<const SampleRow> rows, std::uint32_t dimension);
+bool float_is_enough(const SampleBox& box, std::uint32_t dimension);
+
+/// Returns true for CSV and NPZ, which hold what coordinates there are, as they are. Viewers read
+/// the other formats, which have x y z in any case.
+bool is_for_programs(SampleFormat format);
+
+/// Returns the columns of samples on a surface in a format.
+SampleLayout layout_in(SampleFormat format, std::uint32_t dimension, bool is_float_enough);
 
 /// The middle of the samples' bounding box, of x y z; 0 without samples.
 std::array<double, 3> middle_of(std::span<const SampleRow> rows);
@@ -124,8 +141,8 @@ std::array<double, 3> origin_for_float(std::span<const SampleRow> rows, std::uin
 void check_float_range(const SampleTarget& target, std::span<const SampleRow> rows,
                        const std::array<double, 3>& origin);
 
-/// A line "KEY: VALUE" behind `prefix` for each entry.
-void write_entries(AtomicFile& file, const SampleHeader& header, const char* prefix);
+/// Returns a line "KEY: VALUE" behind `prefix` for each entry.
+std::string entry_lines(const SampleHeader& header, const char* prefix);
 
 /// An object of all entries, plain ASCII on one line; a key with several values has an array.
 std::string json_text(const SampleHeader& header);

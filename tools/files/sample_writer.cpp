@@ -4,6 +4,7 @@
 
 #include "files/block_writer.hpp"
 #include "files/output_file.hpp"
+#include "files/row_format.hpp"
 #include "files/sample_file.hpp"
 #include "files/sample_layout.hpp"
 #include "files/sample_writers.hpp"
@@ -14,112 +15,51 @@
 namespace geodisk::tools {
 namespace {
 
-const char* ply_type(std::uint32_t) {
-    return "int";
-}
-const char* ply_type(std::int32_t) {
-    return "int";
-}
-const char* ply_type(std::uint8_t) {
-    return "uchar";
-}
-const char* ply_type(float) {
-    return "float";
-}
-const char* ply_type(double) {
-    return "double";
-}
-
-void write_ply_header(AtomicFile& file, const SampleHeader& header, std::size_t count, bool ascii,
-                      const SampleLayout& layout) {
-    file.write(ascii ? "ply\nformat ascii 1.0\n" : "ply\nformat binary_little_endian 1.0\n");
-    write_entries(file, header, "comment ");
-    file.write("element vertex " + std::to_string(count) + "\n");
-    visit_columns({}, 0, layout, [&](std::string_view name, auto value) {
-        file.write(std::string("property ") + ply_type(value) + ' ' + std::string(name) + '\n');
-    });
-    file.write("end_header\n");
-}
-
-void write_ply(AtomicFile& file, const SampleHeader& header, std::span<const SampleRow> rows,
-               bool ascii, const SampleLayout& layout) {
-    write_ply_header(file, header, rows.size(), ascii, layout);
-    if (ascii) {
-        write_text_rows(file, rows, layout, ' ');
-    } else {
-        write_binary_rows(file, rows, layout);
-    }
-}
-
-void write_csv(AtomicFile& file, const SampleHeader& header, std::span<const SampleRow> rows,
-               const SampleLayout& layout) {
-    write_entries(file, header, "# ");
-    if (!header.entries.empty()) {
-        file.write("# " + std::string(kSampleCount) + ": " + std::to_string(rows.size()) + "\n");
-    }
-    std::string line;
-    visit_columns({}, 0, layout, [&](std::string_view name, auto) {
-        line += line.empty() ? "" : ",";
-        line += name;
-    });
-    file.write(line + "\n");
-    write_text_rows(file, rows, layout, ',');
-}
-
-void write_xyz(AtomicFile& file, std::span<const SampleRow> rows) {
-    write_rows(file, rows.size(), [&](std::string& text, std::size_t begin, std::size_t end) {
-        for (const SampleRow& row : rows.subspan(begin, end - begin)) {
-            for (const double coordinate : std::span(row.position).first(3)) {
-                append_number(text, coordinate);
-                text += ' ';
-            }
-            text.back() = '\n';
+void write_by_row(AtomicFile& file, const RowFormat& format, const SampleHeader& header,
+                  std::span<const SampleRow> rows) {
+    file.write(format.head(header, rows.size()));
+    write_rows(file, rows.size(), [&](std::string& bytes, std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            format.append(bytes, rows[i], i);
         }
     });
 }
 
 /// Whether the header is one of comments, which may be left out.
 bool has_comments(SampleFormat format) {
-    return format == SampleFormat::ply || format == SampleFormat::csv ||
-           format == SampleFormat::obj || format == SampleFormat::pcd;
+    return format == SampleFormat::obj || format == SampleFormat::pcd;
 }
 
 /// Rounding of distances, as a part of the minimum distance.
 constexpr double kWorthTelling = 1e-6;
 
-/// Formats that viewers read have x y z in any case, those for programs what coordinates there are.
 void write(AtomicFile& file, const SampleTarget& target, const SampleHeader& full_header,
-           std::span<const SampleRow> rows, const SampleLayout& for_viewers,
-           const SampleLayout& exact) {
+           std::span<const SampleRow> rows, const SampleLayout& layout) {
     const bool has_header = target.has_header || !has_comments(target.format);
     const SampleHeader header = has_header ? full_header : SampleHeader{};
     switch (target.format) {
     case SampleFormat::ply:
-        write_ply(file, header, rows, target.is_text, for_viewers);
-        break;
     case SampleFormat::csv:
-        write_csv(file, header, rows, exact);
-        break;
     case SampleFormat::xyz:
-        write_xyz(file, rows);
+        write_by_row(file, RowFormat(target, layout), full_header, rows);
         break;
     case SampleFormat::obj:
-        write_obj(file, header, rows, for_viewers);
+        write_obj(file, header, rows, layout);
         break;
     case SampleFormat::pcd:
-        write_pcd(file, header, rows, target, for_viewers);
+        write_pcd(file, header, rows, target, layout);
         break;
     case SampleFormat::npz:
-        write_npz(file, header, rows, exact);
+        write_npz(file, header, rows, layout);
         break;
     case SampleFormat::gltf:
     case SampleFormat::glb:
 #ifdef GEODISK_GLTF
-        write_gltf(file, header, rows, target, for_viewers);
+        write_gltf(file, header, rows, target, layout);
 #endif
         break; // Else sample_target() has refused it.
     case SampleFormat::usda:
-        write_usd(file, header, rows, target, for_viewers);
+        write_usd(file, header, rows, target, layout);
         break;
     }
 }
@@ -138,31 +78,26 @@ void write_samples(const Path& path, const SampleHeader& header, std::span<const
 void write_samples(AtomicFile& file, const SampleTarget& target, const SampleHeader& header,
                    std::span<const SampleRow> rows, std::uint32_t dimension,
                    const FurtherColumns& further) {
-    const bool has_radius = has_radii(rows), has_polygon = has_polygons(rows);
-    SampleLayout for_viewers{dimension,
-                             dimension >= 3 ? 3u : 0u,
-                             float_is_enough(rows, dimension),
-                             has_radius,
-                             has_polygon,
-                             true,
-                             further};
-    for_viewers.has_byte_colours = target.format == SampleFormat::ply;
-    const SampleLayout exact{
-        dimension, dimension == 3 ? 3u : 0u, false, has_radius, has_polygon, true, further};
-    write(file, target, header, rows, for_viewers, exact);
+    const bool is_float_enough = float_is_enough(SampleBox(rows), dimension);
+    SampleLayout layout = layout_in(target.format, dimension, is_float_enough);
+    layout.has_radius = has_radii(rows);
+    layout.has_polygon = has_polygons(rows);
+    layout.further = further;
+    write(file, target, header, rows, layout);
 }
 
 void write_box_samples(AtomicFile& file, const SampleTarget& target, const SampleHeader& header,
                        std::span<const SampleRow> rows, std::uint32_t dimension) {
-    const SampleLayout for_viewers{dimension, 3, false, false, false, false};
-    const SampleLayout exact{dimension, dimension > 3 ? 0 : dimension, false, false, false, false};
-    write(file, target, header, rows, for_viewers, exact);
+    const std::uint32_t there_are = dimension > 3 ? 0 : dimension;
+    const std::uint32_t named = is_for_programs(target.format) ? there_are : 3;
+    write(file, target, header, rows, {dimension, named, false, false, false, false});
 }
 
 std::optional<std::string> precision_note(const SampleTarget& target,
                                           std::span<const SampleRow> rows,
                                           std::uint32_t dimension) {
-    if (target.format != SampleFormat::pcd || float_is_enough(rows, std::min(dimension, 3u))) {
+    if (target.format != SampleFormat::pcd ||
+        float_is_enough(SampleBox(rows), std::min(dimension, 3u))) {
         return std::nullopt;
     }
     std::string text = "programs read x y z of PCD as floats, which would blur these: they are "

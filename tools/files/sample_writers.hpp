@@ -1,18 +1,20 @@
 // The writers of single formats, for write_samples(), and what they share.
 #pragma once
 
+#include <cstddef>
 #include <span>
+#include <string>
 
 #include "files/sample_layout.hpp"
 
 namespace geodisk::tools {
 
-/// Writes a line for each row.
-void write_text_rows(AtomicFile& file, std::span<const SampleRow> rows, const SampleLayout& layout,
-                     char separator);
+/// Appends the line of a row; `index` is its place in the further columns.
+void append_text_row(std::string& text, const SampleRow& row, std::size_t index,
+                     const SampleLayout& layout, char separator);
 
-/// Writes a record for each row, its columns side by side, little-endian.
-void write_binary_rows(AtomicFile& file, std::span<const SampleRow> rows,
+/// Appends the record of a row, its columns side by side, little-endian.
+void append_binary_row(std::string& bytes, const SampleRow& row, std::size_t index,
                        const SampleLayout& layout);
 
 void write_obj(AtomicFile& file, const SampleHeader& header, std::span<const SampleRow> rows,

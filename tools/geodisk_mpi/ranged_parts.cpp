@@ -20,9 +20,9 @@ struct FaceCorners {
     double corners[9];
 };
 
-/// Returns the corners of own faces among some, at the first part those of all.
+/// Returns the corners of own faces among some, at one part those of all.
 Result<std::vector<double>> corners_of(Exchange& exchange, const RangedSurface& surface,
-                                       std::span<const std::uint32_t> wanted) {
+                                       std::span<const std::uint32_t> wanted, std::uint32_t at) {
     std::vector<std::uint32_t> own;
     for (const WholeFace& face : surface.faces()) {
         if (std::ranges::binary_search(wanted, face.face)) {
@@ -35,7 +35,7 @@ Result<std::vector<double>> corners_of(Exchange& exchange, const RangedSurface& 
     }
     ByProcess<FaceCorners> told(exchange.size());
     for (std::size_t i = 0; i < own.size(); ++i) {
-        FaceCorners& one = told[0].emplace_back();
+        FaceCorners& one = told[at].emplace_back();
         one.face = own[i];
         std::copy_n(&(*corners)[9 * i], 9, one.corners);
     }
@@ -120,8 +120,10 @@ Result<PartsResult> RangedParts::sample(Runner& runner, const SampleParams& para
     });
 }
 
-Result<std::vector<double>> RangedParts::corners(std::span<const std::uint32_t> faces) {
-    return all([&](Lane& lane) { return corners_of(*lane.exchange, *lane.surface, faces); });
+Result<std::vector<double>> RangedParts::corners(std::span<const std::uint32_t> faces,
+                                                 std::uint32_t process) {
+    const auto at = static_cast<std::uint32_t>(process * lanes_.size());
+    return all([&](Lane& lane) { return corners_of(*lane.exchange, *lane.surface, faces, at); });
 }
 
 } // namespace geodisk::tools

@@ -46,8 +46,9 @@ class RangedParts {
                                const ProgressCallback& progress);
 
     /// Returns the corners of some faces, given in ascending order, nine coordinates each: all at
-    /// the first process, nothing elsewhere.
-    Result<std::vector<double>> corners(std::span<const std::uint32_t> faces);
+    /// one process, nothing elsewhere.
+    Result<std::vector<double>> corners(std::span<const std::uint32_t> faces,
+                                        std::uint32_t process);
 
   private:
     struct Lane {

@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "files/block_writer.hpp"
 #include "files/input_file.hpp"
+#include "files/row_format.hpp"
 #include "geodisk/checks/run_warnings.hpp"
 #include "geodisk/inputs/mesh_input.hpp"
 #include "geodisk/outputs/outputs.hpp"
@@ -86,32 +86,6 @@ PreparedMesh stand_in(const RangedSurface& surface, double min_distance) {
     return take(PreparedMesh::prepare(MeshView{positions, triangles, 3}));
 }
 
-/// Returns the rows of samples. The file of the mesh then has the faces that have samples.
-std::vector<SampleRow> rows_of(const std::vector<Sample>& samples, Session& session,
-                               MeshInput& mesh) {
-    std::vector<std::uint32_t> faces;
-    for (const Sample& sample : samples) {
-        faces.push_back(sample.face);
-    }
-    std::sort(faces.begin(), faces.end());
-    faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
-    mesh.file.positions = session.corners(faces);
-    mesh.file.triangles.clear();
-    for (std::uint32_t corner = 0; corner < 3 * faces.size(); ++corner) {
-        mesh.file.triangles.push_back(corner);
-    }
-    std::vector<SampleRow> rows(samples.size());
-    for_rows(rows.size(), [&](std::size_t i) {
-        SampleRow& row = rows[i];
-        row.face = static_cast<std::uint32_t>(std::ranges::lower_bound(faces, samples[i].face) -
-                                              faces.begin());
-        std::copy_n(samples[i].weights, 3, row.bary);
-        mesh.place(row);
-        row.face = samples[i].face;
-    });
-    return rows;
-}
-
 SampleResult sample_ranged(const SampleJob& job, MeshInput& mesh, Session& session,
                            ProgressLine& progress) {
     const RangedSurface& surface = *session.ranges();
@@ -141,7 +115,13 @@ SampleResult sample_ranged(const SampleJob& job, MeshInput& mesh, Session& sessi
     SampleResult result;
     result.params = params;
     result.done = std::move(done);
-    result.rows = rows_of(set.samples, session, mesh);
+    const bool divides = RowFormat::is_one(job.out.target().format);
+    RangedRows& rows = session.make_rows(set.samples, divides);
+    if (divides) {
+        result.all = AllRows{rows.count(), rows.digest()};
+    } else {
+        result.rows = std::move(rows.own());
+    }
     result.classes.resize(result.rows.size());
     result.features.resize(result.rows.size());
     result.warnings = run_warnings(job, mesh, result);
@@ -185,7 +165,11 @@ bool sample_ranges_to_files(const SampleOptions& options, std::uint32_t parts, S
         print_precision_note(job.out, result.rows, mesh.dimension());
         const SampleReport report(job, mesh, result);
         write_outputs(job.out, "the samples", progress, report, [&](AtomicFile& file) {
-            write_sample_file(file, job, mesh, result, report);
+            if (result.all) {
+                session.write_rows(file, job.out.target(), report.header());
+            } else {
+                write_sample_file(file, job, mesh, result, report);
+            }
         });
     } catch (const NeedsWhole& needs) {
         session.forget_ranges();

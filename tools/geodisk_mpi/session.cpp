@@ -10,8 +10,8 @@
 #include <geodisk/version.hpp>
 
 #include "cut_surface.hpp"
+#include "files/output_target.hpp"
 #include "geodisk/sample_run.hpp"
-#include "parts/ranges/talk.hpp"
 #include "parts/sample_parts.hpp"
 #include "ply_range.hpp"
 #include "program/command_text.hpp"
@@ -155,14 +155,49 @@ void Session::forget_ranges() {
     ranges_.reset();
 }
 
-std::vector<double> Session::corners(const std::vector<std::uint32_t>& faces) {
-    next(Task::corners);
-    const auto bytes = std::as_bytes(std::span(faces));
-    take(exchange_->scatter(
-        std::vector<Bytes>(exchange_->size(), Bytes(bytes.begin(), bytes.end()))));
-    auto corners = together([&] { return ranges_->corners(faces); });
+Result<Done> Session::make_rows_together(std::span<const Sample> samples, bool divides) {
+    auto rows = RangedRows::make(*exchange_, *ranges_, samples, divides);
+    if (!rows) {
+        return rows.error();
+    }
+    rows_ = std::move(*rows);
+    return Done{};
+}
+
+RangedRows& Session::make_rows(std::span<const Sample> samples, bool divides) {
+    next(Task::make_rows);
+    auto made = together([&] { return make_rows_together(samples, divides); });
     check_interrupted();
-    return take(std::move(corners));
+    take(std::move(made));
+    return *rows_;
+}
+
+RowFormat Session::row_format(const SampleTarget& target) const {
+    const bool is_float_enough = float_is_enough(rows_->box(), 3);
+    return {target, layout_in(target.format, 3, is_float_enough)};
+}
+
+void Session::write_rows(AtomicFile& file, const SampleTarget& target, const SampleHeader& header) {
+    const RowFormat format = row_format(target);
+    file.write(format.head(header, rows_->count()));
+    const std::filesystem::path shared = file.share();
+    next(Task::write_rows);
+    std::exception_ptr failure; // Of the file alone.
+    auto written = together([&]() -> Result<Done> {
+        try {
+            return rows_->write(*exchange_, format, &file, shared);
+        } catch (const UserError&) {
+            failure = std::current_exception();
+            return Done{};
+        }
+    });
+    check_interrupted();
+    if (failure) {
+        std::rethrow_exception(failure);
+    }
+    if (!written) {
+        fail_to_write(target.path, written.error().message);
+    }
 }
 
 Result<SampleSet> Session::sample(Runner& runner, const SurfaceTask& surface,
@@ -246,10 +281,11 @@ void Session::do_task(Task task, const SampleJob* job, RunDevice* device) {
     case Task::forget:
         ranges_.reset();
         break;
-    case Task::corners:
-        if (const auto faces = exchange_->scatter({})) {
-            (void)ranges_->corners(Talk::records_of<std::uint32_t>(*faces));
-        }
+    case Task::make_rows:
+        (void)make_rows_together({}, false);
+        break;
+    case Task::write_rows:
+        (void)rows_->write(*exchange_, row_format(job->out.target()), nullptr, {});
         break;
     case Task::note:
         (void)note_together(*exchange_, nullptr, quiet);

@@ -6,6 +6,7 @@
 #include <memory>
 #include <new>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,7 @@
 #include "program/failure.hpp"
 #include "program/path.hpp"
 #include "ranged_parts.hpp"
+#include "ranged_rows.hpp"
 
 namespace geodisk::tools {
 
@@ -46,8 +48,10 @@ class Session : public SurfaceSampler {
     const RangedSurface* ranges() const { return ranges_ ? &ranges_->surface() : nullptr; }
     /// Frees it, on all processes.
     void forget_ranges();
-    /// Returns the corners of its faces, in ascending order: nine coordinates each.
-    std::vector<double> corners(const std::vector<std::uint32_t>& faces);
+    /// Makes the rows of samples on it. Each process gets some of them if it `divides`.
+    RangedRows& make_rows(std::span<const Sample> samples, bool divides);
+    /// Writes divided rows by all processes. Throws UserError(bad_output).
+    void write_rows(AtomicFile& file, const SampleTarget& target, const SampleHeader& header);
 
     /// Samples by all processes.
     Result<SampleSet> sample(Runner& runner, const SurfaceTask& surface,
@@ -71,7 +75,8 @@ class Session : public SurfaceSampler {
         forget,
         sample_whole,
         sample_ranges,
-        corners,
+        make_rows,
+        write_rows,
         note
     };
 
@@ -81,6 +86,8 @@ class Session : public SurfaceSampler {
     /// Reads ranges; the first process says how many parts each has.
     Result<Done> read_together(const Path& path, std::uint32_t of_first);
     void help_to_sample(RunDevice* device, bool has_ranges);
+    Result<Done> make_rows_together(std::span<const Sample> samples, bool divides);
+    RowFormat row_format(const SampleTarget& target) const;
 
     /// Does what all processes do together. What it throws, the others never hear of: that ends all
     /// of them, with one message.
@@ -97,6 +104,7 @@ class Session : public SurfaceSampler {
 
     std::unique_ptr<MpiExchange> exchange_;
     std::optional<RangedParts> ranges_;
+    std::optional<RangedRows> rows_;
     std::vector<ProcessReport> processes_;
     CheckpointFolder* checkpoints_ = nullptr;
     bool has_ended_ = false;

@@ -8,7 +8,7 @@ namespace geodisk::tools {
 std::vector<MeshWarning> run_warnings(const SampleJob& job, const MeshInput& mesh,
                                       const SampleResult& result) {
     std::vector<MeshWarning> warnings =
-        set_warnings({.samples = result.rows.size(),
+        set_warnings({.samples = result.count(),
                       .given = result.given,
                       .avoids = result.avoided > 0,
                       .min_distance = result.params.min_distance * mesh.distance_part,

@@ -208,9 +208,13 @@ std::string dry_sample_text(const SampleJob& job, const MeshInput& mesh, const D
            distance_line(job, mesh, dry.min_distance) + dry_run_text(dry);
 }
 
+std::string SampleResult::digest() const {
+    return all ? digest_text(all->digest) : digest_of(rows);
+}
+
 SampleReport::SampleReport(const SampleJob& job, const MeshInput& mesh, const SampleResult& result)
     : job_(job), mesh_(mesh), result_(result),
-      samples_(result.farthest ? result.farthest->samples : result.rows.size()),
+      samples_(result.farthest ? result.farthest->samples : result.count()),
       rho_(packing_density(effective_area(mesh.prepared, result.params), result.params.min_distance,
                            static_cast<double>(samples_))) {
     if (has_radii(result.rows)) {
@@ -231,7 +235,7 @@ SampleHeader SampleReport::header() const {
                          {"radius", exact_text(distance / 2)},
                          {"seed", exact_text(result_.params.seed)},
                          candidates_entry(drawn()),
-                         {std::string(kDigest), digest_of(result_.rows)},
+                         {std::string(kDigest), result_.digest()},
                          {"device", done.device.name},
                          {"driver", driver_text(done.device)}}};
     header.entries.insert(header.entries.begin() + 2, additions.begin(), additions.end());
@@ -244,7 +248,7 @@ SampleHeader SampleReport::header() const {
         header.entries.emplace_back(kPoolRatio, exact_text(job_.params.pool_ratio));
     }
     if (done.cut > 0) {
-        header.entries.emplace_back("exact", std::to_string(result_.rows.size()));
+        header.entries.emplace_back("exact", std::to_string(result_.count()));
     }
     if (!job_.is_geodesic()) {
         header.entries.emplace_back("metric", metric_text(job_));

@@ -1,6 +1,7 @@
 // What `geodisk sample` tells about a run: to people, to programs, and in the sample file.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -21,11 +22,18 @@
 
 namespace geodisk::tools {
 
+/// What is told of rows that are divided among processes.
+struct AllRows {
+    std::size_t count;
+    std::uint64_t digest;
+};
+
 /// What came of a job.
 struct SampleResult {
     SampleParams params; ///< Of the job, on its mesh.
     DeviceRun done;
-    std::vector<SampleRow> rows;
+    std::vector<SampleRow> rows;         ///< None where `all` is given.
+    std::optional<AllRows> all;          ///< Where rows are divided among processes.
     std::size_t given = 0;               ///< Number of rows that were given: the first.
     SpacingResult among_given;           ///< Their pairs.
     std::size_t avoided = 0;             ///< Number of points to avoid.
@@ -38,6 +46,9 @@ struct SampleResult {
     BareParts bare;
     std::vector<MeshWarning> warnings;
     std::optional<DrawnPicture> picture;
+
+    std::size_t count() const { return all ? all->count : rows.size(); }
+    std::string digest() const;
 };
 
 /// What --dry-run tells of a job.
