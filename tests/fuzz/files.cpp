@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "files/grey_image.hpp"
+#include "files/image.hpp"
 #include "files/mesh_file.hpp"
 #include "files/sample_fields.hpp"
 #include "files/sample_file.hpp"

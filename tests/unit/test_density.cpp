@@ -1,6 +1,6 @@
 // What radii that vary are made of: images, texture coordinates, values of vertices and curvature;
 // and the radius of samples in files.
-#include "files/grey_image.hpp"
+#include "files/image.hpp"
 #include "files/mesh_file.hpp"
 #include "files/sample_file.hpp"
 #include "files/sidecar_files.hpp"

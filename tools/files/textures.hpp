@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "files/grey_image.hpp"
+#include "files/image.hpp"
 #include "geometry/material_colours.hpp"
 #include "geometry/mesh.hpp"
 #include "program/path.hpp"

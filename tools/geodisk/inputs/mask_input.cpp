@@ -4,7 +4,7 @@
 #include <optional>
 #include <set>
 
-#include "files/grey_image.hpp"
+#include "files/image.hpp"
 #include "geodisk/inputs/radii_input.hpp"
 #include "geometry/mesh_parts.hpp"
 #include "program/exact_text.hpp"

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "files/grey_image.hpp"
+#include "files/image.hpp"
 #include "files/sidecar_files.hpp"
 #include "geometry/mean_curvature.hpp"
 #include "geometry/weld_mesh.hpp"

@@ -8,7 +8,7 @@
 #include <geodisk/mesh.hpp>
 #include <geodisk/radius_field.hpp>
 
-#include "files/grey_image.hpp"
+#include "files/image.hpp"
 #include "geodisk/options/density_options.hpp"
 #include "geometry/mesh.hpp"
 

@@ -1,4 +1,4 @@
-#include "files/grey_image.hpp"
+#include "files/image.hpp"
 
 #include <algorithm>
 #include <cmath>
