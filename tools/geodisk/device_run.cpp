@@ -52,6 +52,17 @@ ProgressCallback show_progress(ProgressLine& progress, DeviceLog& log, double ex
     };
 }
 
+/// Draws how far a part of a surface is. Nobody knows how far all parts are, so nothing is said of
+/// how long they take. Stops it on a signal.
+ProgressCallback show_part(ProgressLine& progress, DeviceLog& log) {
+    return [&progress, &log](const Progress& state) {
+        log.tell_progress(state);
+        progress.update(static_cast<double>(state.decided) / state.candidates,
+                        grouped(state.accepted) + " samples of this part");
+        return !is_interrupted();
+    };
+}
+
 std::uint64_t count_of(const SampleSet& set, const Domain& domain) {
     return domain.dimension() == 0 ? set.samples.size() : set.points.size() / domain.dimension();
 }
@@ -183,10 +194,12 @@ double RunDevice::compile(const Domain& domain, ProgressLine& progress) {
 SampleSet RunDevice::sample(const Task& task, double min_distance, ProgressLine& progress) {
     log_.tell_task(min_distance, task.expected);
     const std::size_t avoided = task.surface ? task.surface->params.avoid.size() : 0;
-    const ProgressCallback shown = show_progress(progress, log_, task.expected, avoided);
-    auto result = sampler_ != nullptr && task.surface
-                      ? sampler_->sample(opened_->runner, *task.surface, shown)
-                      : opened_->runner.sample_and_wait(task.domain, shown);
+    const bool is_divided = sampler_ != nullptr && task.surface;
+    const ProgressCallback shown = is_divided
+                                       ? show_part(progress, log_)
+                                       : show_progress(progress, log_, task.expected, avoided);
+    auto result = is_divided ? sampler_->sample(opened_->runner, *task.surface, shown)
+                             : opened_->runner.sample_and_wait(task.domain, shown);
     progress.clear();
     check_interrupted();
     if (!result) {
