@@ -39,30 +39,17 @@ struct Block {
     SampleBox box;
 };
 
+/// Returns records of the first process at all, or at one alone.
 template <class Record>
-Bytes bytes_of(std::span<const Record> records) {
-    const auto bytes = std::as_bytes(records);
-    return {bytes.begin(), bytes.end()};
-}
-
-/// Returns records of the first process at all.
-template <class Record>
-std::vector<Record> all_hear(Talk& talk, std::span<const Record> of_first) {
-    ByProcess<Record> told(talk.size());
-    if (talk.rank() == 0) {
-        std::ranges::fill(told, std::vector<Record>(of_first.begin(), of_first.end()));
+std::vector<Record> heard(Talk& talk, std::span<const Record> of_first,
+                          std::optional<std::uint32_t> one = std::nullopt) {
+    ByProcess<Record> told(talk.rank() == 0 ? talk.size() : 0);
+    for (std::uint32_t process = 0; process < told.size(); ++process) {
+        if (!one || *one == process) {
+            told[process].assign(of_first.begin(), of_first.end());
+        }
     }
-    return std::move(talk.swap(std::move(told)).front());
-}
-
-/// Returns records of the first process at another one, nothing elsewhere.
-template <class Record>
-std::vector<Record> one_hears(Talk& talk, std::uint32_t process, std::span<const Record> of_first) {
-    ByProcess<Record> told(talk.size());
-    if (talk.rank() == 0) {
-        told[process].assign(of_first.begin(), of_first.end());
-    }
-    return std::move(talk.swap(std::move(told)).front());
+    return talk.scatter(told);
 }
 
 std::vector<std::uint32_t> faces_of(std::span<const Sample> samples) {
@@ -111,16 +98,13 @@ std::string formatted(const RowFormat& format, std::span<const SampleRow> rows) 
 void write_in_turn(Talk& talk, AtomicFile* file, const std::string& own) {
     std::exception_ptr failure;
     for (std::uint32_t process = 0; process < talk.size(); ++process) {
-        ByProcess<char> told(talk.size());
-        if (talk.rank() == process) {
-            told[0].assign(own.begin(), own.end());
-        }
-        const auto heard = talk.swap(std::move(told));
+        const std::span<const char> mine(own.data(), talk.rank() == process ? own.size() : 0);
+        const auto of_all = talk.gather(mine);
         if (file == nullptr || failure) {
             continue;
         }
         try {
-            file->write({heard[process].data(), heard[process].size()});
+            file->write({of_all[process].data(), of_all[process].size()});
         } catch (...) {
             failure = std::current_exception();
         }
@@ -137,7 +121,7 @@ Result<RangedRows> RangedRows::make(Exchange& exchange, RangedParts& parts,
     return geodisk::caught([&]() -> Result<RangedRows> {
         Talk talk(exchange);
         const Blocks given{samples.size(), divides};
-        const Blocks blocks = all_hear(talk, std::span(&given, 1)).front();
+        const Blocks blocks = heard(talk, std::span(&given, 1)).front();
         RangedRows made;
         made.count_ = blocks.count;
         for (std::uint32_t process = 0; process < talk.size(); ++process) {
@@ -147,9 +131,10 @@ Result<RangedRows> RangedRows::make(Exchange& exchange, RangedParts& parts,
                 const auto some =
                     samples.empty() ? samples
                                     : samples.subspan(begin, std::min(end - begin, kSamplesAtOnce));
-                const std::vector<Sample> here = one_hears(talk, process, some);
+                const std::vector<Sample> here = heard(talk, some, process);
                 const std::vector<std::uint32_t> wanted = faces_of(some);
-                const std::vector<std::uint32_t> faces = all_hear(talk, std::span(wanted));
+                const std::vector<std::uint32_t> faces =
+                    heard(talk, std::span(std::as_const(wanted)));
                 auto corners = parts.corners(faces, process);
                 if (!corners) {
                     return corners.error();
@@ -173,8 +158,8 @@ Result<Done> RangedRows::write(Exchange& exchange, const RowFormat& format, Atom
         std::error_code none;
         const std::uint64_t head = path.empty() ? 0 : std::filesystem::file_size(path, none);
         const std::string& text = path.native();
-        const std::vector<char> shared_path = all_hear(talk, std::span(text.data(), text.size()));
-        const std::uint64_t first = all_hear(talk, std::span(&head, 1)).front();
+        const std::vector<char> shared_path = heard(talk, std::span(text.data(), text.size()));
+        const std::uint64_t first = heard(talk, std::span(&head, 1)).front();
         const SharedFile shared(std::string(shared_path.begin(), shared_path.end()), first);
         const bool all_see = talk.sum(shared.is_open() ? 1 : 0) == talk.size();
         const std::string bytes = formatted(format, own_);

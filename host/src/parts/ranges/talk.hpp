@@ -36,11 +36,9 @@ class Talk {
     /// Sends its records to each process, and returns those from each.
     template <class Record>
     ByProcess<Record> swap(ByProcess<Record> records) {
-        static_assert(std::is_trivially_copyable_v<Record>);
         std::vector<Bytes> messages(size());
         for (std::uint32_t other = 0; other < size(); ++other) {
-            const auto bytes = std::as_bytes(std::span(records[other]));
-            messages[other].assign(bytes.begin(), bytes.end());
+            messages[other] = bytes_of<Record>(records[other]);
             records[other] = {};
         }
         std::vector<Bytes> received = value(exchange_.all_to_all(std::move(messages)));
@@ -49,6 +47,27 @@ class Talk {
             received[other] = {};
         }
         return records;
+    }
+
+    /// Returns the records that the first process has for this one. It gives some for each process,
+    /// the others nothing.
+    template <class Record>
+    std::vector<Record> scatter(const ByProcess<Record>& records) {
+        std::vector<Bytes> messages;
+        for (const auto& some : records) {
+            messages.push_back(bytes_of<Record>(some));
+        }
+        return records_of<Record>(value(exchange_.scatter(std::move(messages))));
+    }
+
+    /// Returns the records of each process at the first one, nothing elsewhere.
+    template <class Record>
+    ByProcess<Record> gather(std::span<const Record> own) {
+        ByProcess<Record> of_all;
+        for (const Bytes& message : value(exchange_.gather(bytes_of(own)))) {
+            of_all.push_back(records_of<Record>(message));
+        }
+        return of_all;
     }
 
     /// Returns what each process gives, as the sum of arrays in which all else is zero.
@@ -106,6 +125,12 @@ class Talk {
     }
 
   private:
+    template <class Record>
+    static Bytes bytes_of(std::span<const Record> records) {
+        static_assert(std::is_trivially_copyable_v<Record>);
+        const auto bytes = std::as_bytes(records);
+        return {bytes.begin(), bytes.end()};
+    }
     template <class T>
     static T value(Result<T> result) {
         if (!result) {
