@@ -35,8 +35,8 @@ void check_count(const SampledSet& set, std::vector<MeshWarning>& warnings) {
     const double miss = std::abs(static_cast<double>(found) - set.wanted_count);
     if (set.wanted_count > 0 &&
         miss > std::max(kTolerance * set.wanted_count, std::min(1.0, set.wanted_count / 4))) {
-        const std::string reason = set.bare.parts > 1 ? "; each of the " + grouped(set.bare.parts) +
-                                                            " parts has samples of its own"
+        const std::string reason = set.bare.parts > 1 ? "; distances count within each of the " +
+                                                            grouped(set.bare.parts) + " parts only"
                                                       : "";
         const std::string kept =
             set.cut > 0 ? ". Just the first " + grouped(set.samples) + " are kept" : "";

@@ -26,7 +26,10 @@ def complete(path: str) -> Iterator[BinaryIO]:
     """
     target = os.path.realpath(path)
     replaced = _replaced(path, target)
-    partial, descriptor = _open_new(os.path.dirname(target))
+    try:
+        partial, descriptor = _open_new(os.path.dirname(target))
+    except OSError as error:  # It names the temporary file.
+        raise type(error)(error.errno, error.strerror, path) from None
     try:
         with open(descriptor, "wb") as file:
             if replaced is not None:

@@ -93,6 +93,11 @@ class Surface:
 
     def vertex_values(self, values: ArrayLike, name: str) -> NDArray[Any]:
         """Returns the values as float64 or float32, one for each vertex."""
+        if isinstance(values, str):
+            raise TypeError(
+                f"{name} takes an array, one value per vertex; geodisk.Mesh(path, "
+                f"attributes=[{values!r}]).attributes[{values!r}] has that of a file"
+            )
         array = array_of(values, name)
         if array.dtype == bool and name == "density":  # A mask.
             array = array.astype(np.float64)
