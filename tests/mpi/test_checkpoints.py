@@ -1,5 +1,6 @@
 """--checkpoint and --resume: a run that was killed goes on, and writes the same file."""
 
+import json
 import os
 import shutil
 import signal
@@ -7,6 +8,7 @@ import signal
 import pytest
 
 from launching import alone, children_of, launch, run, wait_for
+from surfaces import torus, write_ply
 
 # Long enough to be killed after its first checkpoint.
 JOB = ["builtin:torus-knot", "--min-distance", "0.6%", "--seed", "5"]
@@ -92,6 +94,56 @@ def test_run_that_is_not_killed_leaves_no_checkpoint(tmp_path):
     for stages in ["1", "3"]:
         assert (tmp_path / f"{stages}.ply").read_bytes() == \
             (tmp_path / "expected.ply").read_bytes()
+
+
+@pytest.fixture(scope="module")
+def in_ranges(tmp_path_factory):
+    """A job on a mesh that is read in ranges, the folder of a run of it that was killed, and the file
+    that it should have written."""
+    work = tmp_path_factory.mktemp("ranges")
+    write_ply(work / "torus.ply", *torus(300, 100))
+    job = [str(work / "torus.ply"), "--min-distance", "0.5%", "--seed", "5"]
+    alone(*job, "-o", str(work / "expected.ply"))
+    kill_after_checkpoint(work / "saved", work / "out.ply", [*job, "--parts", "2"], 3)
+    return job, work / "saved", (work / "expected.ply").read_bytes()
+
+
+@pytest.mark.parametrize("processes, more", [
+    (1, []), (3, []), (2, ["--parts", "3"]), (2, ["--picture", "picture.png"])])
+def test_goes_on_in_ranges(in_ranges, tmp_path, monkeypatch, processes, more):
+    """With other parts, and where process 0 has to read the whole now."""
+    job, killed, expected = in_ranges
+    monkeypatch.chdir(tmp_path)
+    shutil.copytree(killed, "saved")
+    code, _, errors = run(processes, "sample", *job, *more, "-o", "out.ply", "--checkpoint",
+                          "saved", "--resume", "--json", "report.json")
+    assert code == 0, errors
+    assert "going on from" in errors
+    shares = json.loads((tmp_path / "report.json").read_text())["processes"]
+    assert all((share["part_bytes"] > 0) == ("--picture" in more) for share in shares)
+    assert (tmp_path / "out.ply").read_bytes() == expected
+    assert not list((tmp_path / "saved").iterdir())
+
+
+def test_ranges_go_on_from_a_run_on_the_whole(in_ranges, tmp_path):
+    job, _, expected = in_ranges
+    saved, out = tmp_path / "saved", tmp_path / "out.ply"
+    kill_after_checkpoint(saved, out, [*job, "--picture", str(tmp_path / "picture.png")], 2)
+    code, _, errors = resume(saved, out, 3, job)
+    assert code == 0, errors
+    assert out.read_bytes() == expected
+
+
+def test_another_mesh_in_ranges_is_refused(in_ranges, tmp_path):
+    job, killed, _ = in_ranges
+    saved, out = tmp_path / "saved", tmp_path / "out.ply"
+    shutil.copytree(killed, saved)
+    vertices, faces = torus(300, 100)
+    faces[0], faces[7] = faces[7], faces[0]
+    write_ply(tmp_path / "other.ply", vertices, faces)
+    code, _, errors = resume(saved, out, 3, [str(tmp_path / "other.ply"), *job[1:]])
+    assert code == 3 and errors.count("\n") == 1, errors
+    assert "is of another mesh" in errors and not out.exists() and (saved / NAME).exists()
 
 
 def digest(data):

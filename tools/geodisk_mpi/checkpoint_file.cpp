@@ -20,9 +20,9 @@
 namespace geodisk::tools {
 namespace {
 
-constexpr std::string_view kProgram = "geodisk checkpoint 1, version ";
+constexpr std::string_view kProgram = "geodisk checkpoint ";
 constexpr std::string_view kFirstLine =
-    "geodisk checkpoint 1, version " GEODISK_VERSION_STRING "\n";
+    "geodisk checkpoint 2, version " GEODISK_VERSION_STRING "\n";
 
 /// FNV-1a with 64 bits, over words of eight bytes.
 class Digest {
@@ -64,13 +64,8 @@ std::uint64_t digest_of(std::string_view bytes) {
 
 } // namespace
 
-JobDigests digests_of(const PreparedMesh& mesh, const SampleParams& params) {
-    Digest surface, options;
-    for (const HalfEdge& edge : mesh.half_edges()) {
-        const double lengths[] = {edge.length, edge.apex_x, edge.apex_y};
-        surface.add_all(std::span(lengths));
-        surface.add(std::uint64_t{edge.origin} << 32 | edge.around);
-    }
+std::uint64_t job_digest(const PreparedMesh& mesh, const SampleParams& params) {
+    Digest options;
     const auto frame = to_bytes(take(frame_of(mesh, params)));
     options.add_bytes(frame);
     for (const double number : {params.min_distance, params.pool_ratio}) {
@@ -87,7 +82,7 @@ JobDigests digests_of(const PreparedMesh& mesh, const SampleParams& params) {
     options.add_all(params.face_mask);
     options.add_all(params.given);
     options.add_all(params.avoid);
-    return {surface.value(), options.value()};
+    return options.value();
 }
 
 void write_checkpoint(const Path& path, const JobDigests& job, const Checkpoint& checkpoint) {

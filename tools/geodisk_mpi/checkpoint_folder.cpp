@@ -59,9 +59,9 @@ Path CheckpointFolder::path(std::uint32_t number) const {
     return folder_ / Path("geodisk-" + std::to_string(number) + ".checkpoint");
 }
 
-const Checkpoints& CheckpointFolder::begin(const PreparedMesh& mesh, const SampleParams& params) {
+const Checkpoints& CheckpointFolder::begin(const JobDigests& job) {
     ++number_;
-    job_ = digests_of(mesh, params);
+    job_ = job;
     checkpoints_.save = [this](const Checkpoint& checkpoint) { return save(checkpoint); };
     checkpoints_.from = nullptr;
     if (resumes_ && is_there(path(number_))) {

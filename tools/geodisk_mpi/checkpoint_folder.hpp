@@ -32,7 +32,7 @@ class CheckpointFolder {
 
     /// Begins the next surface. Returns where it begins and how it is saved; valid until the next
     /// call. Throws UserError, as read_checkpoint() does.
-    const Checkpoints& begin(const PreparedMesh& mesh, const SampleParams& params);
+    const Checkpoints& begin(const JobDigests& job);
 
     /// Throws what saving threw, once all processes have ended by it.
     void check() const;

@@ -114,9 +114,11 @@ Result<RangedParts> RangedParts::read(MPI_Comm communicator, const MpiExchange::
 }
 
 Result<PartsResult> RangedParts::sample(Runner& runner, const SampleParams& params,
+                                        const Checkpoints* checkpoints,
                                         const ProgressCallback& progress) {
     return all([&](Lane& lane) {
-        return sample_ranges(*lane.exchange, runner, *lane.surface, params, progress);
+        return sample_ranges(*lane.exchange, runner, *lane.surface, params,
+                             lane.exchange->rank() == 0 ? checkpoints : nullptr, progress);
     });
 }
 

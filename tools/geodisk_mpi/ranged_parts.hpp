@@ -43,7 +43,7 @@ class RangedParts {
 
     /// As sample_ranges().
     Result<PartsResult> sample(Runner& runner, const SampleParams& params,
-                               const ProgressCallback& progress);
+                               const Checkpoints* checkpoints, const ProgressCallback& progress);
 
     /// Returns the corners of some faces, given in ascending order, nine coordinates each: all at
     /// one process, nothing elsewhere.

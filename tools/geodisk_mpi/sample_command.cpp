@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "checkpoint_folder.hpp"
@@ -46,17 +47,18 @@ void check_shared(const SampleOptions& options) {
 /// Samples as the first process.
 void sample_here(const SampleOptions& options, const CheckpointOptions& checkpoints,
                  std::uint32_t parts, Session& session) {
-    if (checkpoints.folder.empty()) {
-        if (!sample_ranges_to_files(options, parts, session)) {
-            sample_to_files(options, {}, &session);
-        }
-        return;
+    std::optional<CheckpointFolder> folder;
+    if (!checkpoints.folder.empty()) {
+        folder.emplace(checkpoints, options.out.quiet);
+        session.save_in(&*folder);
     }
-    CheckpointFolder folder(checkpoints, options.out.quiet);
-    session.save_in(&folder);
-    sample_to_files(options, {}, &session);
+    if (!sample_ranges_to_files(options, parts, session)) {
+        sample_to_files(options, {}, &session);
+    }
     session.save_in(nullptr);
-    folder.remove();
+    if (folder) {
+        folder->remove();
+    }
 }
 
 } // namespace

@@ -12,6 +12,7 @@
 #include "cut_surface.hpp"
 #include "files/output_target.hpp"
 #include "geodisk/sample_run.hpp"
+#include "mesh/mesh_digest.hpp"
 #include "parts/sample_parts.hpp"
 #include "ply_range.hpp"
 #include "program/command_text.hpp"
@@ -202,8 +203,12 @@ void Session::write_rows(AtomicFile& file, const SampleTarget& target, const Sam
 
 Result<SampleSet> Session::sample(Runner& runner, const SurfaceTask& surface,
                                   const ProgressCallback& progress) {
-    const Checkpoints* const checkpoints =
-        checkpoints_ != nullptr ? &checkpoints_->begin(*surface.mesh, surface.params) : nullptr;
+    const Checkpoints* checkpoints = nullptr;
+    if (checkpoints_ != nullptr) {
+        const std::uint64_t mesh =
+            ranges_ ? ranges()->statistics().digest : mesh_digest(*surface.mesh);
+        checkpoints = &checkpoints_->begin({mesh, job_digest(*surface.mesh, surface.params)});
+    }
     next(ranges_ ? Task::sample_ranges : Task::sample_whole);
     auto result = together([&]() -> Result<PartsResult> {
         if (auto well = exchange_->check_all(nullptr); !well) {
@@ -211,7 +216,7 @@ Result<SampleSet> Session::sample(Runner& runner, const SurfaceTask& surface,
         }
         if (ranges_) {
             const auto job = all_hear(*exchange_, RangedJob(surface.params));
-            return job ? ranges_->sample(runner, job->params(), progress)
+            return job ? ranges_->sample(runner, job->params(), checkpoints, progress)
                        : Result<PartsResult>(job.error());
         }
         const Cut cut = cut_surface;
@@ -268,7 +273,7 @@ void Session::help_to_sample(RunDevice* device, bool has_ranges) {
     if (!has_ranges) {
         (void)sample_parts(*exchange_, device->runner(), nullptr, progress);
     } else if (const auto job = all_hear(*exchange_, RangedJob(SampleParams()))) {
-        (void)ranges_->sample(device->runner(), job->params(), progress);
+        (void)ranges_->sample(device->runner(), job->params(), nullptr, progress);
     }
 }
 

@@ -6,6 +6,19 @@
 
 namespace geodisk {
 
+CheckpointTerms::CheckpointTerms(const Checkpoints* checkpoints) {
+    if (checkpoints == nullptr) {
+        return;
+    }
+    is_saved = static_cast<bool>(checkpoints->save);
+    stages = checkpoints->stages;
+    if (const Checkpoint* const from = checkpoints->from; from != nullptr) {
+        first_stage = from->first_stage;
+        candidates = from->candidates;
+        samples = from->samples.size();
+    }
+}
+
 Result<Done> save_on_first(Exchange& exchange, const Checkpoint& checkpoint,
                            const SaveCheckpoint& save) {
     const auto saved = guarded([&] { return save ? save(checkpoint) : Result<Done>(Done{}); });

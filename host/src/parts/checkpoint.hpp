@@ -34,6 +34,19 @@ struct Checkpoints {
     std::uint32_t stages = 1;         ///< Stages from one checkpoint to the next, at least 1.
 };
 
+/// What all processes know of checkpoints.
+struct CheckpointTerms {
+    bool is_saved = false;         ///< The first process saves them.
+    std::uint32_t stages = 1;      ///< Checkpoints::stages.
+    std::uint32_t first_stage = 0; ///< Where the job goes on; 0 to begin.
+    std::uint64_t candidates = 0;  ///< Of all processes in the stages before.
+    std::uint64_t samples = 0;     ///< Likewise.
+
+    CheckpointTerms() = default;
+    /// Those of a job; null for one without checkpoints.
+    explicit CheckpointTerms(const Checkpoints* checkpoints);
+};
+
 /// Adds samples of all processes, those of the latest stages, to a checkpoint of the first process
 /// and saves it. All call it; `save` is null on all but the first. Errors, the same on all
 /// processes: those of `save` and of the exchange.

@@ -65,10 +65,10 @@ Result<Darts> decide(Exchange& exchange, Part& part, PartRun& run, const Darts* 
 Result<StagesReport> decide_stages(Exchange& exchange, Part& part, PartRun& run,
                                    Checkpoint& reached, const SaveCheckpoint& save) {
     StagesReport report;
-    report.candidates = part.candidates_before;
+    report.candidates = part.checkpoints.candidates;
     const Stages& stages = run.stages();
-    std::uint64_t accepted = part.all_given + part.samples_before;
-    std::uint32_t first = part.first_stage;
+    std::uint64_t accepted = part.all_given + part.checkpoints.samples;
+    std::uint32_t first = part.checkpoints.first_stage;
     const auto is_enough = [&] { return part.stop_count != 0 && accepted >= part.stop_count; };
     const auto has_more = [&] {
         return first != kNoStage && !is_enough() && stages.left(first, report.candidates) > 0;
@@ -96,7 +96,7 @@ Result<StagesReport> decide_stages(Exchange& exchange, Part& part, PartRun& run,
         report.candidates += *drawn;
         report.is_stopped = is_enough();
         first += count;
-        if (part.is_saved && has_more()) {
+        if (part.checkpoints.is_saved && has_more()) {
             reached.first_stage = first;
             reached.candidates = report.candidates;
             if (auto saved = save_stages(exchange, *own, reached, part.has_keys, save); !saved) {

@@ -46,17 +46,9 @@ class Division {
              const Checkpoints* checkpoints)
         : mesh_(mesh), params_(params), owners_(owners),
           from_(checkpoints != nullptr ? checkpoints->from : nullptr) {
+        const CheckpointTerms terms(checkpoints);
         for (std::uint32_t process = 0; process < processes; ++process) {
-            Part& part = parts_.emplace_back(part_for(mesh, params, frame, most_candidates));
-            part.is_saved = checkpoints != nullptr && checkpoints->save;
-            if (part.is_saved) {
-                part.most_stages = std::min(part.most_stages, checkpoints->stages);
-            }
-            if (from_ != nullptr) {
-                part.first_stage = from_->first_stage;
-                part.candidates_before = from_->candidates;
-                part.samples_before = from_->samples.size();
-            }
+            parts_.push_back(part_for(mesh, params, frame, most_candidates, terms));
         }
         widest_ = parts_.front().reach;
         for (const KeepOut& avoided : params.avoid) {
@@ -166,7 +158,7 @@ class Division {
 } // namespace
 
 Part part_for(const PreparedMesh& whole, const SampleParams& params, const JobFrame& frame,
-              double most_candidates) {
+              double most_candidates, const CheckpointTerms& checkpoints) {
     Part part;
     part.frame = frame;
     part.reach = params.min_distance * (1 + margin_of(frame));
@@ -175,7 +167,11 @@ Part part_for(const PreparedMesh& whole, const SampleParams& params, const JobFr
     part.throws = params.throws;
     part.stop_count = params.stop_count;
     part.all_given = static_cast<std::uint32_t>(params.given.size());
+    part.checkpoints = checkpoints;
     part.most_stages = stages_at_once(stages_in(frame, whole, params), most_candidates);
+    if (checkpoints.is_saved) {
+        part.most_stages = std::min(part.most_stages, checkpoints.stages);
+    }
     part.has_keys = !params.face_keys.empty();
     return part;
 }

@@ -63,12 +63,8 @@ struct Part {
     std::uint32_t stop_count = 0;  ///< SampleParams::stop_count.
     std::uint32_t all_given = 0;   ///< Number of given samples of the whole.
     std::uint32_t most_stages = 1; ///< Stages that are drawn at a time.
-    // Where the job goes on from a checkpoint.
-    std::uint32_t first_stage = 0;
-    std::uint64_t candidates_before = 0; ///< Of all processes.
-    std::uint64_t samples_before = 0;    ///< Of all processes.
-    Darts settled;                       ///< Samples of own and near faces.
-    bool is_saved = false;               ///< The first process saves checkpoints.
+    CheckpointTerms checkpoints;
+    Darts settled; ///< Samples of the checkpoint that it goes on from, on own and near faces.
 
     /// Returns the parameters of the whole, for the part. They refer to it.
     SampleParams params() const;
@@ -79,7 +75,7 @@ struct Part {
 /// Returns a part of a mesh without any faces yet, for a job in such a frame. At most so many
 /// candidates are expected to be drawn at a time, of all processes, unless one stage has more.
 Part part_for(const PreparedMesh& whole, const SampleParams& params, const JobFrame& frame,
-              double most_candidates);
+              double most_candidates, const CheckpointTerms& checkpoints);
 
 /// Returns the parts of all processes as messages, in their order. `owners` has the process of each
 /// face; see part_for(). `checkpoints` is null for a job without any. Errors: `invalid_argument`

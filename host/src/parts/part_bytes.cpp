@@ -19,10 +19,7 @@ void for_fields(AnyPart& part, const One& one, const All& all) {
     one(part.stop_count);
     one(part.all_given);
     one(part.most_stages);
-    one(part.first_stage);
-    one(part.candidates_before);
-    one(part.samples_before);
-    one(part.is_saved);
+    one(part.checkpoints);
     one(part.has_keys);
     all(part.faces);
     all(part.roles);

@@ -13,6 +13,7 @@
 #include "parts/part.hpp"
 #include "parts/part_run.hpp"
 #include "parts/peak_memory.hpp"
+#include "parts/ranges/talk.hpp"
 #include "support/guard.hpp"
 #include "support/invalid.hpp"
 
@@ -126,6 +127,43 @@ Result<std::uint64_t> candidates_up_to(Exchange& exchange, const PartRun& run,
     return exchange.sum(run.own_up_to(end.stage, end.priority));
 }
 
+/// Returns the terms that the first process has.
+Result<CheckpointTerms> agreed_terms(Exchange& exchange, const Checkpoints* checkpoints) {
+    return caught([&]() -> Result<CheckpointTerms> {
+        Talk talk(exchange);
+        return talk.all(CheckpointTerms(checkpoints)).front();
+    });
+}
+
+/// Gives each part the samples of the checkpoint that it goes on from, which the first process
+/// alone has.
+Result<Done> settle(Exchange& exchange, Part& part, const Checkpoints* checkpoints) {
+    constexpr std::size_t kBytesAtOnce = std::size_t{1} << 26; // Of the messages to all.
+    const std::size_t at_once =
+        std::max<std::size_t>(1, kBytesAtOnce / sizeof(DrawnCandidate) / exchange.size());
+    const std::size_t count = part.checkpoints.samples;
+    for (std::size_t begin = 0; begin < count; begin += at_once) {
+        Bytes told;
+        if (checkpoints != nullptr) {
+            append(told, std::span(checkpoints->from->samples)
+                             .subspan(begin, std::min(at_once, count - begin)));
+        }
+        const auto heard = exchange.scatter(std::vector<Bytes>(exchange.size(), told));
+        if (!heard) {
+            return heard.error();
+        }
+        for (const DrawnCandidate& dart : darts_of(*heard)) {
+            const auto at = std::ranges::lower_bound(part.faces, dart.point.face);
+            if (at != part.faces.end() && *at == dart.point.face &&
+                part.roles[static_cast<std::size_t>(at - part.faces.begin())] !=
+                    FaceRole::surface) {
+                part.settled.push_back(dart);
+            }
+        }
+    }
+    return Done{};
+}
+
 /// Samples the parts of all processes. `params` are those of the whole, null on all but the first
 /// process, and so are checkpoints, or for a job without any.
 Result<PartsResult> sample_all(Exchange& exchange, Runner& runner,
@@ -191,7 +229,7 @@ Result<PartsResult> sample_all(Exchange& exchange, Runner& runner,
         candidates = stages->before + *last;
     }
     result.set.report.candidates = static_cast<std::uint32_t>(candidates);
-    if ((*part)->is_saved) {
+    if ((*part)->checkpoints.is_saved) {
         reached = {kNoStage, candidates, std::move(darts)};
         if (auto saved = save_on_first(exchange, reached, checkpoints.save); !saved) {
             return saved.error();
@@ -223,15 +261,25 @@ Result<PartsResult> sample_parts(Exchange& exchange, Runner& runner, const Whole
 }
 
 Result<PartsResult> sample_ranges(Exchange& exchange, Runner& runner, const RangedSurface& surface,
-                                  const SampleParams& params, const ProgressCallback& progress,
-                                  double most_candidates) {
+                                  const SampleParams& params, const Checkpoints* checkpoints,
+                                  const ProgressCallback& progress, double most_candidates) {
     const auto frame = surface.frame(params);
     if (!frame) {
         return frame.error();
     }
-    const auto part = surface.part(exchange, params, *frame, most_candidates);
-    return sample_all(exchange, runner, part, 0, exchange.rank() == 0 ? &params : nullptr, nullptr,
-                      progress);
+    const auto terms = agreed_terms(exchange, checkpoints);
+    if (!terms) {
+        return terms.error();
+    }
+    const auto part = surface.part(exchange, params, *frame, most_candidates, *terms);
+    if (!part) {
+        return part.error();
+    }
+    if (auto settled = settle(exchange, **part, checkpoints); !settled) {
+        return settled.error();
+    }
+    return sample_all(exchange, runner, part, 0, exchange.rank() == 0 ? &params : nullptr,
+                      checkpoints, progress);
 }
 
 } // namespace geodisk

@@ -48,12 +48,12 @@ GEODISK_API Result<PartsResult> sample_parts(Exchange& exchange, Runner& runner,
                                              const ProgressCallback& progress = {});
 
 /// Samples a surface that no process holds whole; all call it with the same parameters, of seed,
-/// distance and candidates alone. Errors, the same on all: `mesh_rejected` for a job that needs the
-/// whole; those of sample_parts(). Throws std::bad_alloc.
-GEODISK_API Result<PartsResult> sample_ranges(Exchange& exchange, Runner& runner,
-                                              const RangedSurface& surface,
-                                              const SampleParams& params,
-                                              const ProgressCallback& progress = {},
-                                              double most_candidates = kMostAtOnce);
+/// distance and candidates alone. `checkpoints` is null on all but the first process, or for a job
+/// without any. Errors, the same on all: `mesh_rejected` for a job that needs the whole; those of
+/// sample_parts(). Throws std::bad_alloc.
+GEODISK_API Result<PartsResult>
+sample_ranges(Exchange& exchange, Runner& runner, const RangedSurface& surface,
+              const SampleParams& params, const Checkpoints* checkpoints = nullptr,
+              const ProgressCallback& progress = {}, double most_candidates = kMostAtOnce);
 
 } // namespace geodisk

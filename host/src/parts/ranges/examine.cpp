@@ -11,6 +11,7 @@
 #include "mesh/checks.hpp"
 #include "mesh/connectivity.hpp"
 #include "mesh/face_frames.hpp"
+#include "mesh/mesh_digest.hpp"
 #include "parts/ranges/homes.hpp"
 #include "support/blocks.hpp"
 
@@ -36,11 +37,12 @@ struct Share {
     double longest_edge = 0, largest_area = 0;
     std::uint64_t repeated = 0, flat = 0;
     std::uint64_t borders = 0, nonmanifold = 0, turned = 0;
+    std::uint64_t digest = 0;
     double area = 0; ///< Of all faces up to the last one of the process.
 };
 
-/// Measures the faces of a range one by one, in blocks.
-void measure(const MeshRange& range, RangeFaces& faces, Share& share) {
+/// Measures the faces of a range one by one, in blocks. `first` is the number of the first one.
+void measure(const MeshRange& range, std::uint64_t first, RangeFaces& faces, Share& share) {
     const std::size_t count = range.triangles.size() / 3;
     faces.areas.resize(count);
     const ThreadOptions alone{1};
@@ -59,8 +61,9 @@ void measure(const MeshRange& range, RangeFaces& faces, Share& share) {
         share.flat += block.zero_area_faces;
         share.longest_edge = std::max(share.longest_edge, block.longest_edge);
         for (std::size_t face = begin; face < end; ++face) {
-            const HalfEdge& edge = edges[3 * (face - begin)];
-            const double area = 0.5 * edge.length * edge.apex_y;
+            const auto of_face = std::span(edges).subspan(3 * (face - begin)).first<3>();
+            const double area = 0.5 * of_face[0].length * of_face[0].apex_y;
+            share.digest += face_digest(first + face, &range.triangles[3 * face], of_face);
             faces.areas[face] = area;
             share.largest_area = std::max(share.largest_area, area);
             for (std::size_t k = 0; k < 3 && takes_part(face_at(range, face)); ++k) {
@@ -226,7 +229,7 @@ RangeFaces faces_of(Talk& talk, const MeshRange& range) {
 
 RangeFindings examine(Talk& talk, const MeshRange& range, RangeFaces& faces) {
     Share share;
-    measure(range, faces, share);
+    measure(range, range.faces.first(talk.rank()), faces, share);
     // Areas are added in the order of the whole.
     share.area = talk.chain(0.0, [&](double before) {
         return std::accumulate(faces.areas.begin(), faces.areas.end(), before);
@@ -244,6 +247,7 @@ RangeFindings examine(Talk& talk, const MeshRange& range, RangeFaces& faces) {
         }
         all.largest_area = std::max(all.largest_area, one.largest_area);
         all.turned_edges += one.turned;
+        all.digest += one.digest;
         statistics.longest_edge = std::max(statistics.longest_edge, one.longest_edge);
         statistics.repeated_index_faces += one.repeated;
         statistics.zero_area_faces += one.flat;

@@ -25,6 +25,7 @@ struct RangeFindings {
     double low[3], high[3];         ///< Bounding box of the used vertices.
     double largest_area = 0;        ///< Of a face.
     std::uint64_t turned_edges = 0; ///< Edges of two faces that are turned over against each other.
+    std::uint64_t digest = 0;       ///< mesh_digest() of the whole.
 };
 
 /// Fetches the vertices of the faces of a range. Throws Stopped(mesh_rejected) for an index out of

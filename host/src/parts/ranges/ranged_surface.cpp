@@ -85,7 +85,7 @@ Result<RangedSurface> RangedSurface::create(Exchange& exchange, MeshRange range)
             RangeFaces faces = faces_of(talk, range);
             const RangeFindings findings = examine(talk, range, faces);
             surface.statistics_ = {findings.statistics, findings.largest_area, 0,
-                                   findings.turned_edges};
+                                   findings.turned_edges, findings.digest};
             const auto owners = divide_by_curve(talk, range, std::move(faces), findings);
             surface.faces_ = own_faces_of(talk, range, owners);
         }
@@ -118,11 +118,12 @@ Result<JobFrame> RangedSurface::frame(const SampleParams& params) const {
 }
 
 Result<std::unique_ptr<Part>> RangedSurface::part(Exchange& exchange, const SampleParams& params,
-                                                  const JobFrame& frame,
-                                                  double most_candidates) const {
+                                                  const JobFrame& frame, double most_candidates,
+                                                  const CheckpointTerms& checkpoints) const {
     return caught([&]() -> Result<std::unique_ptr<Part>> {
         Talk talk(exchange);
-        auto part = std::make_unique<Part>(part_for(outline_, params, frame, most_candidates));
+        auto part =
+            std::make_unique<Part>(part_for(outline_, params, frame, most_candidates, checkpoints));
         const KnownSurface known{vertices_, positions_, faces_, directory_, statistics_.mesh};
         const std::vector<HaloFace> halo = find_halo(talk, known, 2 * part->reach);
         std::vector<WholeFace> faces;

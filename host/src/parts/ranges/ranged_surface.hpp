@@ -29,6 +29,7 @@ struct RangedStatistics {
     double largest_area = 0;
     std::uint64_t unused_vertices = 0;
     std::uint64_t turned_edges = 0; ///< Edges of two faces that are turned over against each other.
+    std::uint64_t digest = 0;       ///< mesh_digest() of the whole.
 };
 
 class GEODISK_API RangedSurface {
@@ -49,10 +50,11 @@ class GEODISK_API RangedSurface {
     Result<JobFrame> frame(const SampleParams& params) const;
 
     /// Returns the part of this process for a job in such a frame. All processes call it. At most
-    /// so many candidates are expected to be drawn at a time, of all. Errors: those of the
-    /// exchange.
+    /// so many candidates are expected to be drawn at a time, of all. It has no settled samples
+    /// yet. Errors, the same on all: those of the exchange.
     Result<std::unique_ptr<Part>> part(Exchange& exchange, const SampleParams& params,
-                                       const JobFrame& frame, double most_candidates) const;
+                                       const JobFrame& frame, double most_candidates,
+                                       const CheckpointTerms& checkpoints) const;
 
     /// Returns the corners of faces, given with their process: nine coordinates each. Faces are
     /// own ones of the process that gives them; all processes call it, each gets those that it
