@@ -14,6 +14,7 @@
 #include "mesh/mesh_pieces.hpp"
 #include "parts/halo.hpp"
 #include "parts/ranges/homes.hpp"
+#include "parts/ranges/nearest_place.hpp"
 #include "parts/ranges/vertex_numbers.hpp"
 
 namespace geodisk {
@@ -77,6 +78,8 @@ constexpr double kShorter = 0.75;
 // Lower bounds are shorter still where angles are obtuse, and now and then far too short where the
 // halo ends. There it has to grow again, by so many rings, and then by more of them each time.
 constexpr std::uint32_t kFirstRings = 2;
+constexpr double kFar = 1.25; // So much farther than a reach is far enough.
+constexpr double kRounded = 1 - 0x1p-40;
 
 /// A halo that grows. All of it is in flat arrays, since each part of a process has one.
 class Halo {
@@ -134,6 +137,7 @@ class Halo {
                 std::ranges::binary_search(faces_, faces[i].face, {}, &Member::number) ? 0 : 1;
         }
         lengths_ = distances_from(mesh, is_own, reach_); // Of the same vertices.
+        lengthen_by_chords(mesh, places, is_own);
     }
 
     std::vector<HaloFace> take() const {
@@ -159,6 +163,43 @@ class Halo {
 
         std::uint32_t number() const { return face.face; }
     };
+
+    /// Lengthens lower bounds to those by straight lines through space, which no path is shorter
+    /// than. A path leaves own faces across an edge of shared vertices, and one of them is at most
+    /// half an edge away. Beyond the reach, such a bound holds for all faces at a vertex, not only
+    /// for the vertex: else it would not go together with bounds that are linear in faces.
+    void lengthen_by_chords(const PreparedMesh& mesh, const FacePlaces& places,
+                            std::span<const std::uint8_t> is_own) {
+        const auto place = [&](std::size_t i) {
+            const double* const at = &places.positions[3 * i];
+            return Place{at[0], at[1], at[2]};
+        };
+        std::vector<Place> shared;
+        for (std::size_t i = 0; i < lengths_.size(); ++i) {
+            if (is_shared(numbers_.vertices()[i])) {
+                shared.push_back(place(i));
+            }
+        }
+        double longest_own = 0;
+        std::vector<double> longest(lengths_.size(), 0); // Edge at each vertex.
+        const auto edges = mesh.half_edges();
+        for (std::uint32_t h = 0; h < edges.size(); ++h) {
+            for (const std::uint32_t end : {edges[h].origin, edges[next_in_face(h)].origin}) {
+                longest[end] = std::max(longest[end], edges[h].length);
+            }
+            if (is_own[h / 3] != 0) {
+                longest_own = std::max(longest_own, edges[h].length);
+            }
+        }
+        const NearestPlace nearest(std::move(shared));
+        for (std::size_t i = 0; i < lengths_.size(); ++i) {
+            const double slack = longest_own / 2 + longest[i];
+            if (lengths_[i] <= reach_) {
+                const double chord = nearest.distance(place(i), kFar * (reach_ + slack));
+                lengths_[i] = std::max(lengths_[i], kRounded * chord - slack);
+            }
+        }
+    }
 
     bool is_shared(std::uint32_t vertex) const {
         return std::ranges::binary_search(known_.directory.shared(), vertex);
