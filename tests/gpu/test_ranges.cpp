@@ -43,7 +43,8 @@ struct Sheet {
         range.faces = {face_count(), processes};
         range.vertices = {positions.size() / 3, processes};
         const auto copy = [process](const Blocks& blocks, const auto& from, auto& to) {
-            const auto first = from.begin() + static_cast<std::ptrdiff_t>(3 * blocks.first(process));
+            const auto first =
+                from.begin() + static_cast<std::ptrdiff_t>(3 * blocks.first(process));
             to.assign(first, first + static_cast<std::ptrdiff_t>(3 * blocks.size(process)));
         };
         copy(range.faces, triangles, range.triangles);

@@ -95,7 +95,8 @@ Directory Directory::create(Talk& talk, const Blocks& vertices, std::span<const 
         components.pieces = talk.all(count);
     }
     std::vector<Contact> contacts;
-    directory.starts_.assign(1, 0);
+    directory.starts_.reserve(vertices.size(talk.rank()) + 1);
+    directory.starts_.push_back(0);
     const std::uint64_t turns = turns_for(vertices.each() * 4 * sizeof(Entry));
     for (std::uint64_t turn = 0; turn < turns; ++turn) {
         const auto begin_of = [&](std::uint32_t home, std::uint64_t at) {
@@ -139,6 +140,7 @@ Directory Directory::create(Talk& talk, const Blocks& vertices, std::span<const 
             directory.shared_.insert(directory.shared_.end(), some.begin(), some.end());
         }
     }
+    directory.holders_.shrink_to_fit();
     std::sort(directory.shared_.begin(), directory.shared_.end());
     components.vertices = talk.sum(components.vertices);
     join(talk, std::move(contacts), components);

@@ -127,7 +127,10 @@ Result<std::unique_ptr<Part>> RangedSurface::part(Exchange& exchange, const Samp
         const KnownSurface known{vertices_, positions_, faces_, directory_, statistics_.mesh};
         const std::vector<HaloFace> halo = find_halo(talk, known, 2 * part->reach);
         std::vector<WholeFace> faces;
-        faces.reserve(faces_.size() + halo.size());
+        const std::size_t count = faces_.size() + halo.size();
+        faces.reserve(count);
+        part->faces.reserve(count);
+        part->roles.reserve(count);
         ByProcess<std::uint32_t> near(talk.size());
         const auto add = [&](const WholeFace& face, FaceRole role) {
             faces.push_back(face);
