@@ -3,7 +3,6 @@
 #include <stdio.h>
 
 extern FILE *__real_stderr;
-extern FILE *__wrap_stderr;
 __attribute__((visibility("hidden"))) FILE *__wrap_stderr;
 
 __attribute__((constructor)) static void set_stderr(void) {
