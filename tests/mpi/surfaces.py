@@ -4,19 +4,26 @@ import math
 import struct
 
 
-def write_ply(path, vertices, faces, order="<", real="d"):
-    """A binary PLY file; faces of any size."""
+def write_ply(path, vertices, faces, order="<", real="d", of_vertices=None, of_faces=None):
+    """A binary PLY file; faces of any size. Properties of vertices and faces by their names, in float
+    and in double, stand before and behind what all have."""
+    of_vertices, of_faces = of_vertices or {}, of_faces or {}
     name = {"f": "float", "d": "double"}[real]
     form = {"<": "binary_little_endian", ">": "binary_big_endian"}[order]
     with open(path, "wb") as file:
         file.write(f"ply\nformat {form} 1.0\nelement vertex {len(vertices)}\n".encode())
+        file.write("".join(f"property float {one}\n" for one in of_vertices).encode())
         file.write("".join(f"property {name} {axis}\n" for axis in "xyz").encode())
         file.write(f"element face {len(faces)}\n".encode())
-        file.write(b"property list uchar int vertex_indices\nend_header\n")
-        for vertex in vertices:
-            file.write(struct.pack(f"{order}3{real}", *vertex))
-        for face in faces:
-            file.write(struct.pack(f"{order}B{len(face)}i", len(face), *face))
+        file.write(b"property list uchar int vertex_indices\n")
+        file.write("".join(f"property double {one}\n" for one in of_faces).encode())
+        file.write(b"end_header\n")
+        for i, vertex in enumerate(vertices):
+            more = [values[i] for values in of_vertices.values()]
+            file.write(struct.pack(f"{order}{len(more)}f3{real}", *more, *vertex))
+        for i, face in enumerate(faces):
+            more = [values[i] for values in of_faces.values()]
+            file.write(struct.pack(f"{order}B{len(face)}i{len(more)}d", len(face), *face, *more))
 
 
 def grid(columns, rows, place=lambda u, v: (u, v, 0.3 * math.sin(3 * u) * math.cos(2 * v))):

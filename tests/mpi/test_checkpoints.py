@@ -96,13 +96,24 @@ def test_run_that_is_not_killed_leaves_no_checkpoint(tmp_path):
             (tmp_path / "expected.ply").read_bytes()
 
 
+def write_warm_torus(path, swaps=False, heats=1.0):
+    """A torus with a density, perhaps with two faces swapped."""
+    vertices, faces = torus(300, 100)
+    if swaps:
+        faces[0], faces[7] = faces[7], faces[0]
+    heat = [heats * (1.6 + x) for x, _, _ in vertices]
+    heat[0] = 1
+    write_ply(path, vertices, faces, of_vertices={"heat": heat})
+
+
 @pytest.fixture(scope="module")
 def in_ranges(tmp_path_factory):
     """A job on a mesh that is read in ranges, the folder of a run of it that was killed, and the file
     that it should have written."""
     work = tmp_path_factory.mktemp("ranges")
-    write_ply(work / "torus.ply", *torus(300, 100))
-    job = [str(work / "torus.ply"), "--min-distance", "0.5%", "--seed", "5"]
+    write_warm_torus(work / "torus.ply")
+    job = [str(work / "torus.ply"), "--min-distance", "0.5%", "--seed", "5", "--density", "heat",
+           "--mask", "y<1.2"]
     alone(*job, "-o", str(work / "expected.ply"))
     kill_after_checkpoint(work / "saved", work / "out.ply", [*job, "--parts", "2"], 3)
     return job, work / "saved", (work / "expected.ply").read_bytes()
@@ -134,13 +145,12 @@ def test_ranges_go_on_from_a_run_on_the_whole(in_ranges, tmp_path):
     assert out.read_bytes() == expected
 
 
-def test_another_mesh_in_ranges_is_refused(in_ranges, tmp_path):
+@pytest.mark.parametrize("change", [{"swaps": True}, {"heats": 1.1}])
+def test_another_mesh_in_ranges_is_refused(in_ranges, tmp_path, change):
     job, killed, _ = in_ranges
     saved, out = tmp_path / "saved", tmp_path / "out.ply"
     shutil.copytree(killed, saved)
-    vertices, faces = torus(300, 100)
-    faces[0], faces[7] = faces[7], faces[0]
-    write_ply(tmp_path / "other.ply", vertices, faces)
+    write_warm_torus(tmp_path / "other.ply", **change)
     code, _, errors = resume(saved, out, 3, [str(tmp_path / "other.ply"), *job[1:]])
     assert code == 3 and errors.count("\n") == 1, errors
     assert "is of another mesh" in errors and not out.exists() and (saved / NAME).exists()

@@ -117,8 +117,104 @@ def test_same_file_of_steep_hills(tmp_path):
     write_ply(mesh, *grid(60, 50, steep))
     assert is_read_in_ranges(tmp_path, mesh, "--min-distance", "0.1", processes=4)
     check_same(tmp_path, [str(mesh), "--min-distance", "0.05"], [4])
-    assert not is_read_in_ranges(tmp_path, mesh, "--count", "100")
+    assert is_read_in_ranges(tmp_path, mesh, "--count", "100")
     check_same(tmp_path, [str(mesh), "--count", "300"], [3], "count.ply")
+
+
+def with_properties(path, vertices, faces, **more):
+    """A mesh with a density from 0 to 300, radius factors, and a group of each face."""
+    of_vertices = {
+        "heat": [max(0.0, 300 * math.sin(2 * x) * math.cos(y)) for x, y, _ in vertices],
+        "g": [0.3 + 0.35 * (1 + math.sin(3 * x + y)) for x, y, _ in vertices],
+        "thin": [0.002 * (1 + (i % 5)) for i in range(len(vertices))]}
+    write_ply(path, vertices, faces, of_vertices=of_vertices,
+              of_faces={"group": [i % 4 for i in range(len(faces))]}, **more)
+
+
+@pytest.fixture(scope="module", params=["torus", "sheet"])
+def properties(request, tmp_path_factory):
+    """A closed surface, and one with borders, edges of three faces, and unused vertices."""
+    path = tmp_path_factory.mktemp("properties") / f"{request.param}.ply"
+    if request.param == "torus":
+        with_properties(path, *shuffled(*torus(48, 20)), order=">")
+    else:
+        vertices, faces = grid(36, 24)
+        fins = [(at, at + 1, len(vertices)) for at in range(0, 700, 57)]
+        with_properties(path, *shuffled(vertices + [(0.4, 0.5, 1.5)], faces + fins, seed=2))
+    return path
+
+
+@pytest.mark.parametrize("arguments, runs", [
+    (["--density", "heat", "--min-distance", "1.5%"], [(3, 2)]),
+    (["--density", "heat", "--count", "300"], [(3, 1)]),
+    (["--radius-factor", "g", "--min-distance", "6%"], [(2, 3)]),
+    (["--radius-factor", "g", "--count", "200", "--exact"], [(2, 2)]),
+    (["--radius-factor", "thin", "--radius-factor-floor", "0.4", "--count", "300"], [(3, 1)]),
+    (["--mask", "x>0.1", "--min-distance", "3%"], [(2, 2), (5, 1)]),
+    (["--mask", "x>0.1", "--mask", "group!=2", "--mask", "g>0.4", "--count", "150"], [(2, 2)]),
+    (["--mask", "z<100", "--count", "150"], [(3, 1)]),
+    (["--density", "heat", "--mask", "group>=2", "--count", "200"], [(2, 2)]),
+    (["--radius-factor", "g", "--mask", "y<0.5", "--count", "30", "--min-distance", "5%",
+      "--method", "darts"], [(2, 2)]),
+])
+def test_same_file_with_radii_and_masks(properties, tmp_path, arguments, runs):
+    for processes, parts in runs:
+        report = tmp_path / "report.json"
+        check_same(tmp_path, [str(properties), *arguments, "--seed", "5"], [processes],
+                   more=["--parts", str(parts), "--json", str(report)])
+        # No process had the whole.
+        told = json.loads(report.read_text())["processes"]
+        assert [p["parts"] for p in told] == [parts] * processes
+        assert all(p["part_bytes"] == 0 for p in told)
+
+
+def test_report_of_radii_and_a_mask(properties, tmp_path):
+    told = []
+    files = []
+    for launch in [lambda *a: alone(*a), lambda *a: run(3, "sample", *a, "--quiet")]:
+        report, out = tmp_path / "report.json", tmp_path / "s.csv"
+        launch(str(properties), "--density", "heat", "--mask", "group>0", "-d", "1.5%", "-o",
+               str(out), "--json", str(report))
+        told.append(json.loads(report.read_text()))
+        files.append(out.read_bytes())
+    assert files[0] == files[1]
+    for key in ["mesh", "samples", "sample_radii", "min_distance", "rho"]:
+        assert told[0][key] == told[1][key], key
+
+
+@pytest.mark.parametrize("of_vertices, arguments, code, message", [
+    ({"heat": -1.0}, ["--density", "heat"], 3, "the density of vertex 0 (from 0) is -1"),
+    ({"heat": 0.0}, ["--density", "heat"], 3, "the density is 0 everywhere"),
+    ({"g": 0.0}, ["--radius-factor", "g"], 3, "all radius factors g are zero"),
+    ({"g": 0.0}, ["--radius-factor", "g", "--radius-factor-floor", "0.5"], 3,
+     "all radius factors g are zero"),
+    ({"g": 2.0}, ["--radius-factor", "g"], 3, "the radius factor g of vertex 0 (from 0) is 2"),
+    ({"g": math.nan}, ["--mask", "g<1"], 3, "has no face that --mask allows"),
+    ({"g": 0.5}, ["--mask", "x>9"], 3, "has no face that --mask allows"),
+    ({"g": 0.5}, ["--mask", "f>9"], 3, "has no scalar property 'f' of faces or vertices"),
+    ({"g": 0.5}, ["--density", "f"], 3, "element vertex has no property 'f'"),
+    ({"g": 0.5}, ["--mask", "x7>9"], 2, "the mesh has 3 coordinates per vertex"),
+])
+def test_bad_radii_and_masks_are_told_once(tmp_path, of_vertices, arguments, code, message):
+    vertices, faces = grid(8, 5)
+    mesh = tmp_path / "sheet.ply"
+    write_ply(mesh, vertices, faces, of_vertices={
+        name: [value] * len(vertices) for name, value in of_vertices.items()})
+    out = tmp_path / "s.ply"
+    found, _, errors = run(2, "sample", str(mesh), "-d", "0.2", *arguments, "-o", str(out),
+                           "--quiet")
+    assert found == code and message in errors and not out.exists()
+    assert errors.count("\n") == 1, errors
+
+
+def test_small_factors_are_raised_with_a_warning(tmp_path):
+    vertices, faces = grid(12, 8)
+    mesh = tmp_path / "sheet.ply"
+    write_ply(mesh, vertices, faces, of_vertices={"g": [0.0001] + [0.5] * (len(vertices) - 1)})
+    check_same(tmp_path, [str(mesh), "--radius-factor", "g", "-d", "0.3"], [2])
+    assert "g is below 0.001 at 1 vertex" in run(
+        2, "sample", str(mesh), "--radius-factor", "g", "-d", "0.3", "-o",
+        str(tmp_path / "s.ply"))[2]
 
 
 def test_report_counts_what_the_ranges_have(tmp_path):

@@ -1,6 +1,8 @@
 // Sample files: what `geodisk sample` writes and `geodisk verify` reads.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -35,6 +37,27 @@ inline bool has_polygons(std::span<const SampleRow> rows) {
 inline bool has_radii(std::span<const SampleRow> rows) {
     return !rows.empty() && rows.front().radius > 0;
 }
+
+/// The radii of samples, where they vary.
+struct RadiusRange {
+    double least = HUGE_VAL, most = 0; ///< In mesh units.
+
+    RadiusRange() = default;
+    explicit RadiusRange(std::span<const SampleRow> rows) {
+        for (const SampleRow& row : rows) {
+            add(row.radius, row.radius);
+        }
+    }
+    /// Takes in another range.
+    void add(const RadiusRange& other) { add(other.least, other.most); }
+    bool do_vary() const { return most > 0; }
+
+  private:
+    void add(double low, double high) {
+        least = std::min(least, low);
+        most = std::max(most, high);
+    }
+};
 
 using HeaderEntries = std::vector<std::pair<std::string, std::string>>;
 

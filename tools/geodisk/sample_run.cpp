@@ -168,11 +168,11 @@ void put_farthest_first(const SampleJob& job, const MeshInput& mesh, RunDevice& 
 SampleParams params_on(const MeshInput& mesh, const SampleJob& job) {
     SampleParams params = mesh.with_fields(job.params);
     params.class_factors = job.class_factors;
-    const double area = effective_area(mesh.prepared, params);
+    const double area = mesh.effective_area(params);
     params.min_distance =
         job.min_distance
             ? distance_on_mesh(*job.min_distance, mesh.prepared.statistics()) / mesh.distance_part
-            : distance_for_count(mesh.prepared, params, job.wanted_count.samples) *
+            : mesh.distance_for_count(params, job.wanted_count.samples) *
                   job.method.distance_factor();
     params.throws = job.method.throws_for(expected_count(area, params.min_distance));
     return params;

@@ -64,10 +64,9 @@ std::uint64_t digest_of(std::string_view bytes) {
 
 } // namespace
 
-std::uint64_t job_digest(const PreparedMesh& mesh, const SampleParams& params) {
+std::uint64_t job_digest(const JobFrame& frame, const SampleParams& params) {
     Digest options;
-    const auto frame = to_bytes(take(frame_of(mesh, params)));
-    options.add_bytes(frame);
+    options.add_bytes(to_bytes(frame));
     for (const double number : {params.min_distance, params.pool_ratio}) {
         options.add_all(std::span(&number, 1));
     }
@@ -75,11 +74,7 @@ std::uint64_t job_digest(const PreparedMesh& mesh, const SampleParams& params) {
                                        std::uint64_t{params.stop_count}}) {
         options.add(number);
     }
-    if (params.radii != nullptr) {
-        options.add_bytes(take(params.radii->save()));
-    }
     options.add_all(params.face_keys);
-    options.add_all(params.face_mask);
     options.add_all(params.given);
     options.add_all(params.avoid);
     return options.value();

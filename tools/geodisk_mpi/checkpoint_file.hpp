@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include <geodisk/mesh.hpp>
+#include <geodisk/job_frame.hpp>
 #include <geodisk/params.hpp>
 
 #include "parts/checkpoint.hpp"
@@ -13,13 +13,12 @@ namespace geodisk::tools {
 
 /// What a checkpoint is of: digests, equal only if all that the samples depend on is equal.
 struct JobDigests {
-    std::uint64_t mesh = 0;    ///< mesh_digest().
+    std::uint64_t mesh = 0;    ///< mesh_digest() and fields_digest(), added up.
     std::uint64_t options = 0; ///< job_digest().
 };
 
-/// Returns the digest of parameters, in the frame of the job: on a mesh, or on one that stands for
-/// it and has its statistics. Throws UserError for parameters without a frame.
-std::uint64_t job_digest(const PreparedMesh& mesh, const SampleParams& params);
+/// Returns the digest of parameters in the frame of a job; without radii and masks.
+std::uint64_t job_digest(const JobFrame& frame, const SampleParams& params);
 
 /// Writes a checkpoint, in place of one that is there, whole or not at all. Throws
 /// UserError(bad_output).

@@ -39,8 +39,25 @@ struct ValuePlace {
 struct Records {
     std::uint64_t count = 0, offset = 0;
     std::size_t size = 0;
+    std::vector<std::pair<std::string, ValuePlace>> scalars; ///< By name, but for those of lists.
 
     std::uint64_t end() const { return offset + count * size; }
+    /// Returns where a property stands, if there is one.
+    std::optional<ValuePlace> find(const std::string& name) const {
+        std::optional<ValuePlace> place;
+        for (const auto& [other, at] : scalars) {
+            if (other == name && std::exchange(place, at)) {
+                throw NeedsWhole{"a property is declared twice"};
+            }
+        }
+        return place;
+    }
+};
+
+/// A rule of the mask, and where its value stands.
+struct PlacedRule {
+    MaskRule rule;
+    ValuePlace place;
 };
 
 /// Where vertices and faces stand in the file.
@@ -50,6 +67,17 @@ struct PlyLayout {
     std::array<ValuePlace, 3> coordinates;
     ValuePlace corner_count; ///< Corners follow it.
     PlyType corner_type;
+    std::optional<ValuePlace> density; ///< Of vertices.
+    std::vector<PlacedRule> vertex_rules, face_rules;
+
+    double value(const char* record, const ValuePlace& place) const {
+        return value_of(place.type, record + place.offset, is_little_endian);
+    }
+    /// Returns 1 if all rules hold for a record.
+    std::uint8_t holds(const char* record, const std::vector<PlacedRule>& rules) const {
+        return std::ranges::all_of(
+            rules, [&](const PlacedRule& one) { return one.rule.holds(value(record, one.place)); });
+    }
 };
 
 /// Tells a file from what it becomes when it is written to.
@@ -87,34 +115,32 @@ PlyFile read_header(const Path& path) {
 
 /// Returns the vertices behind `offset`, and notes where coordinates stand.
 Records vertex_records(const PlyElement& element, std::uint64_t offset, PlyLayout& layout) {
-    Records records{element.count, offset, 0};
-    std::array<bool, 3> is_found{};
+    Records records{element.count, offset, 0, {}};
     for (const PlyProperty& property : element.properties) {
         if (property.count_type || property.name == "x0") {
             throw NeedsWhole{
                 "its vertices have more than numbers, or other coordinates than x y z"};
         }
-        const std::size_t axis = std::string("xyz").find(property.name);
-        if (property.name.size() == 1 && axis < 3) {
-            if (std::exchange(is_found[axis], true)) {
-                throw NeedsWhole{"a property is declared twice"};
-            }
-            layout.coordinates[axis] = {records.size, property.type};
-        }
+        records.scalars.emplace_back(property.name, ValuePlace{records.size, property.type});
         records.size += size_of(property.type);
     }
-    if (is_found != std::array{true, true, true}) {
-        throw NeedsWhole{"its vertices have no coordinates x y z"};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const auto place = records.find(std::string(1, "xyz"[axis]));
+        if (!place) {
+            throw NeedsWhole{"its vertices have no coordinates x y z"};
+        }
+        layout.coordinates[axis] = *place;
     }
     return records;
 }
 
 /// Returns the faces behind `offset` if all are triangles, and notes where corners stand.
 Records face_records(const PlyElement& element, std::uint64_t offset, PlyLayout& layout) {
-    Records records{element.count, offset, 0};
+    Records records{element.count, offset, 0, {}};
     bool is_found = false;
     for (const PlyProperty& property : element.properties) {
         if (!property.count_type) {
+            records.scalars.emplace_back(property.name, ValuePlace{records.size, property.type});
             records.size += size_of(property.type);
             continue;
         }
@@ -132,7 +158,33 @@ Records face_records(const PlyElement& element, std::uint64_t offset, PlyLayout&
     return records;
 }
 
-PlyLayout layout_of(const Path& path, std::uint64_t file_size) {
+/// Finds the values that a job takes.
+void find_wanted(const RangeWants& wants, PlyLayout& layout) {
+    if (wants.density) {
+        layout.density = layout.vertices.find(wants.density->name);
+        if (!layout.density) {
+            throw NeedsWhole{"its vertices have no such density"};
+        }
+    }
+    for (const MaskRule& rule : wants.mask) {
+        if (const auto axis = rule.axis()) {
+            if (*axis >= layout.coordinates.size()) {
+                throw NeedsWhole{"its vertices have three coordinates"};
+            }
+            layout.vertex_rules.push_back({rule, layout.coordinates[*axis]});
+            continue;
+        }
+        const auto of_vertices = layout.vertices.find(rule.name);
+        const auto of_faces = layout.faces.find(rule.name);
+        if (of_vertices.has_value() == of_faces.has_value()) {
+            throw NeedsWhole{"a rule of the mask is of no property, or of two"};
+        }
+        (of_vertices ? layout.vertex_rules : layout.face_rules)
+            .push_back({rule, of_vertices ? *of_vertices : *of_faces});
+    }
+}
+
+PlyLayout layout_of(const Path& path, std::uint64_t file_size, const RangeWants& wants) {
     const PlyFile file = read_header(path);
     if (!file.is_binary()) {
         throw NeedsWhole{"it is text"};
@@ -167,6 +219,7 @@ PlyLayout layout_of(const Path& path, std::uint64_t file_size) {
     if (layout.faces.count > kMostFaces || layout.vertices.count > kMostVertices) {
         throw NeedsWhole{"it has more faces or vertices than can be numbered"};
     }
+    find_wanted(wants, layout);
     return layout;
 }
 
@@ -189,17 +242,29 @@ void for_records(std::ifstream& file, const Records& records, std::uint64_t firs
     }
 }
 
-MeshRange read_range(const Path& path, const PlyLayout& layout, std::uint32_t process,
-                     std::uint32_t processes) {
+MeshRange read_range(const Path& path, const PlyLayout& layout, const RangeWants& wants,
+                     std::uint32_t process, std::uint32_t processes) {
     const bool is_little = layout.is_little_endian;
     std::ifstream file(path, std::ios::binary);
-    MeshRange range{{layout.faces.count, processes}, {layout.vertices.count, processes}, {}, {}};
+    MeshRange range;
+    range.faces = {layout.faces.count, processes};
+    range.vertices = {layout.vertices.count, processes};
+    range.has_mask = !wants.mask.empty();
+    range.needs_borders = wants.has_count;
+    if (wants.density) {
+        range.radii = wants.density->is_density ? RadiusKind::density : RadiusKind::factor;
+    }
     range.positions.reserve(3 * range.vertices.size(process));
     for_records(file, layout.vertices, range.vertices.first(process), range.vertices.size(process),
                 [&](const char* record) {
                     for (const ValuePlace& place : layout.coordinates) {
-                        range.positions.push_back(
-                            value_of(place.type, record + place.offset, is_little));
+                        range.positions.push_back(layout.value(record, place));
+                    }
+                    if (layout.density) {
+                        range.values.push_back(layout.value(record, *layout.density));
+                    }
+                    if (range.has_mask) {
+                        range.vertex_mask.push_back(layout.holds(record, layout.vertex_rules));
                     }
                 });
     range.triangles.reserve(3 * range.faces.size(process));
@@ -207,8 +272,11 @@ MeshRange read_range(const Path& path, const PlyLayout& layout, std::uint32_t pr
     const std::size_t corner_size = size_of(layout.corner_type);
     for_records(file, layout.faces, range.faces.first(process), range.faces.size(process),
                 [&](const char* record) {
-                    if (value_of(count.type, record + count.offset, is_little) != 3) {
+                    if (layout.value(record, count) != 3) {
                         throw NeedsWhole{"a face is no triangle"};
+                    }
+                    if (range.has_mask) {
+                        range.face_mask.push_back(layout.holds(record, layout.face_rules));
                     }
                     const char* corner = record + count.offset + size_of(count.type);
                     for (int k = 0; k < 3; ++k, corner += corner_size) {
@@ -223,24 +291,40 @@ MeshRange read_range(const Path& path, const PlyLayout& layout, std::uint32_t pr
     return range;
 }
 
+/// Raises factors to the floor, unless none is above 0, of which reading the whole tells.
+void raise_to_floor(Talk& talk, const RangeWants& wants, MeshRange& range) {
+    if (!wants.density || !wants.density->floor) {
+        return;
+    }
+    const double floor = *wants.density->floor;
+    const bool has_any = std::ranges::any_of(range.values, [](double g) { return g != 0; });
+    if (talk.sum(has_any ? 1 : 0) == 0) {
+        return;
+    }
+    for (double& g : range.values) {
+        g = g >= 0 ? std::max(g, floor) : g;
+    }
+}
+
 } // namespace
 
 std::uint64_t ply_faces(const Path& path) {
     try {
-        return layout_of(path, state_of(path).size).faces.count;
+        return layout_of(path, state_of(path).size, {}).faces.count;
     } catch (const NeedsWhole&) {
         return 0;
     }
 }
 
-Result<MeshRange> read_ply_range(Exchange& exchange, const Path& path) {
+Result<MeshRange> read_ply_range(Exchange& exchange, const Path& path, const RangeWants& wants) {
     return caught([&]() -> Result<MeshRange> {
         Talk talk(exchange);
         std::optional<Error> error;
         const FileState before = state_of(path);
         MeshRange range;
         try {
-            range = read_range(path, layout_of(path, before.size), talk.rank(), talk.size());
+            range = read_range(path, layout_of(path, before.size, wants), wants, talk.rank(),
+                               talk.size());
         } catch (const NeedsWhole& needs) {
             error = Error{Status::mesh_rejected, needs.why};
         }
@@ -256,6 +340,7 @@ Result<MeshRange> read_ply_range(Exchange& exchange, const Path& path) {
             return *error;
         }
         talk.check(error ? &*error : nullptr);
+        raise_to_floor(talk, wants, range);
         return range;
     });
 }

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "parts/ranges/talk.hpp"
-#include "ply_range.hpp"
 
 namespace geodisk::tools {
 namespace {
@@ -15,42 +14,76 @@ namespace {
 // bindings of all devices.
 constexpr std::uint64_t kFacesOfPart = std::uint64_t{1} << 20;
 
+struct Corner {
+    double place[3];
+    float factor, spread, packing; ///< Radii, or 0.
+};
 struct FaceCorners {
     std::uint32_t face;
-    double corners[9];
+    Corner corners[3];
 };
 
-/// Returns the corners of own faces among some, at one part those of all.
-Result<std::vector<double>> corners_of(Exchange& exchange, const RangedSurface& surface,
-                                       std::span<const std::uint32_t> wanted, std::uint32_t at) {
+/// Returns own faces by their corners.
+std::vector<FaceCorners> corners_of(std::span<const std::uint32_t> own, const FacePlaces& places) {
+    std::vector<FaceCorners> faces(own.size());
+    const auto value = [](const std::vector<float>& values, std::size_t vertex) {
+        return values.empty() ? 0.0f : values[vertex];
+    };
+    for (std::size_t i = 0; i < own.size(); ++i) {
+        faces[i].face = own[i];
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::size_t vertex = places.triangles[3 * i + k];
+            Corner& corner = faces[i].corners[k];
+            std::copy_n(&places.positions[3 * vertex], 3, corner.place);
+            corner.factor = value(places.radii.factors, vertex);
+            corner.spread = value(places.radii.spreads, vertex);
+            corner.packing = value(places.radii.packing, vertex);
+        }
+    }
+    return faces;
+}
+
+/// Returns the places of faces; radii as the whole surface has them.
+FacePlaces places_of(std::span<const FaceCorners> faces, const RadiusField* radii) {
+    FacePlaces places;
+    for (const FaceCorners& face : faces) {
+        for (const Corner& corner : face.corners) {
+            places.triangles.push_back(static_cast<std::uint32_t>(places.triangles.size()));
+            places.positions.insert(places.positions.end(), corner.place, corner.place + 3);
+            if (radii != nullptr) {
+                places.radii.factors.push_back(corner.factor);
+                places.radii.spreads.push_back(corner.spread);
+            }
+            if (corner.packing > 0) {
+                places.radii.packing.push_back(corner.packing);
+            }
+        }
+    }
+    return places;
+}
+
+/// Returns the places of own faces among some, at one part those of all.
+Result<FacePlaces> places_at(Exchange& exchange, const RangedSurface& surface,
+                             std::span<const std::uint32_t> wanted, std::uint32_t at) {
     std::vector<std::uint32_t> own;
     for (const WholeFace& face : surface.faces()) {
         if (std::ranges::binary_search(wanted, face.face)) {
             own.push_back(face.face);
         }
     }
-    const auto corners = surface.corners(exchange, own);
-    if (!corners) {
-        return corners.error();
+    const auto places = surface.places(exchange, own);
+    if (!places) {
+        return places.error();
     }
-    ByProcess<FaceCorners> told(exchange.size());
-    for (std::size_t i = 0; i < own.size(); ++i) {
-        FaceCorners& one = told[at].emplace_back();
-        one.face = own[i];
-        std::copy_n(&(*corners)[9 * i], 9, one.corners);
-    }
-    return caught([&]() -> Result<std::vector<double>> {
+    return caught([&]() -> Result<FacePlaces> {
+        ByProcess<FaceCorners> told(exchange.size());
+        told[at] = corners_of(own, *places);
         std::vector<FaceCorners> all;
         for (const auto& some : Talk(exchange).swap(std::move(told))) {
             all.insert(all.end(), some.begin(), some.end());
         }
         std::ranges::sort(all, {}, &FaceCorners::face);
-        std::vector<double> of_all;
-        of_all.reserve(9 * all.size());
-        for (const FaceCorners& one : all) {
-            of_all.insert(of_all.end(), one.corners, one.corners + 9);
-        }
-        return of_all;
+        return places_of(all, surface.radii());
     });
 }
 
@@ -89,7 +122,8 @@ auto RangedParts::all(const Work& work) {
 }
 
 Result<RangedParts> RangedParts::read(MPI_Comm communicator, const MpiExchange::GoesOn& goes_on,
-                                      Fails fails, std::uint32_t parts, const Path& path) {
+                                      Fails fails, std::uint32_t parts, const Path& path,
+                                      const RangeWants& wants) {
     auto exchanges = MpiExchange::create_lanes(communicator, parts, goes_on);
     if (!exchanges) {
         return exchanges.error();
@@ -99,7 +133,7 @@ Result<RangedParts> RangedParts::read(MPI_Comm communicator, const MpiExchange::
         made.lanes_.push_back({std::move(exchange), std::nullopt});
     }
     const auto well = made.all([&](Lane& lane) -> Result<Done> {
-        auto range = read_ply_range(*lane.exchange, path);
+        auto range = read_ply_range(*lane.exchange, path, wants);
         if (!range) {
             return range.error();
         }
@@ -122,10 +156,10 @@ Result<PartsResult> RangedParts::sample(Runner& runner, const SampleParams& para
     });
 }
 
-Result<std::vector<double>> RangedParts::corners(std::span<const std::uint32_t> faces,
-                                                 std::uint32_t process) {
+Result<FacePlaces> RangedParts::places(std::span<const std::uint32_t> faces,
+                                       std::uint32_t process) {
     const auto at = static_cast<std::uint32_t>(process * lanes_.size());
-    return all([&](Lane& lane) { return corners_of(*lane.exchange, *lane.surface, faces, at); });
+    return all([&](Lane& lane) { return places_at(*lane.exchange, *lane.surface, faces, at); });
 }
 
 } // namespace geodisk::tools

@@ -18,6 +18,7 @@
 #include "mpi_exchange.hpp"
 #include "parts/ranges/ranged_surface.hpp"
 #include "parts/sample_parts.hpp"
+#include "ply_range.hpp"
 #include "program/path.hpp"
 
 namespace geodisk::tools {
@@ -33,10 +34,11 @@ class RangedParts {
     /// Ends all processes by what a thread throws, of which others never hear. Does not return.
     using Fails = std::function<void(std::exception_ptr)>;
 
-    /// Reads the ranges of a mesh file. Errors: those of read_ply_range() and
-    /// RangedSurface::create().
+    /// Reads the ranges of a mesh file, and what a job takes from it. Errors: those of
+    /// read_ply_range() and RangedSurface::create().
     static Result<RangedParts> read(MPI_Comm communicator, const MpiExchange::GoesOn& goes_on,
-                                    Fails fails, std::uint32_t parts, const Path& path);
+                                    Fails fails, std::uint32_t parts, const Path& path,
+                                    const RangeWants& wants);
 
     /// Returns what all know of the surface.
     const RangedSurface& surface() const { return *lanes_.front().surface; }
@@ -45,10 +47,9 @@ class RangedParts {
     Result<PartsResult> sample(Runner& runner, const SampleParams& params,
                                const Checkpoints* checkpoints, const ProgressCallback& progress);
 
-    /// Returns the corners of some faces, given in ascending order, nine coordinates each: all at
-    /// one process, nothing elsewhere.
-    Result<std::vector<double>> corners(std::span<const std::uint32_t> faces,
-                                        std::uint32_t process);
+    /// Returns the places and radii of some faces, given in ascending order, each with corners of
+    /// its own: all at one process, nothing elsewhere.
+    Result<FacePlaces> places(std::span<const std::uint32_t> faces, std::uint32_t process);
 
   private:
     struct Lane {

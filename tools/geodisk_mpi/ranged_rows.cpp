@@ -22,6 +22,7 @@ constexpr std::uint64_t kSamplesAtOnce = std::uint64_t{1} << 18;
 /// How samples are divided.
 struct Blocks {
     std::uint64_t count = 0;
+    double min_distance = 0; ///< Of the job.
     bool divides = false;
 
     /// Returns where the block of a process begins, or the end of the last one's.
@@ -37,6 +38,7 @@ struct Blocks {
 struct Block {
     std::uint64_t digest;
     SampleBox box;
+    RadiusRange radii;
 };
 
 /// Returns records of the first process at all, or at one alone.
@@ -63,15 +65,16 @@ std::vector<std::uint32_t> faces_of(std::span<const Sample> samples) {
     return faces;
 }
 
-/// Appends the rows of samples on faces, of which these are the corners.
+/// Appends the rows of samples on faces at these places, of a job with such a distance.
 void append_rows(std::vector<SampleRow>& rows, std::span<const Sample> samples,
-                 std::span<const std::uint32_t> faces, std::vector<double> corners,
-                 const RangedSurface& surface) {
+                 std::span<const std::uint32_t> faces, FacePlaces places,
+                 const RangedSurface& surface, double min_distance) {
     MeshInput mesh{{}, surface.outline(), std::nullopt, {}, 1, {}, 0, 0};
-    mesh.file.positions = std::move(corners);
-    for (std::uint32_t corner = 0; corner < 3 * faces.size(); ++corner) {
-        mesh.file.triangles.push_back(corner);
+    if (surface.radii() != nullptr) {
+        mesh.radii = RadiusPieces::on_faces(places.triangles, places.radii, [](FaceMean) {});
     }
+    mesh.file.positions = std::move(places.positions);
+    mesh.file.triangles = std::move(places.triangles);
     const std::size_t first = rows.size();
     rows.resize(first + samples.size());
     for_rows(samples.size(), [&](std::size_t i) {
@@ -80,6 +83,7 @@ void append_rows(std::vector<SampleRow>& rows, std::span<const Sample> samples,
                                               faces.begin());
         std::copy_n(samples[i].weights, 3, row.bary);
         mesh.place(row);
+        row.radius = mesh.radius(row.face, row.bary, min_distance);
         row.face = samples[i].face;
     });
 }
@@ -117,10 +121,11 @@ void write_in_turn(Talk& talk, AtomicFile* file, const std::string& own) {
 } // namespace
 
 Result<RangedRows> RangedRows::make(Exchange& exchange, RangedParts& parts,
-                                    std::span<const Sample> samples, bool divides) {
+                                    std::span<const Sample> samples, double min_distance,
+                                    bool divides) {
     return geodisk::caught([&]() -> Result<RangedRows> {
         Talk talk(exchange);
-        const Blocks given{samples.size(), divides};
+        const Blocks given{samples.size(), min_distance, divides};
         const Blocks blocks = heard(talk, std::span(&given, 1)).front();
         RangedRows made;
         made.count_ = blocks.count;
@@ -135,17 +140,19 @@ Result<RangedRows> RangedRows::make(Exchange& exchange, RangedParts& parts,
                 const std::vector<std::uint32_t> wanted = faces_of(some);
                 const std::vector<std::uint32_t> faces =
                     heard(talk, std::span(std::as_const(wanted)));
-                auto corners = parts.corners(faces, process);
-                if (!corners) {
-                    return corners.error();
+                auto places = parts.places(faces, process);
+                if (!places) {
+                    return places.error();
                 }
-                append_rows(made.own_, here, faces, std::move(*corners), parts.surface());
+                append_rows(made.own_, here, faces, std::move(*places), parts.surface(),
+                            blocks.min_distance);
             }
         }
-        const Block own{digest_number(made.own_), SampleBox(made.own_)};
+        const Block own{digest_number(made.own_), SampleBox(made.own_), RadiusRange(made.own_)};
         for (const Block& block : talk.all(own)) {
             made.digest_ += block.digest;
             made.box_.add(block.box);
+            made.radii_.add(block.radii);
         }
         return made;
     });

@@ -18,11 +18,13 @@ namespace geodisk::tools {
 /// Each process has a block of the rows, in dart order. All processes make the same calls.
 class RangedRows {
   public:
-    /// Makes the rows of `samples`, which are all of them at the first process and none elsewhere.
+    /// Makes the rows of `samples`, which are all of them at the first process and none elsewhere,
+    /// as `min_distance` is known there alone.
     /// Blocks are equally long, or the first process has all if `divides` is false there. Errors:
     /// those of the exchange.
     static Result<RangedRows> make(Exchange& exchange, RangedParts& parts,
-                                   std::span<const Sample> samples, bool divides);
+                                   std::span<const Sample> samples, double min_distance,
+                                   bool divides);
 
     std::vector<SampleRow>& own() { return own_; }
 
@@ -31,6 +33,7 @@ class RangedRows {
     std::uint64_t count() const { return count_; }
     std::uint64_t digest() const { return digest_; }
     const SampleBox& box() const { return box_; }
+    const RadiusRange& radii() const { return radii_; }
 
     /// Writes all rows in dart order behind what `file` has, which is null but at the first
     /// process, as is its `path` empty: AtomicFile::share(). Each process writes its own rows
@@ -45,6 +48,7 @@ class RangedRows {
     std::vector<SampleRow> own_;
     std::uint64_t count_ = 0, digest_ = 0;
     SampleBox box_;
+    RadiusRange radii_;
 };
 
 } // namespace geodisk::tools

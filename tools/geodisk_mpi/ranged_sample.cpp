@@ -29,14 +29,22 @@ struct NeedsWhole {
     std::string why;
 };
 
-/// Returns true for a job that needs no more of a mesh than its faces, and a file that may be read
-/// in ranges.
+/// Returns true for radii and a mask that each process takes from its range of the file.
+bool has_ranged_fields(const SampleJob& job) {
+    const auto density = job.density.source();
+    return (!density || density->kind == DensitySource::Kind::attribute) && job.mask.only.empty() &&
+           std::ranges::none_of(job.mask.mask_rules(), &MaskRule::is_map);
+}
+
+/// Returns true for a job that needs no more of a mesh than its faces and properties, and a file
+/// that may be read in ranges.
 bool takes_ranges(const SampleJob& job) {
-    const bool is_plain = job.additions().empty() && job.out.record.entries().empty() &&
+    const bool is_plain = job.mesh.additions().empty() && job.out.record.entries().empty() &&
                           job.mesh.texture.empty() && !job.constraints.is_given();
     const bool has_more = job.features || job.method.has_levels || job.method.is_farthest ||
                           !job.picture.empty() || !job.columns.empty();
-    return is_plain && !has_more && lower_extension(job.mesh.mesh) == ".ply";
+    return is_plain && !has_more && has_ranged_fields(job) &&
+           lower_extension(job.mesh.mesh) == ".ply";
 }
 
 /// Returns true for what nobody can read, of which reading the whole tells.
@@ -48,9 +56,14 @@ bool is_unreadable(const Path& path) {
 }
 
 /// Returns a mesh of the statistics of all, whose file has no faces yet.
-MeshInput outline_of(const RangedSurface& surface, const std::string& path, double load_seconds) {
+MeshInput outline_of(const RangedSurface& surface, const SampleJob& job, double load_seconds) {
     const RangedStatistics& statistics = surface.statistics();
     MeshInput mesh{{}, surface.outline(), std::nullopt, {}, 1, {}, load_seconds, 0};
+    mesh.known = {surface.effective_area(), surface.borders(), surface.masked_faces()};
+    if (const RadiusField* const radii = surface.radii()) {
+        mesh.radii = *radii;
+        mesh.distance_part = job.density.is_density() ? radii->least_factor() : 1;
+    }
     mesh.file.positions.assign(3, 0); // There are coordinates.
     const auto warn = [&](const char* kind, std::uint64_t count, const char* one,
                           const char* many) {
@@ -73,37 +86,52 @@ MeshInput outline_of(const RangedSurface& surface, const std::string& path, doub
              "components: no path leads from one to another");
     }
     for (MeshWarning& warning : mesh.warnings) {
-        warning.file = path;
+        warning.file = job.mesh.mesh;
+    }
+    if (auto warning = job.density.warning()) {
+        mesh.warnings.push_back(std::move(*warning));
     }
     return mesh;
 }
 
-/// Returns a triangle that the frame of the job fits, for kernels to be compiled for.
-PreparedMesh stand_in(const RangedSurface& surface, double min_distance) {
-    const double edge = std::min(min_distance, surface.statistics().mesh.longest_edge) / 2;
-    const std::vector<double> positions{0, 0, 0, edge, 0, 0, 0, edge, 0};
-    const std::vector<std::uint32_t> triangles{0, 1, 2};
-    return take(PreparedMesh::prepare(MeshView{positions, triangles, 3}));
-}
+/// A triangle that the frame of a job fits, for kernels to be compiled for.
+struct StandIn {
+    PreparedMesh mesh;
+    std::optional<RadiusField> radii;
+    SampleParams params;
+
+    StandIn(const RangedSurface& surface, const SampleJob& job, const SampleParams& of_all)
+        : params(of_all) {
+        const double edge =
+            std::min(of_all.min_distance, surface.statistics().mesh.longest_edge) / 2;
+        const std::vector<double> positions{0, 0, 0, edge, 0, 0, 0, edge, 0};
+        const std::vector<std::uint32_t> triangles{0, 1, 2};
+        mesh = take(PreparedMesh::prepare(MeshView{positions, triangles, 3}));
+        if (surface.radii() != nullptr) {
+            const std::vector<double> ones{1, 1, 1};
+            radii = take(job.density.is_density() ? RadiusField::from_density(mesh, ones)
+                                                  : RadiusField::prepare(mesh, ones));
+            params.radii = &*radii;
+        }
+    }
+};
 
 SampleResult sample_ranged(const SampleJob& job, MeshInput& mesh, Session& session,
                            ProgressLine& progress) {
     const RangedSurface& surface = *session.ranges();
-    if (!job.min_distance && surface.statistics().mesh.boundary_edges > 0) {
-        throw NeedsWhole{"the distance for a count depends on the length of its borders"};
-    }
     SampleParams params = params_on(mesh, job);
-    std::optional<PreparedMesh> triangle;
+    std::optional<StandIn> triangle;
     const auto task_at = [&](double min_distance) {
         params.min_distance = min_distance;
         const auto frame = surface.frame(params);
         if (!frame && frame.error().status == Status::mesh_rejected) {
             throw NeedsWhole{frame.error().message};
         }
-        triangle = stand_in(surface, min_distance);
-        const double room = expected_count(effective_area(mesh.prepared, params), min_distance);
-        Task task{take(Domain::surface(*triangle, params, take(Result<JobFrame>(frame)))),
-                  job.method.expected(room)};
+        triangle.emplace(surface, job, params);
+        const double room = expected_count(mesh.effective_area(params), min_distance);
+        Task task{
+            take(Domain::surface(triangle->mesh, triangle->params, take(Result<JobFrame>(frame)))),
+            job.method.expected(room)};
         task.surface = SurfaceTask{&mesh.prepared, params};
         return task;
     };
@@ -111,14 +139,15 @@ SampleResult sample_ranged(const SampleJob& job, MeshInput& mesh, Session& sessi
     device.sample_by(&session);
     auto [set, done] = device.run(task_at, params.min_distance, job.wanted_count, progress);
     params.min_distance = done.min_distance;
-    job.method.check_count(set.samples.size(), params.min_distance, done.run.candidates);
+    job.method.check_count(set.samples.size(), params.min_distance * mesh.distance_part,
+                           done.run.candidates);
     SampleResult result;
     result.params = params;
     result.done = std::move(done);
     const bool divides = RowFormat::is_one(job.out.target().format);
-    RangedRows& rows = session.make_rows(set.samples, divides);
+    RangedRows& rows = session.make_rows(set.samples, params.min_distance, divides);
     if (divides) {
-        result.all = AllRows{rows.count(), rows.digest()};
+        result.all = AllRows{rows.count(), rows.digest(), rows.radii()};
     } else {
         result.rows = std::move(rows.own());
     }
@@ -149,13 +178,13 @@ bool sample_ranges_to_files(const SampleOptions& options, std::uint32_t parts, S
     ProgressLine progress(job.out.quiet);
     progress.begin_stage("reading the mesh");
     const Stopwatch watch;
-    const auto why = session.read_ranges(path, parts);
+    const auto why = session.read_ranges(job, parts);
     progress.clear();
     if (why) {
         print_note(job, *why);
         return false;
     }
-    MeshInput mesh = outline_of(*session.ranges(), path, watch.seconds());
+    MeshInput mesh = outline_of(*session.ranges(), job, watch.seconds());
     check_target(job, mesh);
     try {
         const SampleResult result = sample_ranged(job, mesh, session, progress);

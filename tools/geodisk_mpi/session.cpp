@@ -82,6 +82,13 @@ struct RangedJob {
     }
 };
 
+/// Returns what a job takes from a mesh file that all read in ranges; nothing without a job.
+RangeWants wants_of(const SampleJob* job) {
+    return job != nullptr
+               ? RangeWants{job->density.source(), job->mask.mask_rules(), !job->min_distance}
+               : RangeWants();
+}
+
 } // namespace
 
 Session::Session() : exchange_(take(MpiExchange::create(MPI_COMM_WORLD, goes_on))) {}
@@ -116,14 +123,15 @@ void Session::check_arguments(const std::vector<std::string>& arguments) {
     take(std::move(alike));
 }
 
-Result<Done> Session::read_together(const Path& path, std::uint32_t of_first) {
+Result<Done> Session::read_together(const Path& path, const RangeWants& wants,
+                                    std::uint32_t of_first) {
     const auto parts = all_hear(*exchange_, of_first);
     if (!parts) {
         return parts.error();
     }
     auto ranges = RangedParts::read(
         MPI_COMM_WORLD, goes_on, [this](const std::exception_ptr& failure) { fail(failure); },
-        *parts, path);
+        *parts, path, wants);
     if (!ranges) {
         return ranges.error();
     }
@@ -131,10 +139,12 @@ Result<Done> Session::read_together(const Path& path, std::uint32_t of_first) {
     return Done{};
 }
 
-std::optional<std::string> Session::read_ranges(const Path& path, std::uint32_t parts) {
+std::optional<std::string> Session::read_ranges(const SampleJob& job, std::uint32_t parts) {
+    const Path path(job.mesh.mesh);
     next(Task::read);
     auto well = together([&] {
-        return read_together(path, parts_of_process(ply_faces(path), exchange_->size(), parts));
+        return read_together(path, wants_of(&job),
+                             parts_of_process(ply_faces(path), exchange_->size(), parts));
     });
     if (well) {
         return std::nullopt;
@@ -156,8 +166,9 @@ void Session::forget_ranges() {
     ranges_.reset();
 }
 
-Result<Done> Session::make_rows_together(std::span<const Sample> samples, bool divides) {
-    auto rows = RangedRows::make(*exchange_, *ranges_, samples, divides);
+Result<Done> Session::make_rows_together(std::span<const Sample> samples, double min_distance,
+                                         bool divides) {
+    auto rows = RangedRows::make(*exchange_, *ranges_, samples, min_distance, divides);
     if (!rows) {
         return rows.error();
     }
@@ -165,9 +176,9 @@ Result<Done> Session::make_rows_together(std::span<const Sample> samples, bool d
     return Done{};
 }
 
-RangedRows& Session::make_rows(std::span<const Sample> samples, bool divides) {
+RangedRows& Session::make_rows(std::span<const Sample> samples, double min_distance, bool divides) {
     next(Task::make_rows);
-    auto made = together([&] { return make_rows_together(samples, divides); });
+    auto made = together([&] { return make_rows_together(samples, min_distance, divides); });
     check_interrupted();
     take(std::move(made));
     return *rows_;
@@ -175,7 +186,9 @@ RangedRows& Session::make_rows(std::span<const Sample> samples, bool divides) {
 
 RowFormat Session::row_format(const SampleTarget& target) const {
     const bool is_float_enough = float_is_enough(rows_->box(), 3);
-    return {target, layout_in(target.format, 3, is_float_enough)};
+    SampleLayout layout = layout_in(target.format, 3, is_float_enough);
+    layout.has_radius = rows_->radii().do_vary();
+    return {target, layout};
 }
 
 void Session::write_rows(AtomicFile& file, const SampleTarget& target, const SampleHeader& header) {
@@ -205,9 +218,12 @@ Result<SampleSet> Session::sample(Runner& runner, const SurfaceTask& surface,
                                   const ProgressCallback& progress) {
     const Checkpoints* checkpoints = nullptr;
     if (checkpoints_ != nullptr) {
-        const std::uint64_t mesh =
-            ranges_ ? ranges()->statistics().digest : mesh_digest(*surface.mesh);
-        checkpoints = &checkpoints_->begin({mesh, job_digest(*surface.mesh, surface.params)});
+        const std::uint64_t mesh = ranges_
+                                       ? ranges()->statistics().digest
+                                       : mesh_digest(*surface.mesh) + fields_digest(surface.params);
+        const JobFrame frame = take(ranges_ ? ranges()->frame(surface.params)
+                                            : frame_of(*surface.mesh, surface.params));
+        checkpoints = &checkpoints_->begin({mesh, job_digest(frame, surface.params)});
     }
     next(ranges_ ? Task::sample_ranges : Task::sample_whole);
     auto result = together([&]() -> Result<PartsResult> {
@@ -281,13 +297,13 @@ void Session::do_task(Task task, const SampleJob* job, RunDevice* device) {
     ProgressLine quiet(true);
     switch (task) {
     case Task::read:
-        (void)read_together(job != nullptr ? Path(job->mesh.mesh) : Path(), 0);
+        (void)read_together(job != nullptr ? Path(job->mesh.mesh) : Path(), wants_of(job), 0);
         break;
     case Task::forget:
         ranges_.reset();
         break;
     case Task::make_rows:
-        (void)make_rows_together({}, false);
+        (void)make_rows_together({}, 0, false);
         break;
     case Task::write_rows:
         (void)rows_->write(*exchange_, row_format(job->out.target()), nullptr, {});

@@ -39,17 +39,18 @@ class Session : public SurfaceSampler {
 
     // On the first process.
 
-    /// Reads a mesh file by all processes, each a range of it; from then on sample() samples that
-    /// surface. Each process has so many parts of it, or as parts_of_process() chooses for 0.
-    /// Returns the reason if the first process has to read the whole. Throws UserError(bad_input)
-    /// if the file changes meanwhile.
-    std::optional<std::string> read_ranges(const Path& path, std::uint32_t parts);
+    /// Reads the mesh file of a job by all processes, each a range of it; from then on sample()
+    /// samples that surface. Each process has so many parts of it, or as parts_of_process() chooses
+    /// for 0. Returns the reason if the first process has to read the whole. Throws
+    /// UserError(bad_input) if the file changes meanwhile.
+    std::optional<std::string> read_ranges(const SampleJob& job, std::uint32_t parts);
     /// Returns the surface that was read in ranges, or null.
     const RangedSurface* ranges() const { return ranges_ ? &ranges_->surface() : nullptr; }
     /// Frees it, on all processes.
     void forget_ranges();
-    /// Makes the rows of samples on it. Each process gets some of them if it `divides`.
-    RangedRows& make_rows(std::span<const Sample> samples, bool divides);
+    /// Makes the rows of samples on it, of a job with such a distance. Each process gets some of
+    /// them if it `divides`.
+    RangedRows& make_rows(std::span<const Sample> samples, double min_distance, bool divides);
     /// Writes divided rows by all processes. Throws UserError(bad_output).
     void write_rows(AtomicFile& file, const SampleTarget& target, const SampleHeader& header);
 
@@ -84,9 +85,10 @@ class Session : public SurfaceSampler {
     Task next(Task of_first);
     void do_task(Task task, const SampleJob* job, RunDevice* device);
     /// Reads ranges; the first process says how many parts each has.
-    Result<Done> read_together(const Path& path, std::uint32_t of_first);
+    Result<Done> read_together(const Path& path, const RangeWants& wants, std::uint32_t of_first);
     void help_to_sample(RunDevice* device, bool has_ranges);
-    Result<Done> make_rows_together(std::span<const Sample> samples, bool divides);
+    Result<Done> make_rows_together(std::span<const Sample> samples, double min_distance,
+                                    bool divides);
     RowFormat row_format(const SampleTarget& target) const;
 
     /// Does what all processes do together. What it throws, the others never hear of: that ends all

@@ -143,6 +143,10 @@ GEODISK_API double distance_for_count(double area, double count) noexcept;
 GEODISK_API double distance_for_count(const PreparedMesh& mesh, const SampleParams& params,
                                       double count) noexcept;
 
+/// Returns the distance of a mesh for which others know the effective_area() and the length of all
+/// borders, in multiples of the largest radius if radii vary.
+GEODISK_API double distance_for_count(double area, double borders, double count) noexcept;
+
 /// Returns the packing density r * sqrt(2 sqrt(3) N / A) of a result (paper section 5.2).
 GEODISK_API double packing_density(double area, double min_distance, double count) noexcept;
 

@@ -12,6 +12,8 @@
 
 namespace geodisk {
 
+struct VertexRadii;
+
 /// Factor g of the radius at a point: r(p) = g(p) * r_max, with r_max half of
 /// `SampleParams::min_distance`. Two samples p and q are at least r(p) + r(q) apart. g is linear in
 /// each triangle, or made from a density that is.
@@ -65,7 +67,7 @@ class RadiusField {
     GEODISK_API double factor_at(std::uint32_t face, const float (&weights)[3]) const noexcept;
 
     /// Returns the minimum of g. min_distance times this is the minimum distance of all samples.
-    GEODISK_API double least_factor() const noexcept;
+    double least_factor() const noexcept { return static_cast<double>(least_factor_); }
 
     /// Returns the area of a surface that takes as many samples with the largest radius everywhere:
     /// the integral of 1 / g^2, or of the density in units of that at r_max.
@@ -104,11 +106,18 @@ class RadiusField {
     double least_density() const noexcept { return least_density_; }
 
   private:
+    friend struct RadiusPieces; // Makes radii of surfaces of which no process holds the whole.
+
+    static RadiusField on_mesh(const PreparedMesh& mesh, const VertexRadii& radii);
+    void add_areas(const PreparedMesh& part);
+    void find_least_factor();
+
     std::vector<float> factors_;
     std::vector<float> spreads_;
     std::vector<float> packing_;
     std::vector<float> densities_;
     float largest_density_ = 0;
+    float least_factor_ = 1;
     double effective_area_ = 0;
     double least_density_ = 0;
 };

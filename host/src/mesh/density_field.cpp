@@ -10,8 +10,11 @@
 #include <array>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "mesh/candidate_share.hpp"
+#include "mesh/density_values.hpp"
+#include "mesh/radius_pieces.hpp"
 #include "mesh/vertex_use.hpp"
 #include "support/guard.hpp"
 #include "support/number_text.hpp"
@@ -54,42 +57,29 @@ Result<Done> check_density(const PreparedMesh& mesh, std::span<const double> den
     return Done{};
 }
 
-/// Returns the densities in units of the smallest packing; zero at unused vertices. Sets that unit.
-std::vector<float> scaled_density(const PreparedMesh& mesh, std::span<const double> density,
-                                  double& least_density) {
-    double most = 0;
-    for (std::size_t v = 0; v < density.size(); ++v) {
-        most = is_used(mesh, v) ? std::max(most, density[v]) : most;
-    }
-    double least = 1;
+/// Returns the unit of a density that check_density() finds no fault with.
+DensityUnit unit_of(const PreparedMesh& mesh, std::span<const double> density) {
+    double most = 0, least = HUGE_VAL;
     for (std::size_t v = 0; v < density.size(); ++v) {
         if (is_used(mesh, v) && density[v] > 0) {
-            least = std::min(least, density[v] / most);
+            most = std::max(most, density[v]);
+            least = std::min(least, density[v]);
         }
     }
-    const double unit = std::max(least, 1 / kMostPacking);
-    least_density = most * unit;
-    std::vector<float> scaled(density.size(), 0.0f);
-    for (std::size_t v = 0; v < density.size(); ++v) {
-        const double value = is_used(mesh, v) ? density[v] / most / unit : 0;
-        scaled[v] = value < kLeastDensity ? 0.0f : static_cast<float>(value);
-    }
-    return scaled;
+    return DensityUnit::of(most, least);
 }
 
-/// Returns the packing at each vertex, in the same unit.
+/// Returns the packing at each vertex, by densities in units of the smallest one.
 std::vector<float> packing_for(const PreparedMesh& mesh, const std::vector<float>& density) {
     std::vector<float> packing(density.size());
-    for (std::size_t v = 0; v < density.size(); ++v) {
-        packing[v] = std::max(1.0f, density[v]);
-    }
+    std::ranges::transform(density, packing.begin(), packing_of_vertex);
     const auto edges = mesh.half_edges();
     for (std::size_t h = 0; h < edges.size(); h += 3) {
         const float most = std::max(
             {density[edges[h].origin], density[edges[h + 1].origin], density[edges[h + 2].origin]});
         for (std::size_t corner = h; corner < h + 3; ++corner) {
             float& value = packing[edges[corner].origin];
-            value = std::max(value, most / kMostInFace);
+            value = std::max(value, packing_in_face(most));
         }
     }
     return packing;
@@ -99,7 +89,25 @@ double quotient(double a, double b) {
     return std::min(1.0, a / b);
 }
 
-/// Returns the mean density of candidates over a face, in the same unit.
+} // namespace
+
+DensityUnit DensityUnit::of(double most, double least) {
+    return {most, std::max(std::min(1.0, least / most), 1 / kMostPacking)};
+}
+
+float DensityUnit::scaled(double density) const {
+    const double value = density / most / unit;
+    return value < kLeastDensity ? 0.0f : static_cast<float>(value);
+}
+
+float packing_of_vertex(float density) {
+    return std::max(1.0f, density);
+}
+
+float packing_in_face(float most) {
+    return most / kMostInFace;
+}
+
 double mean_candidates(const float* density, const float* packing) {
     std::array<double, 3> u{}, s{};
     double least = 1, most = 0;
@@ -131,37 +139,21 @@ double mean_candidates(const float* density, const float* packing) {
     return sum / (double{1.0} * strips * strips);
 }
 
-} // namespace
-
 Result<RadiusField> RadiusField::from_density(const PreparedMesh& mesh,
                                               std::span<const double> density) noexcept {
     return guarded([&]() -> Result<RadiusField> {
         if (auto checked = check_density(mesh, density); !checked) {
             return checked.error();
         }
-        RadiusField field;
-        const std::vector<float> scaled = scaled_density(mesh, density, field.least_density_);
-        const std::vector<float> packing = packing_for(mesh, scaled);
-        const std::size_t corners = mesh.half_edges().size();
-        field.factors_.reserve(corners);
-        field.spreads_.reserve(corners);
-        field.packing_.reserve(corners);
-        for (const HalfEdge& edge : mesh.half_edges()) {
-            const float s = packing[edge.origin];
-            field.packing_.push_back(s);
-            field.factors_.push_back(1.0f / std::sqrt(s));
-            field.spreads_.push_back(scaled[edge.origin]);
+        const DensityUnit unit = unit_of(mesh, density);
+        std::vector<float> scaled(density.size(), 0.0f);
+        for (std::size_t v = 0; v < density.size(); ++v) {
+            scaled[v] = is_used(mesh, v) ? unit.scaled(density[v]) : 0.0f;
         }
-        field.densities_.reserve(mesh.face_count());
-        for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
-            const HalfEdge& edge = mesh.half_edges()[std::size_t{3} * f];
-            const double area = 0.5 * edge.length * edge.apex_y;
-            const float* const u = &field.spreads_[std::size_t{3} * f];
-            const double candidates = mean_candidates(u, &field.packing_[std::size_t{3} * f]);
-            field.densities_.push_back(static_cast<float>(candidates));
-            field.largest_density_ = std::max(field.largest_density_, field.densities_.back());
-            field.effective_area_ += area * (double{u[0]} + double{u[1]} + double{u[2]}) / 3;
-        }
+        std::vector<float> packing = packing_for(mesh, scaled);
+        RadiusField field =
+            on_mesh(mesh, VertexRadii::of_density(std::move(scaled), std::move(packing)));
+        field.least_density_ = unit.least_density();
         if (!(field.effective_area_ > 0)) {
             return Error{Status::invalid_argument,
                          "the density is 0 on all faces that have an area, so no samples fit"};
@@ -172,10 +164,6 @@ Result<RadiusField> RadiusField::from_density(const PreparedMesh& mesh,
 
 double RadiusField::share_at(std::size_t half_edge) const noexcept {
     return packing_.empty() ? 1 : double{spreads_[half_edge]} / double{packing_[half_edge]};
-}
-
-double RadiusField::least_factor() const noexcept {
-    return static_cast<double>(*std::min_element(factors_.begin(), factors_.end()));
 }
 
 } // namespace geodisk

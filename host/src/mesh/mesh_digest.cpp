@@ -35,4 +35,30 @@ std::uint64_t mesh_digest(const PreparedMesh& mesh) {
     return sum;
 }
 
+std::uint64_t field_digest(std::uint64_t face, const RadiusField* radii, std::uint32_t in_radii,
+                           bool takes_samples) {
+    std::uint64_t digest = 0;
+    add(digest, face + 1);
+    add(digest, takes_samples ? 1 : 0);
+    for (std::size_t h = std::size_t{3} * in_radii; radii != nullptr && h < 3 * (in_radii + 1u);
+         ++h) {
+        add(digest, std::bit_cast<std::uint32_t>(radii->spreads()[h]));
+        const auto packing = radii->packing();
+        add(digest,
+            std::bit_cast<std::uint32_t>(packing.empty() ? radii->factors()[h] : packing[h]));
+    }
+    return digest;
+}
+
+std::uint64_t fields_digest(const SampleParams& params) {
+    const std::size_t faces =
+        params.radii != nullptr ? params.radii->face_count() : params.face_mask.size();
+    std::uint64_t sum = 0;
+    for (std::uint32_t face = 0; face < faces; ++face) {
+        const bool takes = params.face_mask.empty() || params.face_mask[face] != 0;
+        sum += field_digest(face, params.radii, face, takes);
+    }
+    return sum;
+}
+
 } // namespace geodisk

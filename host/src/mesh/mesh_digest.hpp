@@ -6,6 +6,8 @@
 
 #include "geodisk/export.hpp"
 #include "geodisk/mesh.hpp"
+#include "geodisk/params.hpp"
+#include "geodisk/radius_field.hpp"
 
 namespace geodisk {
 
@@ -15,5 +17,14 @@ std::uint64_t face_digest(std::uint64_t face, const std::uint32_t* corners,
 
 /// Returns the digest of a mesh: the sum of those of its faces.
 GEODISK_API std::uint64_t mesh_digest(const PreparedMesh& mesh);
+
+/// Returns the digest of what a job has on a face: its number, its radii, which are those of a face
+/// of `radii`, or null; and whether it takes samples.
+std::uint64_t field_digest(std::uint64_t face, const RadiusField* radii, std::uint32_t in_radii,
+                           bool takes_samples);
+
+/// Returns the digest of the radii and the mask of a job: the sum of those of all faces; 0 if it
+/// has neither.
+GEODISK_API std::uint64_t fields_digest(const SampleParams& params);
 
 } // namespace geodisk

@@ -3,27 +3,16 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "mesh/inverse_square.hpp"
+#include "mesh/radius_pieces.hpp"
 #include "mesh/vertex_use.hpp"
 #include "support/guard.hpp"
 #include "support/number_text.hpp"
 
 namespace geodisk {
 namespace {
-
-/// Returns g^(2/3), by Newton's method from above. Uses only + - * /, so the result is the same on
-/// every machine.
-float spread_of(float g) {
-    const double square = static_cast<double>(g) * static_cast<double>(g);
-    double x = 1;
-    for (double next = x;; x = next) {
-        next = (2 * x + square / (x * x)) / 3;
-        if (!(next < x)) {
-            return static_cast<float>(x);
-        }
-    }
-}
 
 Result<Done> check_factors(const PreparedMesh& mesh, std::span<const double> factors) {
     if (factors.size() != mesh.vertex_count()) {
@@ -60,32 +49,41 @@ Result<RadiusField> RadiusField::prepare(const PreparedMesh& mesh,
         }
         // Ignored faces may name vertices that no other face uses.
         std::vector<float> values(factors.size(), 1.0f);
-        std::vector<float> spreads(factors.size(), 1.0f);
         for (std::size_t v = 0; v < factors.size(); ++v) {
-            if (is_used(mesh, v)) {
-                values[v] = static_cast<float>(factors[v]);
-                spreads[v] = spread_of(values[v]);
-            }
+            values[v] = is_used(mesh, v) ? static_cast<float>(factors[v]) : 1.0f;
         }
-        RadiusField field;
-        field.factors_.reserve(mesh.half_edges().size());
-        field.spreads_.reserve(mesh.half_edges().size());
-        for (const HalfEdge& edge : mesh.half_edges()) {
-            field.factors_.push_back(values[edge.origin]);
-            field.spreads_.push_back(spreads[edge.origin]);
-        }
-        field.densities_.reserve(mesh.face_count());
-        for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
-            const HalfEdge& edge = mesh.half_edges()[std::size_t{3} * f];
-            const double area = 0.5 * edge.length * edge.apex_y;
-            const float* const g = &field.factors_[std::size_t{3} * f];
-            const double density = mean_inverse_square(g[0], g[1], g[2]);
-            field.densities_.push_back(static_cast<float>(density));
-            field.largest_density_ = std::max(field.largest_density_, field.densities_.back());
-            field.effective_area_ += area * density;
-        }
-        return field;
+        return on_mesh(mesh, VertexRadii::of_factors(std::move(values)));
     });
+}
+
+RadiusField RadiusField::on_mesh(const PreparedMesh& mesh, const VertexRadii& radii) {
+    std::vector<std::uint32_t> triangles;
+    triangles.reserve(mesh.half_edges().size());
+    for (const HalfEdge& edge : mesh.half_edges()) {
+        triangles.push_back(edge.origin);
+    }
+    double area = 0;
+    std::size_t face = 0;
+    RadiusField field = RadiusPieces::on_faces(triangles, radii, [&](FaceMean mean) {
+        const HalfEdge& edge = mesh.half_edges()[3 * face++];
+        area += mean.over(0.5 * edge.length * edge.apex_y);
+    });
+    field.effective_area_ = area;
+    return field;
+}
+
+void RadiusField::add_areas(const PreparedMesh& part) {
+    for (std::uint32_t face = 0; face < part.face_count(); ++face) {
+        const HalfEdge& edge = part.half_edges()[std::size_t{3} * face];
+        effective_area_ += 0.5 * edge.length * edge.apex_y * samples_in(face);
+    }
+}
+
+void RadiusField::find_least_factor() {
+    least_factor_ = 1;
+    for (const float g : factors_) {
+        least_factor_ = std::min(least_factor_, g);
+    }
 }
 
 double RadiusField::samples_in(std::uint32_t face) const noexcept {

@@ -97,6 +97,7 @@ Result<RadiusField> RadiusField::load(std::span<const std::byte> bytes) noexcept
             !(field.least_density_ >= 0)) {
             return invalid("the saved radii are damaged");
         }
+        field.find_least_factor();
         return field;
     });
 }

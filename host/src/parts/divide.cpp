@@ -48,7 +48,7 @@ class Division {
           from_(checkpoints != nullptr ? checkpoints->from : nullptr) {
         const CheckpointTerms terms(checkpoints);
         for (std::uint32_t process = 0; process < processes; ++process) {
-            parts_.push_back(part_for(mesh, params, frame, most_candidates, terms));
+            parts_.push_back(part_for(params, frame, most_candidates, terms));
         }
         widest_ = parts_.front().reach;
         for (const KeepOut& avoided : params.avoid) {
@@ -157,8 +157,8 @@ class Division {
 
 } // namespace
 
-Part part_for(const PreparedMesh& whole, const SampleParams& params, const JobFrame& frame,
-              double most_candidates, const CheckpointTerms& checkpoints) {
+Part part_for(const SampleParams& params, const JobFrame& frame, double most_candidates,
+              const CheckpointTerms& checkpoints) {
     Part part;
     part.frame = frame;
     part.reach = params.min_distance * (1 + margin_of(frame));
@@ -168,7 +168,7 @@ Part part_for(const PreparedMesh& whole, const SampleParams& params, const JobFr
     part.stop_count = params.stop_count;
     part.all_given = static_cast<std::uint32_t>(params.given.size());
     part.checkpoints = checkpoints;
-    part.most_stages = stages_at_once(stages_in(frame, whole, params), most_candidates);
+    part.most_stages = stages_at_once(stages_in(frame, params), most_candidates);
     if (checkpoints.is_saved) {
         part.most_stages = std::min(part.most_stages, checkpoints.stages);
     }

@@ -8,6 +8,9 @@ MeshTurn::MeshTurn(Exchange& exchange, Part& part) : turn_(exchange.turn()), par
     if (!part.places.triangles.empty()) {
         part.mesh = MeshPieces::piece(MeshView{part.places.positions, part.places.triangles, 3},
                                       part.whole);
+        if (!part.places.radii.factors.empty()) {
+            part.radii = RadiusPieces::piece(part.mesh, part.places.radii, part.places.of_whole);
+        }
         if (!turn_) {
             part.places = {};
         }
@@ -17,6 +20,7 @@ MeshTurn::MeshTurn(Exchange& exchange, Part& part) : turn_(exchange.turn()), par
 MeshTurn::~MeshTurn() {
     if (turn_) {
         part_.mesh = {};
+        part_.radii.reset();
     }
 }
 

@@ -8,8 +8,8 @@
 
 namespace geodisk {
 
-/// Part::mesh is there while this lives, which must not wait for other parts. A process with one
-/// part keeps its mesh from then on. Throws std::bad_alloc.
+/// Part::mesh and Part::radii are there while this lives, which must not wait for other parts. A
+/// process with one part keeps them from then on. Throws std::bad_alloc.
 class MeshTurn {
   public:
     MeshTurn(Exchange& exchange, Part& part);

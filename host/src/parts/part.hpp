@@ -14,6 +14,7 @@
 #include <geodisk/status.hpp>
 
 #include "engine/domain/drawn.hpp"
+#include "mesh/radius_pieces.hpp"
 #include "parts/checkpoint.hpp"
 #include "parts/exchange.hpp"
 
@@ -37,6 +38,8 @@ struct Neighbour {
 struct FacePlaces {
     std::vector<double> positions;        ///< Three coordinates per vertex.
     std::vector<std::uint32_t> triangles; ///< Three vertices per face.
+    VertexRadii radii;                    ///< Of vertices; empty where radii do not vary.
+    RadiusField of_whole;                 ///< Likewise; without faces.
 };
 
 /// Own faces of a process, and the surface around them: faces whose samples matter to them, and
@@ -46,9 +49,9 @@ struct Part {
     JobFrame frame;       ///< Frame of the whole.
     double reach = 0;     ///< No samples farther away than this conflict.
     PreparedMesh mesh;    ///< See MeshTurn.
-    FacePlaces places;    ///< What the mesh is made from; empty once it is held for good.
+    FacePlaces places;    ///< What mesh and radii are made from; empty once held for good.
     MeshStatistics whole; ///< Of the whole, likewise.
-    std::optional<RadiusField> radii;
+    std::optional<RadiusField> radii; ///< With the mesh.
     std::vector<std::uint32_t> faces; ///< Number in the whole of each face.
     std::vector<FaceRole> roles;
     std::vector<std::uint32_t> keys; ///< Key of each face, or empty: its number in the whole.
@@ -72,10 +75,10 @@ struct Part {
     CandidateDraw draw() const;
 };
 
-/// Returns a part of a mesh without any faces yet, for a job in such a frame. At most so many
+/// Returns a part without any faces yet, for a job in such a frame. At most so many
 /// candidates are expected to be drawn at a time, of all processes, unless one stage has more.
-Part part_for(const PreparedMesh& whole, const SampleParams& params, const JobFrame& frame,
-              double most_candidates, const CheckpointTerms& checkpoints);
+Part part_for(const SampleParams& params, const JobFrame& frame, double most_candidates,
+              const CheckpointTerms& checkpoints);
 
 /// Returns the parts of all processes as messages, in their order. `owners` has the process of each
 /// face; see part_for(). `checkpoints` is null for a job without any. Errors: `invalid_argument`

@@ -25,7 +25,7 @@ std::vector<MeshWarning> run_warnings(const SampleJob& job, const MeshInput& mes
 
 void print_warnings(const std::vector<MeshWarning>& warnings) {
     for (const MeshWarning& warning : warnings) {
-        print_warning(warning.file + ": " + warning.message);
+        print_warning((warning.file.empty() ? "" : warning.file + ": ") + warning.message);
     }
 }
 

@@ -42,6 +42,12 @@ struct MeshInput {
     double load_seconds = 0;
     double prepare_seconds = 0;
     std::optional<Textures> textures = std::nullopt; ///< Whose colours samples get.
+    /// What is known of a mesh that no process holds whole, and that `prepared` stands for.
+    struct Known {
+        double area, borders; ///< As effective_area() and distance_for_count() take them.
+        std::optional<std::uint64_t> triangles_for_samples; ///< With a mask.
+    };
+    std::optional<Known> known = std::nullopt;
 
     /// Coordinates of a sample: those of the file, 0 for a mesh of edge lengths without any.
     std::uint32_t dimension() const { return file.positions.empty() ? 0 : file.dimension; }
@@ -61,6 +67,15 @@ struct MeshInput {
     }
     /// Of unit length; zero for a face without area and for a mesh that is not in space.
     Vec3 normal(std::uint32_t face) const;
+    /// Returns geodisk::effective_area() for parameters of with_fields().
+    double effective_area(const SampleParams& params) const {
+        return known ? known->area : geodisk::effective_area(prepared, params);
+    }
+    /// Returns geodisk::distance_for_count() likewise.
+    double distance_for_count(const SampleParams& params, double count) const {
+        return known ? geodisk::distance_for_count(known->area, known->borders, count)
+                     : geodisk::distance_for_count(prepared, params, count);
+    }
     /// Returns `params` with the radii and the mask.
     SampleParams with_fields(SampleParams params) const {
         params.radii = radii ? &*radii : nullptr;

@@ -35,8 +35,14 @@ std::string size_text(const MeshInput& input, std::uint64_t components_without_s
     return text + ", area " + rounded(mesh.area, 6);
 }
 
-std::uint64_t triangles_for_samples(const MeshInput& input) {
-    return static_cast<std::uint64_t>(std::ranges::count(input.face_mask, 1));
+/// How many triangles the mask leaves; nothing without one.
+std::optional<std::uint64_t> triangles_for_samples(const MeshInput& input) {
+    if (input.known) {
+        return input.known->triangles_for_samples;
+    }
+    return input.face_mask.empty() ? std::nullopt
+                                   : std::optional<std::uint64_t>(static_cast<std::uint64_t>(
+                                         std::ranges::count(input.face_mask, 1)));
 }
 
 } // namespace
@@ -53,8 +59,8 @@ std::string mesh_lines(const std::string& label, const std::string& path,
         add(name + ' ' + one_line(value));
     }
     add(size_text(input, components_without_samples));
-    if (!input.face_mask.empty()) {
-        add("samples on " + grouped(triangles_for_samples(input)) + " of the triangles only");
+    if (const auto left = triangles_for_samples(input)) {
+        add("samples on " + grouped(*left) + " of the triangles only");
     }
     return lines;
 }
@@ -85,8 +91,8 @@ Json mesh_json(const std::string& path, const HeaderEntries& additions, const Me
          {"nonmanifold_edges", mesh.nonmanifold_edges},
          {"area", mesh.area},
          {"diagonal", has_box ? Json(mesh.diagonal) : Json(nullptr)}});
-    if (!input.face_mask.empty()) {
-        json["triangles_for_samples"] = triangles_for_samples(input);
+    if (const auto left = triangles_for_samples(input)) {
+        json["triangles_for_samples"] = *left;
     }
     return json;
 }

@@ -215,15 +215,9 @@ std::string SampleResult::digest() const {
 SampleReport::SampleReport(const SampleJob& job, const MeshInput& mesh, const SampleResult& result)
     : job_(job), mesh_(mesh), result_(result),
       samples_(result.farthest ? result.farthest->samples : result.count()),
-      rho_(packing_density(effective_area(mesh.prepared, result.params), result.params.min_distance,
-                           static_cast<double>(samples_))) {
-    if (has_radii(result.rows)) {
-        const auto [least, most] = std::ranges::minmax_element(
-            result.rows, {}, [](const auto& row) { return row.radius; });
-        least_radius_ = least->radius;
-        most_radius_ = most->radius;
-    }
-}
+      rho_(packing_density(mesh.effective_area(result.params), result.params.min_distance,
+                           static_cast<double>(samples_))),
+      radii_(result.all ? result.all->radii : RadiusRange(result.rows)) {}
 
 SampleHeader SampleReport::header() const {
     const DeviceRun& done = result_.done;
@@ -308,8 +302,8 @@ Json SampleReport::document(const SecondsByStage& after) const {
     if (result_.picture) {
         document["picture"] = job_.picture;
     }
-    if (most_radius_ > 0) {
-        document["sample_radii"] = {{"least", least_radius_}, {"most", most_radius_}};
+    if (radii_.do_vary()) {
+        document["sample_radii"] = {{"least", radii_.least}, {"most", radii_.most}};
     }
     if (result_.given > 0) {
         document["given"] = {{"samples", result_.given},
@@ -352,8 +346,8 @@ std::string SampleReport::summary(const SecondsByStage& after) const {
     std::ostringstream out;
     out << mesh_lines("mesh", job_.mesh.mesh, job_.additions(), mesh_, result_.bare.count)
         << distance_line(job_, mesh_, result_.params.min_distance);
-    if (most_radius_ > 0) {
-        out << "radii         " << rounded(least_radius_, 6) << " to " << rounded(most_radius_, 6)
+    if (radii_.do_vary()) {
+        out << "radii         " << rounded(radii_.least, 6) << " to " << rounded(radii_.most, 6)
             << " at the samples\n";
     }
     out << "samples       " << samples_text(drawn()) << ", rho " << rounded(rho_, 3) << '\n'

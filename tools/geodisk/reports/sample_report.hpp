@@ -26,6 +26,7 @@ namespace geodisk::tools {
 struct AllRows {
     std::size_t count;
     std::uint64_t digest;
+    RadiusRange radii;
 };
 
 /// What came of a job.
@@ -82,7 +83,7 @@ class SampleReport {
     const SampleResult& result_;
     std::size_t samples_; ///< Of the run, before --keep.
     double rho_;          ///< Where radii vary, of the samples on a surface of the effective area.
-    double least_radius_ = 0, most_radius_ = 0; ///< Of the samples, where radii vary; else 0.
+    RadiusRange radii_;   ///< Of the samples.
 };
 
 } // namespace geodisk::tools

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include <geodisk/job_frame.hpp>
 #include <geodisk/mesh.hpp>
 #include <geodisk/params.hpp>
 #include <geodisk/status.hpp>
@@ -18,8 +19,19 @@ inline bool takes_samples(const SampleParams& params, std::uint32_t face) {
     return params.face_mask.empty() || params.face_mask[face] != 0;
 }
 
-/// Returns the effective_area() without the mask. Disks reach over all of it.
+/// Effective areas of a surface.
+struct Areas {
+    double whole = 0; ///< Without the mask. Disks reach over all of it.
+    double taken = 0; ///< effective_area(): of the faces that take samples.
+};
+
+/// Returns the effective_area() without the mask.
 double whole_area(const PreparedMesh& mesh, const SampleParams& params) noexcept;
+
+/// Returns frame_of() a surface with these areas, for parameters that check_params() finds no fault
+/// with. Errors: those of check_candidates().
+Result<JobFrame> frame_with(const PreparedMesh& mesh, const SampleParams& params,
+                            const Areas& areas);
 
 /// Checks the mask against the mesh.
 Result<Done> check_mask(const PreparedMesh& mesh, const SampleParams& params);

@@ -16,31 +16,36 @@ constexpr double kHeapFaces = 1u << 14;
 
 } // namespace
 
+Result<JobFrame> frame_with(const PreparedMesh& mesh, const SampleParams& params,
+                            const Areas& areas) {
+    const Stages stages = stages_of(mesh, params, areas.taken);
+    if (auto checked = check_candidates(mesh, params, stages); !checked) {
+        return checked.error();
+    }
+    const MeshStatistics& statistics = mesh.statistics();
+    const double full = expected_count(areas.whole, params.min_distance);
+    JobFrame frame;
+    frame.min_distance = params.min_distance;
+    frame.unit = working_distance(mesh, params);
+    frame.samples = stages.samples;
+    frame.pool_ratio = stages.ratio;
+    frame.longest_edge = statistics.longest_edge / frame.unit;
+    frame.radii_vary = params.radii != nullptr;
+    // No disk covers more than all faces.
+    frame.nearest_first =
+        2.0 * static_cast<double>(statistics.triangles) / std::max(2.0, full) >= kHeapFaces;
+    frame.splits_once = statistics.nonmanifold_edges == 0;
+    frame.straight_faces = statistics.diagonal > 0;
+    frame.error_bound = ErrorModel(frame).error_of(guessed_chain(mesh, params.min_distance));
+    return frame;
+}
+
 Result<JobFrame> frame_of(const PreparedMesh& mesh, const SampleParams& params) noexcept {
     return guarded([&]() -> Result<JobFrame> {
         if (auto checked = check_params(mesh, params); !checked) {
             return checked.error();
         }
-        const Stages stages = stages_of(mesh, params);
-        if (auto checked = check_candidates(mesh, params, stages); !checked) {
-            return checked.error();
-        }
-        const MeshStatistics& statistics = mesh.statistics();
-        const double full = expected_count(whole_area(mesh, params), params.min_distance);
-        JobFrame frame;
-        frame.min_distance = params.min_distance;
-        frame.unit = working_distance(mesh, params);
-        frame.samples = stages.samples;
-        frame.pool_ratio = stages.ratio;
-        frame.longest_edge = statistics.longest_edge / frame.unit;
-        frame.radii_vary = params.radii != nullptr;
-        // No disk covers more than all faces.
-        frame.nearest_first =
-            2.0 * static_cast<double>(statistics.triangles) / std::max(2.0, full) >= kHeapFaces;
-        frame.splits_once = statistics.nonmanifold_edges == 0;
-        frame.straight_faces = statistics.diagonal > 0;
-        frame.error_bound = ErrorModel(frame).error_of(guessed_chain(mesh, params.min_distance));
-        return frame;
+        return frame_with(mesh, params, {whole_area(mesh, params), effective_area(mesh, params)});
     });
 }
 

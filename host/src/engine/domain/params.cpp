@@ -58,7 +58,6 @@ bool is_at_border(const PreparedMesh& mesh, const SampleParams& params, std::uin
 /// Returns the length of all borders of what takes samples; if radii vary, in multiples of the
 /// largest one.
 double border_length(const PreparedMesh& mesh, const SampleParams& params) {
-    const RadiusField* const radii = params.radii;
     double length = 0;
     const auto edges = mesh.half_edges();
     for (std::uint32_t h = 0; h < edges.size(); ++h) {
@@ -68,13 +67,7 @@ double border_length(const PreparedMesh& mesh, const SampleParams& params) {
         if (!takes_part || !takes_samples(params, h / 3) || !is_at_border(mesh, params, h)) {
             continue;
         }
-        const double factor =
-            radii == nullptr
-                ? 1
-                : 0.5 * (double{radii->factors()[h]} + double{radii->factors()[next_in_face(h)]});
-        const double share =
-            radii == nullptr ? 1 : 0.5 * (radii->share_at(h) + radii->share_at(next_in_face(h)));
-        length += edges[h].length / factor * share;
+        length += border_part(edges[h].length, params.radii, h);
     }
     return length;
 }
@@ -129,13 +122,25 @@ double distance_for_count(double area, double count) noexcept {
     return 2 * kExpectedRho * std::sqrt(area / (kTwoRootThree * count));
 }
 
+double border_part(double length, const RadiusField* radii, std::uint32_t h) {
+    if (radii == nullptr) {
+        return length;
+    }
+    const std::uint32_t next = next_in_face(h);
+    const double factor = 0.5 * (double{radii->factors()[h]} + double{radii->factors()[next]});
+    return length / factor * (0.5 * (radii->share_at(h) + radii->share_at(next)));
+}
+
 double distance_for_count(const PreparedMesh& mesh, const SampleParams& params,
                           double count) noexcept {
-    const double area = effective_area(mesh, params);
+    return distance_for_count(effective_area(mesh, params), border_length(mesh, params), count);
+}
+
+double distance_for_count(double area, double borders, double count) noexcept {
     // count = a / D^2 + b / D.
     const double a =
         kCountedRho / kExpectedRho * (kCountedRho / kExpectedRho) * expected_count(area, 1);
-    const double b = kBorderSamples * border_length(mesh, params);
+    const double b = kBorderSamples * borders;
     return (b + std::sqrt(b * b + 4 * count * a)) / (2 * count);
 }
 

@@ -71,10 +71,17 @@ double pool_ratio_of(double asked, double samples) {
 }
 
 Stages stages_of(const PreparedMesh& mesh, const SampleParams& params) {
+    return stages_of(mesh, params, effective_area(mesh, params));
+}
+
+Stages stages_of(const PreparedMesh& mesh, const SampleParams& params, double area) {
     // A distance beyond all those of the mesh is as good as one just beyond.
-    const double samples =
-        expected_count(effective_area(mesh, params), working_distance(mesh, params));
+    const double samples = expected_count(area, working_distance(mesh, params));
     return {samples, pool_ratio_of(params.pool_ratio, samples), params.throws};
+}
+
+Stages stages_in(const JobFrame& frame, const SampleParams& params) {
+    return {frame.samples, frame.pool_ratio, params.throws};
 }
 
 Stages stages_in(const JobFrame& frame, const PreparedMesh& mesh, const SampleParams& params) {

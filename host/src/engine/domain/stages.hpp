@@ -23,6 +23,12 @@ inline constexpr std::uint32_t kLastOtherStage = 32;
 /// The stages of a job that pool_size() finds no fault with.
 GEODISK_API Stages stages_of(const PreparedMesh& mesh, const SampleParams& params);
 
+/// The same, where effective_area() is known.
+Stages stages_of(const PreparedMesh& mesh, const SampleParams& params, double area);
+
+/// Returns the stages of a job on the whole that a frame is of.
+Stages stages_in(const JobFrame& frame, const SampleParams& params);
+
 /// Returns the stages of a job in a frame: that of the mesh itself, or of one that it is a part of.
 Stages stages_in(const JobFrame& frame, const PreparedMesh& mesh, const SampleParams& params);
 
@@ -40,6 +46,10 @@ GEODISK_API double samples_per_area() noexcept;
 /// of 1 / g^2; lengths in units of JobFrame::unit. It follows from the distance alone, so that no
 /// edit elsewhere changes it.
 GEODISK_API float stage_intensity(const Stages& stages, std::uint32_t stage);
+
+/// Returns the length of a border as distance_for_count() takes it: if radii vary, in multiples of
+/// the largest one. `h` is the border's half-edge in the faces of `radii`.
+double border_part(double length, const RadiusField* radii, std::uint32_t h);
 
 /// Candidates that a face expects, where `per_area` are expected per unit of effective_area().
 double expected_in_face(const PreparedMesh& mesh, const SampleParams& params, std::uint32_t face,

@@ -138,10 +138,11 @@ std::vector<Place> ends_of_parts(Talk& talk, const Sorted& own, std::uint64_t fa
     });
 }
 
-/// Returns the work of a face, in integers, which add up alike in any order.
-std::uint64_t work_of(double area, const MeshStatistics& whole) {
+/// Returns the work of a face that has a part of the area, in integers, which add up alike in any
+/// order.
+std::uint64_t work_of(double part, std::uint64_t faces) {
     constexpr double kUnit = 0x1p16;
-    const double by_area = area / whole.area * static_cast<double>(whole.triangles);
+    const double by_area = part * static_cast<double>(faces);
     return static_cast<std::uint64_t>(kUnit * (1 + by_area));
 }
 
@@ -166,7 +167,7 @@ Place place_of(const MeshRange& range, const RangeFaces& faces, const RangeFindi
 } // namespace
 
 std::vector<std::uint32_t> divide_by_curve(Talk& talk, const MeshRange& range, RangeFaces faces,
-                                           const RangeFindings& findings) {
+                                           const RangeFindings& findings, double area) {
     const std::size_t count = faces.areas.size();
     const auto first = static_cast<std::uint32_t>(range.faces.first(talk.rank()));
     Sorted own;
@@ -181,7 +182,7 @@ std::vector<std::uint32_t> divide_by_curve(Talk& talk, const MeshRange& range, R
     own.work.assign(1, 0);
     for (const Place& place : own.places) {
         own.work.push_back(own.work.back() +
-                           work_of(areas[place.face - first], findings.statistics));
+                           work_of(areas[place.face - first] / area, range.faces.count));
     }
     std::vector<std::uint32_t> owners(count);
     const std::vector<Place> ends = ends_of_parts(talk, own, range.faces.count);

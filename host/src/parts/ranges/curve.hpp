@@ -11,9 +11,9 @@
 namespace geodisk {
 
 /// Returns the process of each face of a range, so that all processes have about the same work: by
-/// area and number of faces. Each has a face; there must be as many faces as processes. All
-/// processes call it.
+/// the areas of faces, of which `area` is the sum of all, and by their number. Each has a face;
+/// there must be as many faces as processes. All processes call it.
 std::vector<std::uint32_t> divide_by_curve(Talk& talk, const MeshRange& range, RangeFaces faces,
-                                           const RangeFindings& findings);
+                                           const RangeFindings& findings, double area);
 
 } // namespace geodisk

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
 #include <optional>
 #include <string>
 #include <utility>
@@ -34,11 +33,10 @@ std::array<std::uint32_t, 3> face_at(const MeshRange& range, std::size_t face) {
 struct Share {
     double low[3] = {HUGE_VAL, HUGE_VAL, HUGE_VAL};
     double high[3] = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
-    double longest_edge = 0, largest_area = 0;
+    double longest_edge = 0;
     std::uint64_t repeated = 0, flat = 0;
     std::uint64_t borders = 0, nonmanifold = 0, turned = 0;
     std::uint64_t digest = 0;
-    double area = 0; ///< Of all faces up to the last one of the process.
 };
 
 /// Measures the faces of a range one by one, in blocks. `first` is the number of the first one.
@@ -65,7 +63,6 @@ void measure(const MeshRange& range, std::uint64_t first, RangeFaces& faces, Sha
             const double area = 0.5 * of_face[0].length * of_face[0].apex_y;
             share.digest += face_digest(first + face, &range.triangles[3 * face], of_face);
             faces.areas[face] = area;
-            share.largest_area = std::max(share.largest_area, area);
             for (std::size_t k = 0; k < 3 && takes_part(face_at(range, face)); ++k) {
                 const std::size_t at = std::size_t{3} * triangles[3 * (face - begin) + k];
                 for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -231,21 +228,19 @@ RangeFindings examine(Talk& talk, const MeshRange& range, RangeFaces& faces) {
     Share share;
     measure(range, range.faces.first(talk.rank()), faces, share);
     // Areas are added in the order of the whole.
-    share.area = talk.chain(0.0, [&](double before) {
-        return std::accumulate(faces.areas.begin(), faces.areas.end(), before);
-    });
+    const double area = sum_in_order(talk, faces.areas);
     const std::vector<EdgeEnds> borders = link_edges(talk, range, share);
     RangeFindings all;
     std::ranges::copy(Share().low, all.low);
     std::ranges::copy(Share().high, all.high);
     MeshStatistics& statistics = all.statistics;
     statistics.triangles = range.faces.count;
+    statistics.area = area;
     for (const Share& one : talk.all(share)) {
         for (std::size_t axis = 0; axis < 3; ++axis) {
             all.low[axis] = std::min(all.low[axis], one.low[axis]);
             all.high[axis] = std::max(all.high[axis], one.high[axis]);
         }
-        all.largest_area = std::max(all.largest_area, one.largest_area);
         all.turned_edges += one.turned;
         all.digest += one.digest;
         statistics.longest_edge = std::max(statistics.longest_edge, one.longest_edge);
@@ -253,7 +248,6 @@ RangeFindings examine(Talk& talk, const MeshRange& range, RangeFaces& faces) {
         statistics.zero_area_faces += one.flat;
         statistics.boundary_edges += one.borders;
         statistics.nonmanifold_edges += one.nonmanifold;
-        statistics.area = one.area;
     }
     double sum = 0;
     for (std::size_t axis = 0; axis < 3; ++axis) {

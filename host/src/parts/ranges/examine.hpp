@@ -23,7 +23,6 @@ struct RangeFaces {
 struct RangeFindings {
     MeshStatistics statistics;      ///< As PreparedMesh::prepare() has them, to the bit.
     double low[3], high[3];         ///< Bounding box of the used vertices.
-    double largest_area = 0;        ///< Of a face.
     std::uint64_t turned_edges = 0; ///< Edges of two faces that are turned over against each other.
     std::uint64_t digest = 0;       ///< mesh_digest() of the whole.
 };

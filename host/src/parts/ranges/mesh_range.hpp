@@ -23,11 +23,25 @@ struct Blocks {
     }
 };
 
+/// What values at vertices say of radii.
+enum class RadiusKind : std::uint8_t {
+    same,    ///< Radii do not vary.
+    factor,  ///< Values are radius factors: RadiusField::prepare().
+    density, ///< Values are a density: RadiusField::from_density().
+};
+
 /// The faces and the vertices of one process's blocks.
 struct MeshRange {
     Blocks faces, vertices;               ///< Of the whole mesh.
     std::vector<std::uint32_t> triangles; ///< Three vertices of the whole per face.
     std::vector<double> positions;        ///< Three coordinates per vertex.
+    RadiusKind radii = RadiusKind::same;
+    std::vector<double> values; ///< One per vertex; empty if radii do not vary.
+    bool has_mask = false;
+    /// With a mask, 1 per vertex and per face where it allows samples. A face takes them if it and
+    /// its corners do.
+    std::vector<std::uint8_t> vertex_mask, face_mask;
+    bool needs_borders = false; ///< Their length is wanted.
 };
 
 } // namespace geodisk

@@ -430,15 +430,34 @@ class Halo {
 
 } // namespace
 
-FacePlaces places_of(Talk& talk, const KnownSurface& known, std::span<const WholeFace> faces) {
+namespace {
+
+FacePlaces places_of(Talk& talk, const KnownSurface& known, std::span<const WholeFace> faces,
+                     const VertexNumbers& numbers) {
     FacePlaces places;
-    const VertexNumbers numbers = numbers_of(faces);
     places.positions = fetch_positions(talk, known.vertices, known.positions, numbers.vertices());
     places.triangles.reserve(3 * faces.size());
     for (const WholeFace& face : faces) {
         for (const std::uint32_t vertex : face.corners) {
             places.triangles.push_back(numbers.of(vertex));
         }
+    }
+    return places;
+}
+
+} // namespace
+
+FacePlaces places_of(Talk& talk, const KnownSurface& known, std::span<const WholeFace> faces) {
+    return places_of(talk, known, faces, numbers_of(faces));
+}
+
+FacePlaces places_and_radii_of(Talk& talk, const KnownSurface& known,
+                               std::span<const WholeFace> faces) {
+    const VertexNumbers numbers = numbers_of(faces);
+    FacePlaces places = places_of(talk, known, faces, numbers);
+    places.radii = known.fields.radii_at(talk, known.vertices, numbers.vertices());
+    if (const RadiusField* const radii = known.fields.radii()) {
+        places.of_whole = *radii;
     }
     return places;
 }

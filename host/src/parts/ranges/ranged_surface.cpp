@@ -8,7 +8,6 @@
 #include "mesh/mesh_pieces.hpp"
 #include "parts/ranges/curve.hpp"
 #include "parts/ranges/examine.hpp"
-#include "parts/ranges/homes.hpp"
 #include "parts/ranges/ranged_halo.hpp"
 #include "parts/ranges/talk.hpp"
 
@@ -84,13 +83,16 @@ Result<RangedSurface> RangedSurface::create(Exchange& exchange, MeshRange range)
         {
             RangeFaces faces = faces_of(talk, range);
             const RangeFindings findings = examine(talk, range, faces);
-            surface.statistics_ = {findings.statistics, findings.largest_area, 0,
-                                   findings.turned_edges, findings.digest};
-            const auto owners = divide_by_curve(talk, range, std::move(faces), findings);
+            surface.fields_ = RangedFields::create(talk, range, faces, findings.statistics);
+            surface.statistics_ = {findings.statistics, 0, findings.turned_edges,
+                                   findings.digest + surface.fields_.digest()};
+            const auto owners = divide_by_curve(talk, range, std::move(faces), findings,
+                                                surface.fields_.areas().taken);
             surface.faces_ = own_faces_of(talk, range, owners);
         }
         range.triangles = {};
         surface.vertices_ = range.vertices;
+        surface.face_blocks_ = range.faces;
         surface.positions_ = std::move(range.positions);
         surface.directory_ = Directory::create(talk, surface.vertices_, surface.faces_);
         surface.statistics_.mesh.components = surface.directory_.components().count;
@@ -102,15 +104,32 @@ Result<RangedSurface> RangedSurface::create(Exchange& exchange, MeshRange range)
     });
 }
 
+KnownSurface RangedSurface::known() const {
+    return {vertices_, positions_, faces_, directory_, statistics_.mesh, fields_};
+}
+
+SampleParams RangedSurface::with_radii(const SampleParams& params) const {
+    SampleParams own = params;
+    own.radii = fields_.radii();
+    return own;
+}
+
 Result<JobFrame> RangedSurface::frame(const SampleParams& params) const {
     if (params.min_distance > statistics_.mesh.diagonal) {
         return needs_whole("the distance is larger than it");
     }
-    const auto frame = frame_of(outline_, params);
+    const SampleParams own = with_radii(params);
+    if (auto checked = check_params(outline_, own); !checked) {
+        return checked.error();
+    }
+    const auto frame = frame_with(outline_, own, fields_.areas());
+    if (!frame && fields_.masked_faces()) {
+        return needs_whole(frame.error().message);
+    }
     if (frame) {
-        const Stages stages = stages_of(outline_, params);
+        const Stages stages = stages_in(*frame, own);
         const double most = std::max(stages.expected(0), stages.expected(kLastOtherStage));
-        if (!(statistics_.largest_area / statistics_.mesh.area * most <= kMostPerFace)) {
+        if (!(fields_.largest_area() / fields_.areas().taken * most <= kMostPerFace)) {
             return needs_whole("a face alone expects too many candidates");
         }
     }
@@ -122,9 +141,8 @@ Result<std::unique_ptr<Part>> RangedSurface::part(Exchange& exchange, const Samp
                                                   const CheckpointTerms& checkpoints) const {
     return caught([&]() -> Result<std::unique_ptr<Part>> {
         Talk talk(exchange);
-        auto part =
-            std::make_unique<Part>(part_for(outline_, params, frame, most_candidates, checkpoints));
-        const KnownSurface known{vertices_, positions_, faces_, directory_, statistics_.mesh};
+        auto part = std::make_unique<Part>(part_for(params, frame, most_candidates, checkpoints));
+        const KnownSurface known = this->known();
         const std::vector<HaloFace> halo = find_halo(talk, known, 2 * part->reach);
         std::vector<WholeFace> faces;
         const std::size_t count = faces_.size() + halo.size();
@@ -152,36 +170,23 @@ Result<std::unique_ptr<Part>> RangedSurface::part(Exchange& exchange, const Samp
             add(*own, FaceRole::own);
         }
         part->whole = statistics_.mesh;
-        part->places = places_of(talk, known, faces);
+        part->places = places_and_radii_of(talk, known, faces);
+        part->mask = fields_.mask_of(talk, face_blocks_, part->faces);
         link(talk, std::move(near), *part);
         return part;
     });
 }
 
-Result<std::vector<double>> RangedSurface::corners(Exchange& exchange,
-                                                   std::span<const std::uint32_t> own) const {
-    return caught([&]() -> Result<std::vector<double>> {
+Result<FacePlaces> RangedSurface::places(Exchange& exchange,
+                                         std::span<const std::uint32_t> own) const {
+    return caught([&]() -> Result<FacePlaces> {
         Talk talk(exchange);
-        std::vector<std::uint32_t> vertices;
-        const auto face_of = [&](std::uint32_t face) -> const WholeFace& {
-            return *std::ranges::lower_bound(faces_, face, {}, &WholeFace::face);
-        };
+        std::vector<WholeFace> faces;
+        faces.reserve(own.size());
         for (const std::uint32_t face : own) {
-            const WholeFace& one = face_of(face);
-            vertices.insert(vertices.end(), one.corners, one.corners + 3);
+            faces.push_back(*std::ranges::lower_bound(faces_, face, {}, &WholeFace::face));
         }
-        const VertexNumbers numbers(std::move(vertices));
-        const std::vector<double> positions =
-            fetch_positions(talk, vertices_, positions_, numbers.vertices());
-        std::vector<double> corners;
-        corners.reserve(9 * own.size());
-        for (const std::uint32_t face : own) {
-            for (const std::uint32_t vertex : face_of(face).corners) {
-                const double* const at = &positions[std::size_t{3} * numbers.of(vertex)];
-                corners.insert(corners.end(), at, at + 3);
-            }
-        }
-        return corners;
+        return places_and_radii_of(talk, known(), faces);
     });
 }
 

@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -20,16 +21,18 @@
 #include "parts/part.hpp"
 #include "parts/ranges/directory.hpp"
 #include "parts/ranges/mesh_range.hpp"
+#include "parts/ranges/ranged_fields.hpp"
+#include "parts/ranges/ranged_halo.hpp"
 
 namespace geodisk {
 
 /// What ranges tell of a mesh.
 struct RangedStatistics {
     MeshStatistics mesh; ///< As those of PreparedMesh::prepare(), to the bit.
-    double largest_area = 0;
     std::uint64_t unused_vertices = 0;
     std::uint64_t turned_edges = 0; ///< Edges of two faces that are turned over against each other.
-    std::uint64_t digest = 0;       ///< mesh_digest() of the whole.
+    /// Sum of mesh_digest() and fields_digest() of the whole.
+    std::uint64_t digest = 0;
 };
 
 class GEODISK_API RangedSurface {
@@ -42,11 +45,21 @@ class GEODISK_API RangedSurface {
     const RangedStatistics& statistics() const { return statistics_; }
     /// Returns a mesh without faces, with the statistics of the whole.
     const PreparedMesh& outline() const { return outline_; }
+    /// Returns radii without faces, with bounds and sums of the whole; null if they do not vary.
+    const RadiusField* radii() const { return fields_.radii(); }
+    /// Returns the number of faces that the mask leaves; nothing without one.
+    std::optional<std::uint64_t> masked_faces() const { return fields_.masked_faces(); }
+    /// Returns effective_area() of the whole.
+    double effective_area() const { return fields_.areas().taken; }
+    /// Returns the length of all borders as distance_for_count() takes it, if
+    /// MeshRange::needs_borders.
+    double borders() const { return fields_.borders(); }
     /// Returns the number of own faces.
     std::size_t own_faces() const { return faces_.size(); }
 
     /// Returns the frame of a job on the surface. The parameters are of seed, distance and
-    /// candidates alone. Errors: `mesh_rejected` if it needs the whole; those of frame_of().
+    /// candidates alone; the surface itself has radii and the mask. Errors: `mesh_rejected` if it
+    /// needs the whole; those of frame_of().
     Result<JobFrame> frame(const SampleParams& params) const;
 
     /// Returns the part of this process for a job in such a frame. All processes call it. At most
@@ -56,20 +69,23 @@ class GEODISK_API RangedSurface {
                                        const JobFrame& frame, double most_candidates,
                                        const CheckpointTerms& checkpoints) const;
 
-    /// Returns the corners of faces, given with their process: nine coordinates each. Faces are
-    /// own ones of the process that gives them; all processes call it, each gets those that it
-    /// gives.
-    Result<std::vector<double>> corners(Exchange& exchange,
-                                        std::span<const std::uint32_t> own) const;
+    /// Returns the places and radii of own faces, given in ascending order. All processes call it,
+    /// each with some of its own.
+    Result<FacePlaces> places(Exchange& exchange, std::span<const std::uint32_t> own) const;
 
     const Directory& directory() const { return directory_; }
     /// Returns own faces, ascending.
     std::span<const WholeFace> faces() const { return faces_; }
 
   private:
+    KnownSurface known() const;
+    /// Returns parameters with the radii of the whole.
+    SampleParams with_radii(const SampleParams& params) const;
+
     RangedStatistics statistics_;
     PreparedMesh outline_;
-    Blocks vertices_;
+    RangedFields fields_;
+    Blocks vertices_, face_blocks_;
     std::vector<double> positions_; ///< Of the vertices that are at home here.
     std::vector<WholeFace> faces_;
     Directory directory_;

@@ -148,6 +148,17 @@ class Talk {
     Exchange& exchange_;
 };
 
+/// Adds up the values of all processes one by one, as a single process adds them.
+inline double sum_in_order(Talk& talk, std::span<const double> values) {
+    const double up_to_own = talk.chain(0.0, [&](double sum) {
+        for (const double value : values) {
+            sum += value;
+        }
+        return sum;
+    });
+    return talk.all(up_to_own).back();
+}
+
 /// Returns what `work` returns, or the error that stopped it.
 template <class Work>
 std::invoke_result_t<Work> caught(const Work& work) {
