@@ -168,6 +168,22 @@ def test_same_file_with_radii_and_masks(properties, tmp_path, arguments, runs):
         assert all(p["part_bytes"] == 0 for p in told)
 
 
+@pytest.mark.parametrize("processes", [1, 4, 5])
+@pytest.mark.parametrize("arguments", [
+    ["--density", "heat", "--count", "40"], ["--radius-factor", "g", "-d", "0.4"],
+    ["--mask", "g<1", "--mask", "group=1", "-d", "0.2"]])
+def test_few_faces_with_odd_vertices(tmp_path, processes, arguments):
+    """Hardly more vertices than processes, one of which only a face without area names, with values
+    that no other may have."""
+    vertices = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0.5, 0.5, 0.6), (9, 9, 9)]
+    faces = [(0, 1, 4), (1, 2, 4), (2, 3, 4), (3, 0, 4), (4, 5, 5), (0, 2, 1)]
+    mesh = tmp_path / "few.ply"
+    write_ply(mesh, vertices, faces,
+              of_vertices={"heat": [1, 2, 3, 4, 0, -5], "g": [0.5, 0.6, 0.7, 0.8, 0.9, 7]},
+              of_faces={"group": [1, 1, 0, 1, 1, 1]})
+    check_same(tmp_path, [str(mesh), *arguments], [processes])
+
+
 def test_report_of_radii_and_a_mask(properties, tmp_path):
     told = []
     files = []

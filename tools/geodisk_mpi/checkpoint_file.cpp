@@ -9,7 +9,6 @@
 #include <vector>
 
 #include <geodisk/job_frame.hpp>
-#include <geodisk/radius_field.hpp>
 #include <geodisk/version.hpp>
 
 #include "files/input_file.hpp"

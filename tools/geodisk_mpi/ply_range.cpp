@@ -255,6 +255,8 @@ MeshRange read_range(const Path& path, const PlyLayout& layout, const RangeWants
         range.radii = wants.density->is_density ? RadiusKind::density : RadiusKind::factor;
     }
     range.positions.reserve(3 * range.vertices.size(process));
+    range.values.reserve(layout.density ? range.vertices.size(process) : 0);
+    range.vertex_mask.reserve(range.has_mask ? range.vertices.size(process) : 0);
     for_records(file, layout.vertices, range.vertices.first(process), range.vertices.size(process),
                 [&](const char* record) {
                     for (const ValuePlace& place : layout.coordinates) {
@@ -268,6 +270,7 @@ MeshRange read_range(const Path& path, const PlyLayout& layout, const RangeWants
                     }
                 });
     range.triangles.reserve(3 * range.faces.size(process));
+    range.face_mask.reserve(range.has_mask ? range.faces.size(process) : 0);
     const ValuePlace& count = layout.corner_count;
     const std::size_t corner_size = size_of(layout.corner_type);
     for_records(file, layout.faces, range.faces.first(process), range.faces.size(process),

@@ -71,7 +71,7 @@ void append_rows(std::vector<SampleRow>& rows, std::span<const Sample> samples,
                  const RangedSurface& surface, double min_distance) {
     MeshInput mesh{{}, surface.outline(), std::nullopt, {}, 1, {}, 0, 0};
     if (surface.radii() != nullptr) {
-        mesh.radii = RadiusPieces::on_faces(places.triangles, places.radii, [](FaceMean) {});
+        mesh.radii = RadiusPieces::factors_on(places.triangles, places.radii);
     }
     mesh.file.positions = std::move(places.positions);
     mesh.file.triangles = std::move(places.triangles);

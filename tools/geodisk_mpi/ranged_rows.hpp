@@ -18,10 +18,9 @@ namespace geodisk::tools {
 /// Each process has a block of the rows, in dart order. All processes make the same calls.
 class RangedRows {
   public:
-    /// Makes the rows of `samples`, which are all of them at the first process and none elsewhere,
-    /// as `min_distance` is known there alone.
-    /// Blocks are equally long, or the first process has all if `divides` is false there. Errors:
-    /// those of the exchange.
+    /// Makes the rows of `samples`. The first process has all of them, and the distance of the job;
+    /// the others give nothing. Blocks are equally long, or the first process has all if `divides`
+    /// is false there. Errors: those of the exchange.
     static Result<RangedRows> make(Exchange& exchange, RangedParts& parts,
                                    std::span<const Sample> samples, double min_distance,
                                    bool divides);

@@ -244,7 +244,11 @@ Result<SampleSet> Session::sample(Runner& runner, const SurfaceTask& surface,
         if (checkpoints_ != nullptr) {
             checkpoints_->check();
         }
-        return result.error();
+        Error error = result.error();
+        if (ranges_ && error.status == Status::job_too_large) {
+            error.message += ", or raise --parts";
+        }
+        return error;
     }
     processes_ = std::move(result->processes);
     return std::move(result->set);

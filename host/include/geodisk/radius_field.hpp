@@ -109,7 +109,6 @@ class RadiusField {
     friend struct RadiusPieces; // Makes radii of surfaces of which no process holds the whole.
 
     static RadiusField on_mesh(const PreparedMesh& mesh, const VertexRadii& radii);
-    void add_areas(const PreparedMesh& part);
     void find_least_factor();
 
     std::vector<float> factors_;

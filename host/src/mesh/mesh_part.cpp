@@ -125,10 +125,11 @@ RadiusField RadiusField::on_part(const PreparedMesh& part,
     some.largest_density_ = largest_density_;
     some.least_density_ = least_density_;
     some.densities_.reserve(faces.size());
-    for (const std::uint32_t face : faces) {
-        some.densities_.push_back(densities_[face]);
+    for (std::uint32_t f = 0; f < faces.size(); ++f) {
+        some.densities_.push_back(densities_[faces[f]]);
+        const HalfEdge& edge = part.half_edges()[std::size_t{3} * f];
+        some.effective_area_ += 0.5 * edge.length * edge.apex_y * samples_in(faces[f]);
     }
-    some.add_areas(part);
     some.find_least_factor();
     return some;
 }

@@ -57,26 +57,14 @@ Result<RadiusField> RadiusField::prepare(const PreparedMesh& mesh,
 }
 
 RadiusField RadiusField::on_mesh(const PreparedMesh& mesh, const VertexRadii& radii) {
-    std::vector<std::uint32_t> triangles;
-    triangles.reserve(mesh.half_edges().size());
-    for (const HalfEdge& edge : mesh.half_edges()) {
-        triangles.push_back(edge.origin);
-    }
     double area = 0;
     std::size_t face = 0;
-    RadiusField field = RadiusPieces::on_faces(triangles, radii, [&](FaceMean mean) {
+    RadiusField field = RadiusPieces::on_faces(mesh.half_edges(), radii, [&](FaceMean mean) {
         const HalfEdge& edge = mesh.half_edges()[3 * face++];
         area += mean.over(0.5 * edge.length * edge.apex_y);
     });
     field.effective_area_ = area;
     return field;
-}
-
-void RadiusField::add_areas(const PreparedMesh& part) {
-    for (std::uint32_t face = 0; face < part.face_count(); ++face) {
-        const HalfEdge& edge = part.half_edges()[std::size_t{3} * face];
-        effective_area_ += 0.5 * edge.length * edge.apex_y * samples_in(face);
-    }
 }
 
 void RadiusField::find_least_factor() {

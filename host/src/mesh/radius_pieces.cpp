@@ -23,16 +23,6 @@ float spread_of(float g) {
     }
 }
 
-std::vector<float> at_corners(std::span<const std::uint32_t> triangles,
-                              const std::vector<float>& values) {
-    std::vector<float> corners;
-    corners.reserve(values.empty() ? 0 : triangles.size());
-    for (std::size_t i = 0; i < triangles.size() && !values.empty(); ++i) {
-        corners.push_back(values[triangles[i]]);
-    }
-    return corners;
-}
-
 } // namespace
 
 VertexRadii VertexRadii::of_factors(std::vector<float> factors) {
@@ -56,14 +46,27 @@ VertexRadii VertexRadii::of_density(std::vector<float> density, std::vector<floa
     return radii;
 }
 
-RadiusField RadiusPieces::on_faces(std::span<const std::uint32_t> triangles,
-                                   const VertexRadii& radii, const Visit& visit) {
+template <class VertexOf>
+RadiusField RadiusPieces::at_corners(std::size_t corners, const VertexOf& vertex_of,
+                                     const VertexRadii& radii) {
     RadiusField field;
-    field.factors_ = at_corners(triangles, radii.factors);
-    field.spreads_ = at_corners(triangles, radii.spreads);
-    field.packing_ = at_corners(triangles, radii.packing);
-    field.densities_.reserve(triangles.size() / 3);
-    for (std::size_t first = 0; first < triangles.size(); first += 3) {
+    const auto fill = [&](std::vector<float>& at, const std::vector<float>& values) {
+        at.reserve(values.empty() ? 0 : corners);
+        for (std::size_t i = 0; i < corners && !values.empty(); ++i) {
+            at.push_back(values[vertex_of(i)]);
+        }
+    };
+    fill(field.factors_, radii.factors);
+    fill(field.spreads_, radii.spreads);
+    fill(field.packing_, radii.packing);
+    field.find_least_factor();
+    return field;
+}
+
+void RadiusPieces::add_faces(RadiusField& field, const Visit& visit) {
+    const std::size_t corners = field.factors_.size();
+    field.densities_.reserve(corners / 3);
+    for (std::size_t first = 0; first < corners; first += 3) {
         FaceMean mean{};
         double candidates = 0;
         if (field.packing_.empty()) {
@@ -79,8 +82,27 @@ RadiusField RadiusPieces::on_faces(std::span<const std::uint32_t> triangles,
         field.largest_density_ = std::max(field.largest_density_, field.densities_.back());
         visit(mean);
     }
-    field.find_least_factor();
+}
+
+RadiusField RadiusPieces::on_faces(std::span<const std::uint32_t> triangles,
+                                   const VertexRadii& radii, const Visit& visit) {
+    RadiusField field = factors_on(triangles, radii);
+    add_faces(field, visit);
     return field;
+}
+
+RadiusField RadiusPieces::on_faces(std::span<const HalfEdge> edges, const VertexRadii& radii,
+                                   const Visit& visit) {
+    RadiusField field = at_corners(
+        edges.size(), [&](std::size_t h) { return edges[h].origin; }, radii);
+    add_faces(field, visit);
+    return field;
+}
+
+RadiusField RadiusPieces::factors_on(std::span<const std::uint32_t> triangles,
+                                     const VertexRadii& radii) {
+    return at_corners(
+        triangles.size(), [&](std::size_t i) { return triangles[i]; }, radii);
 }
 
 RadiusField RadiusPieces::outline(const RadiusTotals& totals) {
@@ -94,11 +116,15 @@ RadiusField RadiusPieces::outline(const RadiusTotals& totals) {
 
 RadiusField RadiusPieces::piece(const PreparedMesh& mesh, const VertexRadii& radii,
                                 const RadiusField& outline) {
-    RadiusField field = RadiusField::on_mesh(mesh, radii);
-    field.effective_area_ = 0;
+    double area = 0;
+    std::size_t face = 0;
+    RadiusField field = on_faces(mesh.half_edges(), radii, [&](FaceMean mean) {
+        const HalfEdge& edge = mesh.half_edges()[3 * face++];
+        area += 0.5 * edge.length * edge.apex_y * mean.samples();
+    });
+    field.effective_area_ = area;
     field.largest_density_ = outline.largest_density_;
     field.least_density_ = outline.least_density_;
-    field.add_areas(mesh);
     return field;
 }
 

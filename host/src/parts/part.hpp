@@ -39,7 +39,7 @@ struct FacePlaces {
     std::vector<double> positions;        ///< Three coordinates per vertex.
     std::vector<std::uint32_t> triangles; ///< Three vertices per face.
     VertexRadii radii;                    ///< Of vertices; empty where radii do not vary.
-    RadiusField of_whole;                 ///< Likewise; without faces.
+    RadiusField of_whole;                 ///< Radii of the whole, without faces; likewise.
 };
 
 /// Own faces of a process, and the surface around them: faces whose samples matter to them, and

@@ -89,7 +89,7 @@ void add_lengths(const MeshRange& range, const RangeFaces& faces, const VertexRa
     place_faces(ThreadOptions{1}, MeshView{faces.positions, triangles, 3}, edges, links, ignored);
     std::optional<RadiusField> field;
     if (!radii.factors.empty()) {
-        field = RadiusPieces::on_faces(triangles, radii, [](FaceMean) {});
+        field = RadiusPieces::factors_on(triangles, radii);
     }
     for (std::uint32_t i = 0; i < borders.size(); ++i) {
         const std::uint32_t h = 3 * i + borders[i] % 3;

@@ -25,26 +25,27 @@ void check(Talk& talk, const char* error) {
     talk.check(rejected ? &*rejected : nullptr);
 }
 
-/// Returns which vertices of the block a face that takes part uses.
-std::vector<std::uint8_t> used_vertices(Talk& talk, const MeshRange& range) {
-    std::vector<std::uint32_t> vertices;
+/// Returns which vertices of the block a face that takes part uses. `numbers` are the vertices of
+/// the range's faces.
+std::vector<std::uint8_t> used_vertices(Talk& talk, const MeshRange& range,
+                                        const VertexNumbers& numbers) {
+    std::vector<std::uint8_t> by_faces(numbers.size(), 0);
     for (std::size_t face = 0; face < range.triangles.size(); face += 3) {
         const std::uint32_t* const corners = &range.triangles[face];
-        if (takes_part({corners[0], corners[1], corners[2]})) {
-            vertices.insert(vertices.end(), corners, corners + 3);
+        for (std::size_t k = 0; k < 3 && takes_part({corners[0], corners[1], corners[2]}); ++k) {
+            by_faces[numbers.of(corners[k])] = 1;
         }
     }
-    const VertexNumbers numbers(std::move(vertices));
     std::vector<std::uint8_t> is_used(range.vertices.size(talk.rank()), 0);
     tell_homes<std::uint8_t>(
-        talk, range.vertices, numbers.vertices(), [](std::size_t) { return std::uint8_t{1}; },
-        [&](std::size_t at, std::uint8_t) { is_used[at] = 1; });
+        talk, range.vertices, numbers.vertices(), [&](std::size_t i) { return by_faces[i]; },
+        [&](std::size_t at, std::uint8_t used) { is_used[at] |= used; });
     return is_used;
 }
 
 /// Returns the radius factors of the block's vertices, 1 at unused ones.
-std::vector<float> factors_of(Talk& talk, const MeshRange& range) {
-    const std::vector<std::uint8_t> is_used = used_vertices(talk, range);
+std::vector<float> factors_of(Talk& talk, const MeshRange& range, const VertexNumbers& numbers) {
+    const std::vector<std::uint8_t> is_used = used_vertices(talk, range, numbers);
     std::vector<float> factors;
     factors.reserve(range.values.size());
     bool are_well = true;
@@ -65,8 +66,9 @@ struct Bounds {
 
 /// Returns the density at the block's vertices in units of the smallest packing, 0 at unused ones;
 /// and that unit.
-std::vector<float> scaled_density(Talk& talk, const MeshRange& range, DensityUnit& unit) {
-    const std::vector<std::uint8_t> is_used = used_vertices(talk, range);
+std::vector<float> scaled_density(Talk& talk, const MeshRange& range, const VertexNumbers& numbers,
+                                  DensityUnit& unit) {
+    const std::vector<std::uint8_t> is_used = used_vertices(talk, range, numbers);
     Bounds own;
     bool are_well = true;
     for (std::size_t at = 0; at < range.values.size(); ++at) {
@@ -155,9 +157,9 @@ RangedFields RangedFields::create(Talk& talk, const MeshRange& range, RangeFaces
     fields.kind_ = range.radii;
     DensityUnit unit;
     if (range.radii == RadiusKind::factor) {
-        fields.values_ = factors_of(talk, range);
+        fields.values_ = factors_of(talk, range, faces.numbers);
     } else if (range.radii == RadiusKind::density) {
-        fields.values_ = scaled_density(talk, range, unit);
+        fields.values_ = scaled_density(talk, range, faces.numbers, unit);
         fields.packing_ = packing_for(talk, range, faces.numbers, fields.values_);
     }
     if (range.has_mask) {
@@ -218,7 +220,7 @@ RangedFields RangedFields::create(Talk& talk, const MeshRange& range, RangeFaces
     fields.areas_.taken = all.left_out > 0 ? sum_in_order(talk, faces.areas) : fields.areas_.whole;
     check(talk, fields.areas_.taken > 0 ? nullptr
                                         : "no face that takes samples has an area and a density");
-    if (range.needs_borders) {
+    if (range.needs_borders && (statistics.boundary_edges > 0 || all.left_out > 0)) {
         fields.border_length_ = border_length(talk, range, faces, radii, fields.mask_);
     }
     if (fields.kind_ != RadiusKind::same) {

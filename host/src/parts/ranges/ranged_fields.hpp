@@ -30,7 +30,7 @@ class RangedFields {
     const Areas& areas() const { return areas_; }
     /// Returns the maximum over faces of the effective area, as candidates count it.
     double largest_area() const { return largest_area_; }
-    /// Returns border_length(), if MeshRange::needs_borders.
+    /// Returns border_length(), if MeshRange::needs_borders; else 0.
     double borders() const { return border_length_; }
     /// Returns the radii without faces; null if they do not vary.
     const RadiusField* radii() const { return outline_ ? &*outline_ : nullptr; }

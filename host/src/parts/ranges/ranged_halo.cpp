@@ -428,10 +428,6 @@ class Halo {
     std::vector<std::uint8_t> is_complete_; ///< 1 if all faces at a vertex are known.
 };
 
-} // namespace
-
-namespace {
-
 FacePlaces places_of(Talk& talk, const KnownSurface& known, std::span<const WholeFace> faces,
                      const VertexNumbers& numbers) {
     FacePlaces places;

@@ -84,6 +84,9 @@ Result<RangedSurface> RangedSurface::create(Exchange& exchange, MeshRange range)
             RangeFaces faces = faces_of(talk, range);
             const RangeFindings findings = examine(talk, range, faces);
             surface.fields_ = RangedFields::create(talk, range, faces, findings.statistics);
+            range.values = {};
+            range.vertex_mask = {};
+            range.face_mask = {};
             surface.statistics_ = {findings.statistics, 0, findings.turned_edges,
                                    findings.digest + surface.fields_.digest()};
             const auto owners = divide_by_curve(talk, range, std::move(faces), findings,
