@@ -6,9 +6,13 @@
 #include <cmath>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <random>
+#include <utility>
 #include <vector>
 
+#include "mesh/mesh_digest.hpp"
+#include "parts/mesh_turn.hpp"
 #include "parts/ranges/nearest_place.hpp"
 #include "parts/ranges/ranged_surface.hpp"
 #include "threads_exchange.hpp"
@@ -55,6 +59,101 @@ struct Sheet {
 
 double distance(const Place& a, const Place& b) {
     return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+}
+
+/// Values on the sheet that make radii or a mask, and what a job on the whole has of them.
+struct Fields {
+    RadiusKind kind;
+    std::vector<double> values;                       ///< Of vertices.
+    std::vector<std::uint8_t> vertex_mask, face_mask; ///< Empty without a mask.
+
+    /// Factors, or a density that is 0 somewhere.
+    Fields(const Sheet& sheet, RadiusKind radii, bool has_mask) : kind(radii) {
+        for (std::uint32_t v = 0; v < sheet.positions.size() / 3 && kind != RadiusKind::same; ++v) {
+            const Place at = sheet.place(v);
+            const double wave = std::sin(0.3 * at[0]) * std::cos(0.2 * at[1]);
+            values.push_back(kind == RadiusKind::factor ? 0.6 + 0.4 * wave
+                                                        : std::max(0.0, 50 * wave));
+        }
+        for (std::uint32_t v = 0; v < sheet.positions.size() / 3 && has_mask; ++v) {
+            vertex_mask.push_back(sheet.place(v)[0] < 0.8 * sheet.side ? 1 : 0);
+        }
+        for (std::uint32_t face = 0; face < sheet.face_count() && has_mask; ++face) {
+            face_mask.push_back(face % 5 != 0 ? 1 : 0);
+        }
+    }
+    void add_to(MeshRange& range, std::uint32_t process) const {
+        const auto copy = [process](const Blocks& blocks, const auto& from, auto& to) {
+            for (std::uint64_t i = 0; i < blocks.size(process) && !from.empty(); ++i) {
+                to.push_back(from[blocks.first(process) + i]);
+            }
+        };
+        range.radii = kind;
+        copy(range.vertices, values, range.values);
+        range.has_mask = !face_mask.empty();
+        copy(range.vertices, vertex_mask, range.vertex_mask);
+        copy(range.faces, face_mask, range.face_mask);
+        range.needs_borders = true;
+    }
+    std::optional<RadiusField> radii(const PreparedMesh& mesh) const {
+        if (kind == RadiusKind::same) {
+            return std::nullopt;
+        }
+        return kind == RadiusKind::factor ? *RadiusField::prepare(mesh, values)
+                                          : *RadiusField::from_density(mesh, values);
+    }
+    std::vector<std::uint8_t> mask(const Sheet& sheet) const {
+        std::vector<std::uint8_t> mask = face_mask;
+        for (std::size_t i = 0; i < sheet.triangles.size() && !mask.empty(); ++i) {
+            mask[i / 3] &= vertex_mask[sheet.triangles[i]];
+        }
+        return mask;
+    }
+};
+
+void check_same(const RadiusField& a, const RadiusField& b) {
+    CHECK(std::ranges::equal(a.factors(), b.factors()));
+    CHECK(std::ranges::equal(a.spreads(), b.spreads()));
+    CHECK(std::ranges::equal(a.packing(), b.packing()));
+    CHECK(std::ranges::equal(a.densities(), b.densities()));
+    CHECK(a.effective_area() == b.effective_area());
+    CHECK(a.largest_density() == b.largest_density());
+    CHECK(a.least_density() == b.least_density());
+}
+
+/// What one of some threads finds of a surface and its fields.
+struct Ranged {
+    double area = 0, borders = 0, least_factor = 1;
+    std::uint64_t digest = 0;
+    std::unique_ptr<Part> part; ///< With its mesh.
+};
+
+/// Returns what so many threads find. The job's own radii and mask are not read.
+std::vector<Ranged> ranged(const Sheet& sheet, const Fields& fields, SampleParams params,
+                           std::uint32_t count) {
+    params.radii = nullptr;
+    params.face_mask = {};
+    std::vector<Ranged> all(count);
+    run_threads(count, [&](Exchange& exchange) {
+        MeshRange range = sheet.range(exchange.rank(), count);
+        fields.add_to(range, exchange.rank());
+        const auto surface = RangedSurface::create(exchange, std::move(range));
+        const auto frame = surface ? surface->frame(params) : Result<JobFrame>(surface.error());
+        if (!frame) {
+            return;
+        }
+        Ranged& found = all[exchange.rank()];
+        found.area = surface->effective_area();
+        found.borders = surface->borders();
+        found.least_factor = surface->radii() != nullptr ? surface->radii()->least_factor() : 1;
+        found.digest = surface->statistics().digest;
+        auto part = surface->part(exchange, params, *frame, 0x1p26, CheckpointTerms());
+        if (part) {
+            found.part = std::move(*part);
+            const MeshTurn turn(exchange, *found.part); // Held for good.
+        }
+    });
+    return all;
 }
 
 /// Returns the parts of a job on a surface that so many threads read in ranges.
@@ -108,6 +207,47 @@ TEST_SUITE("parts") {
                 }
                 CHECK(missing == 0);
                 CHECK(beyond == 0);
+            }
+        }
+    }
+
+    TEST_CASE("radii and masks of ranges are those of the whole") {
+        const Sheet sheet(40);
+        const PreparedMesh mesh =
+            *PreparedMesh::prepare(MeshView{sheet.positions, sheet.triangles, 3});
+        for (const auto kind : {RadiusKind::same, RadiusKind::factor, RadiusKind::density}) {
+            for (const bool has_mask : {false, true}) {
+                CAPTURE(static_cast<int>(kind));
+                CAPTURE(has_mask);
+                const Fields fields(sheet, kind, has_mask);
+                const auto radii = fields.radii(mesh);
+                const auto mask = fields.mask(sheet);
+                SampleParams params;
+                params.min_distance = 3;
+                params.radii = radii ? &*radii : nullptr;
+                params.face_mask = mask;
+                const JobFrame frame = *frame_of(mesh, params);
+                for (const std::uint32_t count : {1u, 3u, 4u}) {
+                    CAPTURE(count);
+                    for (const Ranged& found : ranged(sheet, fields, params, count)) {
+                        REQUIRE(found.part);
+                        const Part& part = *found.part;
+                        CHECK(part.frame == frame);
+                        CHECK(found.digest == mesh_digest(mesh) + fields_digest(params));
+                        CHECK(found.area == effective_area(mesh, params));
+                        CHECK(distance_for_count(found.area, found.borders, 200) ==
+                              distance_for_count(mesh, params, 200));
+                        CHECK(part.mask.size() == (has_mask ? part.faces.size() : 0));
+                        for (std::size_t i = 0; i < part.mask.size(); ++i) {
+                            CHECK(part.mask[i] == mask[part.faces[i]]);
+                        }
+                        REQUIRE(part.radii.has_value() == radii.has_value());
+                        if (radii) {
+                            check_same(*part.radii, radii->on_part(part.mesh, part.faces));
+                            CHECK(found.least_factor == radii->least_factor());
+                        }
+                    }
+                }
             }
         }
     }
