@@ -39,7 +39,8 @@ struct Sheet {
     }
     std::uint32_t face_count() const { return 2 * side * side; }
     Place place(std::uint32_t vertex) const {
-        return {positions[3 * vertex], positions[3 * vertex + 1], 0};
+        const std::size_t at = std::size_t{3} * vertex;
+        return {positions[at], positions[at + 1], 0};
     }
     /// Returns what one of some processes reads.
     MeshRange range(std::uint32_t process, std::uint32_t processes) const {

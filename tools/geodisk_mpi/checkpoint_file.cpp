@@ -40,8 +40,8 @@ class Digest {
             bytes = bytes.subspan(count);
         }
     }
-    template <class T, std::size_t extent>
-    void add_all(std::span<const T, extent> values) {
+    template <class T, std::size_t kExtent>
+    void add_all(std::span<const T, kExtent> values) {
         static_assert(std::is_trivially_copyable_v<T>);
         add_bytes(std::as_bytes(values));
     }

@@ -79,7 +79,7 @@ Result<FacePlaces> places_at(Exchange& exchange, const RangedSurface& surface,
         ByProcess<FaceCorners> told(exchange.size());
         told[at] = corners_of(own, *places);
         std::vector<FaceCorners> all;
-        for (const auto& some : Talk(exchange).swap(std::move(told))) {
+        for (const auto& some : Talk(exchange).all_to_all(std::move(told))) {
             all.insert(all.end(), some.begin(), some.end());
         }
         std::ranges::sort(all, {}, &FaceCorners::face);

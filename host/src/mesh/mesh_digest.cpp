@@ -40,8 +40,8 @@ std::uint64_t field_digest(std::uint64_t face, const RadiusField* radii, std::ui
     std::uint64_t digest = 0;
     add(digest, face + 1);
     add(digest, takes_samples ? 1 : 0);
-    for (std::size_t h = std::size_t{3} * in_radii; radii != nullptr && h < 3 * (in_radii + 1u);
-         ++h) {
+    const std::size_t first = std::size_t{3} * in_radii;
+    for (std::size_t h = first; radii != nullptr && h < first + 3; ++h) {
         add(digest, std::bit_cast<std::uint32_t>(radii->spreads()[h]));
         const auto packing = radii->packing();
         add(digest,

@@ -86,7 +86,7 @@ Result<RadiusField> RadiusField::load(std::span<const std::byte> bytes) noexcept
         };
         take(field.factors_, 3 * header.faces);
         take(field.spreads_, 3 * header.faces);
-        take(field.packing_, header.has_packing * 3 * header.faces);
+        take(field.packing_, std::uint64_t{3} * header.has_packing * header.faces);
         take(field.densities_, header.faces);
         const auto least = static_cast<float>(kLeastFactor);
         const float most = 1 / (least * least);

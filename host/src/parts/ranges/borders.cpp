@@ -61,10 +61,10 @@ std::vector<std::uint32_t> border_half_edges(Talk& talk, const MeshRange& range,
             }
         }
         std::vector<TakenEdge> edges;
-        for (const auto& some : talk.swap(std::move(sent))) {
+        for (const auto& some : talk.all_to_all(std::move(sent))) {
             edges.insert(edges.end(), some.begin(), some.end());
         }
-        for (const auto& some : talk.swap(lone_edges(talk, range.faces, std::move(edges)))) {
+        for (const auto& some : talk.all_to_all(lone_edges(talk, range.faces, std::move(edges)))) {
             for (const std::uint32_t half_edge : some) {
                 borders.push_back(half_edge - first);
             }

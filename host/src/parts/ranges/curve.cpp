@@ -102,6 +102,7 @@ std::vector<Place> find_ends(Talk& talk, const Sorted& own, const Before& all,
     std::vector<std::uint64_t> low(ends.size(), 0), high(ends.size(), all.faces);
     for (std::uint32_t bit = kPlaceBits; bit-- > 0 && low != high;) {
         std::vector<Place> tried;
+        tried.reserve(ends.size());
         for (const Place& end : ends) {
             tried.push_back(end.with(bit));
         }

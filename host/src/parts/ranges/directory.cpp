@@ -47,7 +47,7 @@ void join(Talk& talk, std::vector<Contact> own, Components& components) {
     own.erase(std::unique(own.begin(), own.end()), own.end());
     ByProcess<Contact> sent(talk.size());
     sent[0] = std::move(own);
-    const auto received = talk.swap(std::move(sent));
+    const auto received = talk.all_to_all(std::move(sent));
     std::vector<std::uint32_t> firsts{0};
     for (const std::uint32_t count : components.pieces) {
         firsts.push_back(firsts.back() + count);
@@ -111,7 +111,7 @@ Directory Directory::create(Talk& talk, const Blocks& vertices, std::span<const 
                 sent[home].push_back({*at, pieces[static_cast<std::size_t>(at - all.begin())]});
             }
         }
-        const auto received = talk.swap(std::move(sent));
+        const auto received = talk.all_to_all(std::move(sent));
         std::vector<std::size_t> next(talk.size(), 0);
         ByProcess<std::uint32_t> shared(talk.size());
         const std::uint64_t end = begin_of(talk.rank(), turn + 1);
@@ -136,7 +136,7 @@ Directory Directory::create(Talk& talk, const Blocks& vertices, std::span<const 
             components.vertices += count > 0;
             directory.starts_.push_back(static_cast<std::uint32_t>(directory.holders_.size()));
         }
-        for (const auto& some : talk.swap(std::move(shared))) {
+        for (const auto& some : talk.all_to_all(std::move(shared))) {
             directory.shared_.insert(directory.shared_.end(), some.begin(), some.end());
         }
     }

@@ -132,7 +132,7 @@ std::vector<EdgeEnds> link_edges(Talk& talk, const MeshRange& range, Share& shar
             }
         }
         std::vector<FaceEdge> edges;
-        for (const auto& some : talk.swap(std::move(sent))) {
+        for (const auto& some : talk.all_to_all(std::move(sent))) {
             edges.insert(edges.end(), some.begin(), some.end());
         }
         if (!count_edges(edges, share, borders)) {
@@ -187,7 +187,7 @@ std::uint64_t coinciding_edges(Talk& talk, const MeshRange& range,
             }
         }
         std::vector<EdgePlaces> edges;
-        for (const auto& some : talk.swap(std::move(sent))) {
+        for (const auto& some : talk.all_to_all(std::move(sent))) {
             edges.insert(edges.end(), some.begin(), some.end());
         }
         std::sort(edges.begin(), edges.end());

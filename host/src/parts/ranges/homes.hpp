@@ -28,7 +28,7 @@ void fetch(Talk& talk, const Blocks& blocks, std::span<const std::uint32_t> numb
     for (std::uint64_t turn = 0; turn < turns; ++turn) {
         const std::size_t begin = numbers.size() * turn / turns;
         const std::size_t end = numbers.size() * (turn + 1) / turns;
-        const auto asked = talk.swap(by_home(blocks, numbers.subspan(begin, end - begin)));
+        const auto asked = talk.all_to_all(by_home(blocks, numbers.subspan(begin, end - begin)));
         ByProcess<Record> told(talk.size());
         for (std::uint32_t other = 0; other < talk.size(); ++other) {
             told[other].reserve(asked[other].size());
@@ -36,7 +36,7 @@ void fetch(Talk& talk, const Blocks& blocks, std::span<const std::uint32_t> numb
                 told[other].push_back(own(static_cast<std::size_t>(number - first)));
             }
         }
-        for (const auto& heard : talk.swap(std::move(told))) {
+        for (const auto& heard : talk.all_to_all(std::move(told))) {
             std::ranges::for_each(heard, take);
         }
     }
@@ -59,7 +59,7 @@ void tell_homes(Talk& talk, const Blocks& blocks, std::span<const std::uint32_t>
         for (std::size_t i = numbers.size() * turn / turns; i < end; ++i) {
             told[blocks.owner(numbers[i])].push_back({numbers[i], record(i)});
         }
-        for (const auto& heard : talk.swap(std::move(told))) {
+        for (const auto& heard : talk.all_to_all(std::move(told))) {
             for (const Told& one : heard) {
                 take(static_cast<std::size_t>(one.number - first), one.record);
             }

@@ -220,7 +220,7 @@ class Halo {
 
     /// Asks for the faces at open vertices, and as many rings around them as the reach takes.
     void add_rings(const std::vector<std::uint32_t>& open) {
-        const auto asked = talk_.swap(by_home(known_.vertices, open));
+        const auto asked = talk_.all_to_all(by_home(known_.vertices, open));
         ByProcess<std::uint32_t> told(talk_.size());
         for (std::uint32_t other = 0; other < talk_.size(); ++other) {
             for (const std::uint32_t vertex : asked[other]) {
@@ -231,7 +231,7 @@ class Halo {
         }
         ByProcess<Request> wanted(talk_.size());
         auto vertex = open.begin();
-        for (const auto& heard : talk_.swap(std::move(told))) {
+        for (const auto& heard : talk_.all_to_all(std::move(told))) {
             for (std::size_t at = 0; at < heard.size(); at += 1 + heard[at]) {
                 const std::uint32_t rings = rings_from(lengths_[numbers_.of(*vertex)]);
                 for (const std::uint32_t holder : std::span(heard).subspan(at + 1, heard[at])) {
@@ -242,14 +242,14 @@ class Halo {
                 ++vertex;
             }
         }
-        const auto requests = talk_.swap(std::move(wanted));
+        const auto requests = talk_.all_to_all(std::move(wanted));
         ByProcess<WholeFace> faces(talk_.size());
         ByProcess<std::uint32_t> complete(talk_.size());
         for (std::uint32_t other = 0; other < talk_.size(); ++other) {
             answer(requests[other], faces[other], complete[other]);
         }
-        faces = talk_.swap(std::move(faces));
-        complete = talk_.swap(std::move(complete));
+        faces = talk_.all_to_all(std::move(faces));
+        complete = talk_.all_to_all(std::move(complete));
         add(faces);
         for (const auto& vertices : complete) {
             for (const std::uint32_t one : vertices) {

@@ -25,7 +25,7 @@ std::vector<WholeFace> own_faces_of(Talk& talk, const MeshRange& range,
         ++counts[owner].front();
     }
     std::uint64_t count = 0;
-    for (const auto& some : talk.swap(std::move(counts))) {
+    for (const auto& some : talk.all_to_all(std::move(counts))) {
         count += some.front();
     }
     own.reserve(count);
@@ -37,7 +37,7 @@ std::vector<WholeFace> own_faces_of(Talk& talk, const MeshRange& range,
             sent[owners[face]].push_back(
                 {static_cast<std::uint32_t>(first + face), {corners[0], corners[1], corners[2]}});
         }
-        for (const auto& some : talk.swap(std::move(sent))) {
+        for (const auto& some : talk.all_to_all(std::move(sent))) {
             own.insert(own.end(), some.begin(), some.end());
         }
     }
@@ -59,7 +59,7 @@ void link(Talk& talk, ByProcess<std::uint32_t> near, Part& part) {
     for (const auto& faces : near) {
         is_asked.push_back(!faces.empty());
     }
-    const auto asked = talk.swap(std::move(near));
+    const auto asked = talk.all_to_all(std::move(near));
     for (std::uint32_t other = 0; other < talk.size(); ++other) {
         if (is_asked[other] || !asked[other].empty()) {
             Neighbour& neighbour = part.neighbours.emplace_back();
@@ -125,7 +125,7 @@ Result<JobFrame> RangedSurface::frame(const SampleParams& params) const {
     if (auto checked = check_params(outline_, own); !checked) {
         return checked.error();
     }
-    const auto frame = frame_with(outline_, own, fields_.areas());
+    auto frame = frame_with(outline_, own, fields_.areas());
     if (!frame && fields_.masked_faces()) {
         return needs_whole(frame.error().message);
     }

@@ -35,7 +35,7 @@ class Talk {
 
     /// Sends its records to each process, and returns those from each.
     template <class Record>
-    ByProcess<Record> swap(ByProcess<Record> records) {
+    ByProcess<Record> all_to_all(ByProcess<Record> records) {
         std::vector<Bytes> messages(size());
         for (std::uint32_t other = 0; other < size(); ++other) {
             messages[other] = bytes_of<Record>(records[other]);
