@@ -123,7 +123,7 @@ Checkpoint read_checkpoint(const Path& path, const JobDigests& job) {
         refuse(path, "is damaged");
     }
     if (found.mesh != job.mesh) {
-        refuse(path, "is of another mesh");
+        refuse(path, "is of another mesh, or of other radii or another mask");
     }
     if (found.options != job.options) {
         refuse(path, "is of a run with other options");
