@@ -149,6 +149,47 @@ struct Share {
     std::uint64_t left_out = 0, digest = 0;
 };
 
+/// Measures the faces of a range in blocks; `first` is the number of the first one. Replaces their
+/// areas by effective ones: those that count for samples. Where radii vary, `whole` gets effective
+/// areas without the mask.
+Share measure(const MeshRange& range, std::uint64_t first, const VertexRadii& radii,
+              std::span<const std::uint8_t> mask, RangeFaces& faces, std::vector<double>& whole) {
+    Share share;
+    const bool vary = !radii.factors.empty();
+    whole.reserve(vary ? faces.areas.size() : 0);
+    for (std::size_t begin = 0; begin < faces.areas.size(); begin += kBlock) {
+        const std::size_t end = std::min(begin + kBlock, faces.areas.size());
+        std::optional<RadiusField> block;
+        if (vary) {
+            std::vector<std::uint32_t> triangles;
+            triangles.reserve(3 * (end - begin));
+            for (std::size_t i = 3 * begin; i < 3 * end; ++i) {
+                triangles.push_back(faces.numbers.of(range.triangles[i]));
+            }
+            block = RadiusPieces::on_faces(triangles, radii, [&](FaceMean mean) {
+                whole.push_back(mean.over(faces.areas[whole.size()]));
+            });
+            share.largest_density = std::max(share.largest_density, block->largest_density());
+            share.least_factor =
+                std::min(share.least_factor, static_cast<float>(block->least_factor()));
+        }
+        for (std::size_t face = begin; face < end; ++face) {
+            const auto in_block = static_cast<std::uint32_t>(face - begin);
+            const bool takes = mask.empty() || mask[face] != 0;
+            if (block || !mask.empty()) {
+                share.digest +=
+                    field_digest(first + face, block ? &*block : nullptr, in_block, takes);
+            }
+            double& area = faces.areas[face];
+            const double density = block ? static_cast<double>(block->densities()[in_block]) : 1;
+            share.largest_area = std::max(share.largest_area, takes ? area * density : 0);
+            share.left_out += takes ? 0 : 1;
+            area *= !takes ? 0 : block ? block->samples_in(in_block) : 1;
+        }
+    }
+    return share;
+}
+
 } // namespace
 
 RangedFields RangedFields::create(Talk& talk, const MeshRange& range, RangeFaces& faces,
@@ -166,42 +207,10 @@ RangedFields RangedFields::create(Talk& talk, const MeshRange& range, RangeFaces
         fields.mask_ = mask_for(talk, range, faces.numbers);
     }
 
-    // Face by face, in blocks.
     const VertexRadii radii = fields.radii_at(talk, range.vertices, faces.numbers.vertices());
     std::vector<double> whole;
-    whole.reserve(fields.kind_ != RadiusKind::same ? faces.areas.size() : 0);
-    Share own;
-    const std::uint64_t first = range.faces.first(talk.rank());
-    for (std::size_t begin = 0; begin < faces.areas.size(); begin += kBlock) {
-        const std::size_t end = std::min(begin + kBlock, faces.areas.size());
-        std::optional<RadiusField> block;
-        if (fields.kind_ != RadiusKind::same) {
-            std::vector<std::uint32_t> triangles;
-            for (std::size_t i = 3 * begin; i < 3 * end; ++i) {
-                triangles.push_back(faces.numbers.of(range.triangles[i]));
-            }
-            block = RadiusPieces::on_faces(triangles, radii, [&](FaceMean mean) {
-                whole.push_back(mean.over(faces.areas[whole.size()]));
-            });
-            own.largest_density = std::max(own.largest_density, block->largest_density());
-            own.least_factor =
-                std::min(own.least_factor, static_cast<float>(block->least_factor()));
-        }
-        for (std::size_t face = begin; face < end; ++face) {
-            const auto in_block = static_cast<std::uint32_t>(face - begin);
-            const bool takes = !range.has_mask || fields.mask_[face] != 0;
-            if (block || range.has_mask) {
-                own.digest +=
-                    field_digest(first + face, block ? &*block : nullptr, in_block, takes);
-            }
-            double& area = faces.areas[face];
-            const double density = block ? static_cast<double>(block->densities()[in_block]) : 1;
-            own.largest_area = std::max(own.largest_area, takes ? area * density : 0);
-            own.left_out += takes ? 0 : 1;
-            area *= !takes ? 0 : block ? block->samples_in(in_block) : 1;
-        }
-    }
-
+    const Share own =
+        measure(range, range.faces.first(talk.rank()), radii, fields.mask_, faces, whole);
     Share all;
     for (const Share& one : talk.all(own)) {
         all.largest_area = std::max(all.largest_area, one.largest_area);
