@@ -16,7 +16,7 @@ constexpr std::uint64_t kFacesOfPart = std::uint64_t{1} << 20;
 
 struct Corner {
     double place[3];
-    float factor, spread, packing; ///< Radii, or 0.
+    float factor, packing; ///< Of VertexRadii, or 0.
 };
 struct FaceCorners {
     std::uint32_t face;
@@ -36,23 +36,21 @@ std::vector<FaceCorners> corners_of(std::span<const std::uint32_t> own, const Fa
             Corner& corner = faces[i].corners[k];
             std::copy_n(&places.positions[3 * vertex], 3, corner.place);
             corner.factor = value(places.radii.factors, vertex);
-            corner.spread = value(places.radii.spreads, vertex);
             corner.packing = value(places.radii.packing, vertex);
         }
     }
     return faces;
 }
 
-/// Returns the places of faces; radii as the whole surface has them.
-FacePlaces places_of(std::span<const FaceCorners> faces, const RadiusField* radii) {
+/// Returns the places of faces; radii without spreads.
+FacePlaces places_of(std::span<const FaceCorners> faces) {
     FacePlaces places;
     for (const FaceCorners& face : faces) {
         for (const Corner& corner : face.corners) {
             places.triangles.push_back(static_cast<std::uint32_t>(places.triangles.size()));
             places.positions.insert(places.positions.end(), corner.place, corner.place + 3);
-            if (radii != nullptr) {
+            if (corner.factor > 0) {
                 places.radii.factors.push_back(corner.factor);
-                places.radii.spreads.push_back(corner.spread);
             }
             if (corner.packing > 0) {
                 places.radii.packing.push_back(corner.packing);
@@ -83,7 +81,7 @@ Result<FacePlaces> places_at(Exchange& exchange, const RangedSurface& surface,
             all.insert(all.end(), some.begin(), some.end());
         }
         std::ranges::sort(all, {}, &FaceCorners::face);
-        return places_of(all, surface.radii());
+        return places_of(all);
     });
 }
 

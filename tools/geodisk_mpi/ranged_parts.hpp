@@ -47,8 +47,8 @@ class RangedParts {
     Result<PartsResult> sample(Runner& runner, const SampleParams& params,
                                const Checkpoints* checkpoints, const ProgressCallback& progress);
 
-    /// Returns the places and radii of some faces, given in ascending order, each with corners of
-    /// its own: all at one process, nothing elsewhere.
+    /// Returns the places of some faces and their radii, without spreads. They are given in
+    /// ascending order, each with corners of its own: all at one process, nothing elsewhere.
     Result<FacePlaces> places(std::span<const std::uint32_t> faces, std::uint32_t process);
 
   private:
