@@ -16,7 +16,7 @@ constexpr std::uint64_t kWholeAxis = std::uint64_t{1} << 32;
 /// Counter for the seed of a cell.
 constexpr std::uint32_t kCellCounter = 0xB0C5;
 /// Takes the place of a candidate's index in the counter for the number of candidates of a cell.
-constexpr std::uint32_t kCountCounter = 0xffffffff;
+constexpr std::uint32_t kBoxCountCounter = 0xffffffff;
 /// Shorter sides count as one step of the unit.
 constexpr double kShortestSide = 0x1p-31;
 /// Samples per box of side D far from any border, by dimension (host/docs/boxes.md).
@@ -123,12 +123,12 @@ float mean_of(const BoxLattice& lattice, std::span<const float> steps, const Cel
     return mean;
 }
 
-struct Draw {
+struct BoxDraw {
     std::uint32_t priority;
     BoxPoint point;
 };
 
-Draw draw_candidate(const BoxLattice& lattice, const Cell& cell, std::uint64_t seed,
+BoxDraw draw_candidate(const BoxLattice& lattice, const Cell& cell, std::uint64_t seed,
                     std::uint32_t stage, std::uint32_t k) {
     const std::size_t dimension = lattice.axes.size();
     const auto first = philox(seed, {k, stage, 0, 0});
@@ -137,7 +137,7 @@ Draw draw_candidate(const BoxLattice& lattice, const Cell& cell, std::uint64_t s
         second = philox(seed, {k, stage, 1, 0});
     }
     const BoxPoint words{first[1], first[2], first[3], second[0], second[1], second[2]};
-    Draw draw{first[0] >> (32 - kPriorityBits), {}};
+    BoxDraw draw{first[0] >> (32 - kPriorityBits), {}};
     for (std::size_t i = 0; i < dimension; ++i) {
         const LatticeAxis& axis = lattice.axes[i];
         const std::uint32_t width = width_of(axis, cell[i]);
@@ -173,11 +173,11 @@ void draw_stage(const BoxParams& box, const BoxLattice& lattice, std::uint32_t s
     Cell cell{};
     for (std::uint64_t i = lattice.cell_count(); i > 0; --i, advance(cell, lattice)) {
         const std::uint64_t seed = cell_seed(box.seed, cell, lattice.axes.size());
-        const auto random = philox(seed, {kCountCounter, stage, 0, 0});
+        const auto random = philox(seed, {kBoxCountCounter, stage, 0, 0});
         const std::uint32_t count =
             poisson(mean_of(lattice, steps, cell, intensity), random[0], random[1]);
         for (std::uint32_t k = 0; k < count; ++k) {
-            const Draw draw = draw_candidate(lattice, cell, seed, stage, k);
+            const BoxDraw draw = draw_candidate(lattice, cell, seed, stage, k);
             darts.push_back(make_dart(draw.priority, static_cast<std::uint32_t>(points.size())));
             points.push_back(draw.point);
         }

@@ -18,7 +18,7 @@ SampleSet expected(const Domain& domain) {
     return expect(runner.sample_and_wait(domain));
 }
 
-Placed placed(const SampleSet& set) {
+Placed placed_set(const SampleSet& set) {
     Placed result;
     for (const Sample& sample : set.samples) {
         result.faces.push_back(sample.face);
@@ -47,7 +47,7 @@ TEST_CASE("a surface has the samples that it has in C++") {
     CHECK(same_distance == distance);
     const auto domain = surface_of(mesh.get(), distance, 3);
     const auto samples = sample(shared_sampler(), domain.get());
-    CHECK(placed(samples.get()) == placed(set));
+    CHECK(placed(samples.get()) == placed_set(set));
 
     // Where they are, by the weights.
     const std::vector<double> points = positions(samples.get());
@@ -316,7 +316,7 @@ TEST_CASE("radii vary, keys move candidates, and parts have samples of their own
         .min_distance = params.min_distance, .radii = &field, .face_keys = keys};
     const SampleSet set = expected(expect(Domain::surface(prepared_mesh, same)));
     const auto samples = sample(shared_sampler(), domain.get());
-    CHECK(placed(samples.get()) == placed(set));
+    CHECK(placed(samples.get()) == placed_set(set));
     std::vector<double> radius(set.samples.size());
     REQUIRE(geodisk_samples_copy(samples.get(), GEODISK_RADIUS, GEODISK_FLOAT64, radius.data(), 0,
                                  radius.size(), nullptr) == GEODISK_OK);
@@ -334,7 +334,7 @@ TEST_CASE("radii vary, keys move candidates, and parts have samples of their own
     SampleParams same_masked = same;
     same_masked.face_mask = mask;
     CHECK(placed(sample(shared_sampler(), masked.get()).get()) ==
-          placed(expected(expect(Domain::surface(prepared_mesh, same_masked)))));
+          placed_set(expected(expect(Domain::surface(prepared_mesh, same_masked)))));
     double distance = 0;
     REQUIRE(geodisk_distance_for_count(mesh.get(), radii.get(), mask.data(), 300, &distance,
                                        nullptr) == GEODISK_OK);
@@ -393,7 +393,7 @@ TEST_CASE("other metrics and boxes") {
         });
         const SampleSet set = expected(expect(Domain::surface_in_space(
             view, prepared_mesh, {.min_distance = params.min_distance}, same)));
-        CHECK(placed(sample(shared_sampler(), domain.get()).get()) == placed(set));
+        CHECK(placed(sample(shared_sampler(), domain.get()).get()) == placed_set(set));
     }
 
     const double sides[] = {1, 2, 1};

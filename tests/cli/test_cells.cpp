@@ -16,7 +16,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-void write(const TemporaryFolder& folder, const char* name, const std::string& text) {
+void write_file(const TemporaryFolder& folder, const char* name, const std::string& text) {
     std::ofstream(folder / name) << text;
 }
 
@@ -39,7 +39,7 @@ std::vector<double> last_column(const std::string& csv, const std::string& name)
     return values;
 }
 
-void check_refused(const TemporaryFolder& folder, int status, const std::string& message,
+void check_cells_refused(const TemporaryFolder& folder, int status, const std::string& message,
                    Arguments arguments) {
     arguments.insert(arguments.begin(), "cells");
     arguments.insert(arguments.end(), {"--json", "no.json"});
@@ -53,7 +53,7 @@ void check_refused(const TemporaryFolder& folder, int status, const std::string&
 
 TEST_CASE("cells: areas and dual graph of the corners of a cube") {
     const TemporaryFolder folder;
-    write(folder, "corners.csv", kCorners);
+    write_file(folder, "corners.csv", kCorners);
     const Outcome outcome =
         run(folder, {"cells", "builtin:cube:4", "corners.csv", "-o", "areas.csv", "--dual",
                      "dual.obj", "--json", "cells.json"});
@@ -92,18 +92,18 @@ TEST_CASE("cells: areas and dual graph of the corners of a cube") {
 
 TEST_CASE("cells: what cannot be found leaves no file") {
     const TemporaryFolder folder;
-    write(folder, "corners.csv", kCorners);
-    write(folder, "none.csv", "x,y,z\n");
-    write(folder, "far.csv", "x,y,z\n7,7,7\n");
+    write_file(folder, "corners.csv", kCorners);
+    write_file(folder, "none.csv", "x,y,z\n");
+    write_file(folder, "far.csv", "x,y,z\n7,7,7\n");
     const std::string mesh = "builtin:cube:4";
-    check_refused(folder, 2, "the dual graph is written as .obj or .npz",
+    check_cells_refused(folder, 2, "the dual graph is written as .obj or .npz",
                   {mesh, "corners.csv", "-o", "no.csv", "--dual", "no.ply"});
-    check_refused(folder, 2, "xyz", {mesh, "corners.csv", "-o", "no.xyz"});
-    check_refused(folder, 2, "no.obj", {mesh, "corners.csv", "-o", "no.obj", "--dual", "no.obj"});
-    check_refused(folder, 2, "corners.csv", {mesh, "corners.csv", "-o", "corners.csv"});
-    check_refused(folder, 3, "none.csv", {mesh, "none.csv", "-o", "no.csv"});
-    check_refused(folder, 3, "far.csv", {mesh, "far.csv", "-o", "no.csv", "--dual", "no.obj"});
-    check_refused(folder, 3, "lacks.csv", {mesh, "lacks.csv", "-o", "no.csv"});
+    check_cells_refused(folder, 2, "xyz", {mesh, "corners.csv", "-o", "no.xyz"});
+    check_cells_refused(folder, 2, "no.obj", {mesh, "corners.csv", "-o", "no.obj", "--dual", "no.obj"});
+    check_cells_refused(folder, 2, "corners.csv", {mesh, "corners.csv", "-o", "corners.csv"});
+    check_cells_refused(folder, 3, "none.csv", {mesh, "none.csv", "-o", "no.csv"});
+    check_cells_refused(folder, 3, "far.csv", {mesh, "far.csv", "-o", "no.csv", "--dual", "no.obj"});
+    check_cells_refused(folder, 3, "lacks.csv", {mesh, "lacks.csv", "-o", "no.csv"});
 }
 
 } // namespace geodisk::test

@@ -14,7 +14,7 @@
 namespace geodisk::test {
 namespace {
 
-constexpr const char* kMesh = "builtin:torus-knot:8";
+constexpr const char* kExistingMesh = "builtin:torus-knot:8";
 
 bool same(const tools::SampleRow& a, const tools::SampleRow& b) {
     return a.face == b.face && std::ranges::equal(a.bary, b.bary) &&
@@ -39,8 +39,8 @@ std::size_t check_kept(const TemporaryFolder& folder) {
 
 TEST_CASE("existing samples are kept and marked, and new ones keep the distance") {
     const TemporaryFolder folder;
-    REQUIRE(run(folder, {"sample", kMesh, "-o", "a.ply", "-n", "100"}).status == 0);
-    const Outcome made = run(folder, {"sample", kMesh, "-o", "b.ply", "-n", "400", "--seed", "2",
+    REQUIRE(run(folder, {"sample", kExistingMesh, "-o", "a.ply", "-n", "100"}).status == 0);
+    const Outcome made = run(folder, {"sample", kExistingMesh, "-o", "b.ply", "-n", "400", "--seed", "2",
                                       "--existing", "a.ply", "--json", "b.json"});
     INFO(made.out, made.err);
     REQUIRE(made.status == 0);
@@ -49,7 +49,7 @@ TEST_CASE("existing samples are kept and marked, and new ones keep the distance"
     CHECK(contains(made.out, "given         " + std::to_string(given) + " of them\n"));
     CHECK(json_in(folder, "b.json")["given"]["samples"] == given);
     CHECK(json_in(folder, "b.json")["given"]["close_pairs"] == 0);
-    const Outcome verified = run(folder, {"verify", kMesh, "b.ply"});
+    const Outcome verified = run(folder, {"verify", kExistingMesh, "b.ply"});
     INFO(verified.out, verified.err);
     CHECK(verified.status == 0);
     CHECK(contains(verified.out, "given         " + std::to_string(given) + " of them\n"));
@@ -60,33 +60,33 @@ TEST_CASE("existing samples are kept and marked, and new ones keep the distance"
 
     // In all formats that have columns, and first in the others.
     for (const std::string output : {"b.csv", "b.pcd"}) {
-        REQUIRE(run(folder, {"sample", kMesh, "-o", output, "-n", "400", "--seed", "2",
+        REQUIRE(run(folder, {"sample", kExistingMesh, "-o", output, "-n", "400", "--seed", "2",
                              "--existing", "a.ply"})
                     .status == 0);
         CHECK(tools::read_samples(folder / output).extra_values("given").size() == all.rows.size());
     }
     for (const std::string output : {"b.xyz", "b.npz", "b.glb"}) {
-        CHECK(run(folder, {"sample", kMesh, "-o", output, "-n", "400", "--existing", "a.ply"})
+        CHECK(run(folder, {"sample", kExistingMesh, "-o", output, "-n", "400", "--existing", "a.ply"})
                   .status == 0);
     }
 }
 
 TEST_CASE("radii that vary, darts and a dry run take existing samples") {
     const TemporaryFolder folder;
-    REQUIRE(run(folder, {"sample", kMesh, "-o", "a.ply", "-n", "100"}).status == 0);
+    REQUIRE(run(folder, {"sample", kExistingMesh, "-o", "a.ply", "-n", "100"}).status == 0);
     for (const Arguments& more : {Arguments{"-d", "0.2", "--radius-factor", "curvature"},
                                   Arguments{"-n", "400", "-d", "0.1", "--method", "darts"}}) {
-        REQUIRE(run(folder, joined({"sample", kMesh, "-o", "b.ply", "--existing", "a.ply"}, more))
+        REQUIRE(run(folder, joined({"sample", kExistingMesh, "-o", "b.ply", "--existing", "a.ply"}, more))
                     .status == 0);
         check_kept(folder);
-        const Outcome verified = run(folder, {"verify", kMesh, "b.ply"});
+        const Outcome verified = run(folder, {"verify", kExistingMesh, "b.ply"});
         INFO(verified.out, verified.err);
         CHECK(verified.status == 0);
     }
-    CHECK(run(folder, {"sample", kMesh, "--dry-run", "-n", "400", "--existing", "a.ply"}).status ==
+    CHECK(run(folder, {"sample", kExistingMesh, "--dry-run", "-n", "400", "--existing", "a.ply"}).status ==
           0);
     const Outcome page =
-        run(folder, {"batch", kMesh, "-o", "out", "-n", "400", "--existing", "a.ply"});
+        run(folder, {"batch", kExistingMesh, "-o", "out", "-n", "400", "--existing", "a.ply"});
     INFO(page.out, page.err);
     CHECK(page.status == 0);
 }
@@ -127,8 +127,8 @@ TEST_CASE("points of other programs are put on the mesh, and pairs too close are
 
 TEST_CASE("of existing samples far closer than the distance some pairs count, and the closest") {
     const TemporaryFolder folder;
-    REQUIRE(run(folder, {"sample", kMesh, "-o", "a.csv", "-n", "500"}).status == 0);
-    const Outcome made = run(folder, {"sample", kMesh, "-o", "b.csv", "-d", "100%", "--existing",
+    REQUIRE(run(folder, {"sample", kExistingMesh, "-o", "a.csv", "-n", "500"}).status == 0);
+    const Outcome made = run(folder, {"sample", kExistingMesh, "-o", "b.csv", "-d", "100%", "--existing",
                                       "a.csv", "--json", "b.json"});
     INFO(made.out, made.err);
     REQUIRE(made.status == 0);
@@ -147,11 +147,11 @@ TEST_CASE("of existing samples far closer than the distance some pairs count, an
         points += "\n";
     }
     folder.write("a.xyz", points);
-    REQUIRE(run(folder, {"verify", kMesh, "a.xyz", "--json", "a.json"}).status == 0);
+    REQUIRE(run(folder, {"verify", kExistingMesh, "a.xyz", "--json", "a.json"}).status == 0);
     const Json closest = json_in(folder, "a.json")["smallest"];
     CHECK(given["closest"]["samples"] == closest["samples"]);
 
-    const Outcome verified = run(folder, {"verify", kMesh, "b.csv", "--json", "v.json"});
+    const Outcome verified = run(folder, {"verify", kExistingMesh, "b.csv", "--json", "v.json"});
     INFO(verified.out, verified.err);
     CHECK(verified.status == 0);
     CHECK(contains(verified.out, " of them; at least "));
@@ -286,7 +286,7 @@ TEST_CASE("points that cannot be avoided are refused") {
           "than --tolerance allows; point 0 is 3 away. Give the mesh that the "
           "points were made on",
           {"--avoid", "far.xyz:1"});
-    REQUIRE(run(folder, {"sample", kMesh, "-o", "other.csv", "-n", "50"}).status == 0);
+    REQUIRE(run(folder, {"sample", kExistingMesh, "-o", "other.csv", "-n", "50"}).status == 0);
     fails(3, "other.csv: point 0", {"--avoid", "other.csv:1"});
     fails(3, "empty.csv: has no points to avoid", {"--avoid", "empty.csv:1"});
     fails(3, "none.csv", {"--avoid", "none.csv:1"});
@@ -296,7 +296,7 @@ TEST_CASE("points that cannot be avoided are refused") {
 
 TEST_CASE("existing samples that cannot be kept are refused") {
     const TemporaryFolder folder;
-    REQUIRE(run(folder, {"sample", kMesh, "-o", "a.ply", "-n", "50"}).status == 0);
+    REQUIRE(run(folder, {"sample", kExistingMesh, "-o", "a.ply", "-n", "50"}).status == 0);
     const auto fails = [&](int status, const std::string& part, const Arguments& more,
                            const char* mesh = "builtin:plate:4") {
         check_fails(folder, status, part, joined({"sample", mesh, "-o", "b.ply"}, more));
@@ -315,11 +315,11 @@ TEST_CASE("existing samples that cannot be kept are refused") {
     fails(2, "--tolerance is for points that are read; give --existing or --avoid",
           {"-d", "0.1", "--tolerance", "1"});
     fails(2, "--existing goes by distances along the surface, so it takes no --metric euclidean",
-          {"-d", "0.1", "--metric", "euclidean", "--existing", "a.ply"}, kMesh);
+          {"-d", "0.1", "--metric", "euclidean", "--existing", "a.ply"}, kExistingMesh);
     fails(2, "samples of --existing count too, so ask for more than",
-          {"-n", "20", "--existing", "a.ply"}, kMesh);
+          {"-n", "20", "--existing", "a.ply"}, kExistingMesh);
     check_fails(folder, 2, "the samples would replace the existing samples",
-                {"sample", kMesh, "-o", "a.ply", "-n", "400", "--existing", "a.ply"});
+                {"sample", kExistingMesh, "-o", "a.ply", "-n", "400", "--existing", "a.ply"});
 }
 
 } // namespace geodisk::test

@@ -16,10 +16,10 @@
 namespace geodisk::test {
 namespace {
 
-constexpr const char* kMesh = "builtin:torus-knot:8";
+constexpr const char* kFarthestMesh = "builtin:torus-knot:8";
 
 Json sample(const TemporaryFolder& folder, const char* file, const Arguments& options) {
-    Arguments arguments{"sample", kMesh, "-n", "300", "-o", file, "--json", "report.json"};
+    Arguments arguments{"sample", kFarthestMesh, "-n", "300", "-o", file, "--json", "report.json"};
     arguments.insert(arguments.end(), options.begin(), options.end());
     const Outcome outcome = run(folder, arguments);
     INFO(outcome.err);
@@ -67,7 +67,7 @@ TEST_CASE("samples in farthest-point order are those of dart order, with their c
     CHECK(report["farthest"]["left_out_within"] == 0);
     CHECK(report["farthest"]["least_cover"].get<double>() == cover.back());
     CHECK(report["seconds"]["order"].get<double>() > 0);
-    CHECK(run(folder, {"verify", kMesh, "far.csv"}).status == 0); // Also the classes.
+    CHECK(run(folder, {"verify", kFarthestMesh, "far.csv"}).status == 0); // Also the classes.
 }
 
 TEST_CASE("the first samples of the order are kept, and are as far apart as their cover") {
@@ -81,12 +81,12 @@ TEST_CASE("the first samples of the order are kept, and are as far apart as thei
     CHECK(report["farthest"]["samples"] == all.size());
     const std::vector<double> cover = column_in(folder, "few.ply", "cover");
     const auto verify = [&](double distance) {
-        return run(folder, {"verify", kMesh, "few.ply", "-d", std::to_string(distance)}).status;
+        return run(folder, {"verify", kFarthestMesh, "few.ply", "-d", std::to_string(distance)}).status;
     };
     CHECK(verify(0.9999 * cover.back()) == 0);
     CHECK(verify(1.0001 * cover.back()) == 1);
-    CHECK(run(folder, {"verify", kMesh, "few.ply"}).status == 0);
-    const Outcome many = run(folder, {"sample", kMesh, "-n", "50", "-o", "b.ply", "--order",
+    CHECK(run(folder, {"verify", kFarthestMesh, "few.ply"}).status == 0);
+    const Outcome many = run(folder, {"sample", kFarthestMesh, "-n", "50", "-o", "b.ply", "--order",
                                       "farthest", "--keep", "5000"});
     CHECK(many.status == 2);
     CHECK(contains(many.err, "--keep: there are only "));
@@ -98,7 +98,7 @@ TEST_CASE("transfer puts samples of a file in the same order") {
     sample(folder, "dart.ply", {});
     sample(folder, "far.ply", {"--order", "farthest"});
     const Outcome outcome =
-        run(folder, {"transfer", "dart.ply", kMesh, kMesh, "-o", "few.glb", "--order", "farthest",
+        run(folder, {"transfer", "dart.ply", kFarthestMesh, kFarthestMesh, "-o", "few.glb", "--order", "farthest",
                      "--keep", "30", "--json", "report.json"});
     INFO(outcome.err);
     REQUIRE(outcome.status == 0);
@@ -106,7 +106,7 @@ TEST_CASE("transfer puts samples of a file in the same order") {
     CHECK(json_in(folder, "report.json")["farthest"]["kept"] == 30);
     CHECK(contains(bytes_of(folder / "few.glb"), "_COVER"));
     REQUIRE(
-        run(folder, {"transfer", "dart.ply", kMesh, kMesh, "-o", "all.csv", "--order", "farthest"})
+        run(folder, {"transfer", "dart.ply", kFarthestMesh, kFarthestMesh, "-o", "all.csv", "--order", "farthest"})
             .status == 0);
     CHECK(places_in(folder, "all.csv") == places_in(folder, "far.ply"));
     CHECK(column_in(folder, "all.csv", "cover") == column_in(folder, "far.ply", "cover"));
@@ -125,12 +125,12 @@ TEST_CASE("columns that a format lacks are left out with a warning") {
                                         " is left out"));
         CHECK(std::filesystem::exists(folder / output));
     };
-    warns("cover", "a.xyz", {"sample", kMesh, "-n", "50", "--order", "farthest"});
-    warns("cover", "b.obj", {"transfer", "dart.ply", kMesh, kMesh, "--order", "farthest"});
-    warns("given", "c.xyz", {"sample", kMesh, "-n", "600", "--existing", "dart.ply"});
-    warns("feature", "d.xyz", {"sample", kMesh, "-n", "50", "--features", "30"});
-    warns("level", "e.xyz", {"sample", kMesh, "-n", "50", "--order", "progressive"});
-    CHECK_FALSE(contains(run(folder, {"sample", kMesh, "-n", "50", "-o", "f.xyz"}).err, "column"));
+    warns("cover", "a.xyz", {"sample", kFarthestMesh, "-n", "50", "--order", "farthest"});
+    warns("cover", "b.obj", {"transfer", "dart.ply", kFarthestMesh, kFarthestMesh, "--order", "farthest"});
+    warns("given", "c.xyz", {"sample", kFarthestMesh, "-n", "600", "--existing", "dart.ply"});
+    warns("feature", "d.xyz", {"sample", kFarthestMesh, "-n", "50", "--features", "30"});
+    warns("level", "e.xyz", {"sample", kFarthestMesh, "-n", "50", "--order", "progressive"});
+    CHECK_FALSE(contains(run(folder, {"sample", kFarthestMesh, "-n", "50", "-o", "f.xyz"}).err, "column"));
 }
 
 TEST_CASE("what farthest-point order does not go with is refused") {
@@ -149,7 +149,7 @@ TEST_CASE("what farthest-point order does not go with is refused") {
         {{"--order", "farthest", "--dry-run"}, "it takes no --order farthest"},
     };
     for (const Case& wrong : cases) {
-        Arguments arguments{"sample", kMesh, "-d", "0.5"};
+        Arguments arguments{"sample", kFarthestMesh, "-d", "0.5"};
         if (wrong.options.back() != "--dry-run") {
             arguments.insert(arguments.end(), {"-o", "b.ply"});
         }
@@ -160,7 +160,7 @@ TEST_CASE("what farthest-point order does not go with is refused") {
         CHECK(contains(outcome.err, wrong.message));
     }
     const Outcome order =
-        run(folder, {"transfer", "a.csv", kMesh, kMesh, "-o", "b.ply", "--order", "dart"});
+        run(folder, {"transfer", "a.csv", kFarthestMesh, kFarthestMesh, "-o", "b.ply", "--order", "dart"});
     CHECK(order.status == 2);
     CHECK(contains(order.err, "--order: 'dart' is neither file nor farthest"));
     CHECK(!std::filesystem::exists(folder / "b.ply"));

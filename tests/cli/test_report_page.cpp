@@ -17,9 +17,9 @@
 namespace geodisk::test {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
-constexpr const char* kMesh = "builtin:torus-knot:8";
+constexpr const char* kPageMesh = "builtin:torus-knot:8";
 
 PageFile page(const TemporaryFolder& folder, const Arguments& arguments) {
     const Outcome outcome =
@@ -88,7 +88,7 @@ void check_arrays(const PageFile& page, std::size_t triangles) {
 
 TEST_CASE("a page has the samples that `sample` writes, and what `analyze` tells of them") {
     const TemporaryFolder folder;
-    const Arguments asked = {kMesh, "-n", "400", "--seed", "18446744073709551615"};
+    const Arguments asked = {kPageMesh, "-n", "400", "--seed", "18446744073709551615"};
     const PageFile found = page(folder, asked);
     REQUIRE(run(folder, joined({"sample", "-o", "a.ply", "-q"}, asked)).status == 0);
     const tools::SampleFile file = tools::read_samples(folder / "a.ply");
@@ -99,9 +99,9 @@ TEST_CASE("a page has the samples that `sample` writes, and what `analyze` tells
         CHECK(found.arrays.at("sample_weights")[2 * i + 1] == file.rows[i].bary[2]);
     }
     CHECK(found.facts["seed"] == "18446744073709551615"); // JavaScript would round the number.
-    const Outcome analyzed = run(folder, {"analyze", kMesh, "a.ply", "--json", "-", "-q"});
+    const Outcome analyzed = run(folder, {"analyze", kPageMesh, "a.ply", "--json", "-", "-q"});
     REQUIRE(analyzed.status == 0);
-    Json set = Json::parse(analyzed.out)["sets"][0];
+    OrderedJson set = OrderedJson::parse(analyzed.out)["sets"][0];
     set.erase("samples_file");
     CHECK(found.facts["analysis"] == set);
     // The nearest of all are as far apart as the smallest distance.
@@ -119,13 +119,13 @@ TEST_CASE("a page has the samples that `sample` writes, and what `analyze` tells
 
 TEST_CASE("a page tells the command that makes it again") {
     const TemporaryFolder folder;
-    const PageFile found = page(folder, {kMesh, "-n", "100", "--view", "top"});
+    const PageFile found = page(folder, {kPageMesh, "-n", "100", "--view", "top"});
     CHECK(found.facts["command"] ==
-          "geodisk report " + std::string(kMesh) + " -n 100 --view top -o p.html -q");
+          "geodisk report " + std::string(kPageMesh) + " -n 100 --view top -o p.html -q");
     CHECK(found.facts["view"]["from"].size() == 1);
-    const Json& view = found.facts["view"];
+    const OrderedJson& view = found.facts["view"];
     CHECK(view["from"][0][2].get<double>() == doctest::Approx(1).epsilon(1e-4));
-    CHECK(view["up"] == Json({0.0, 0.0, 1.0}));
+    CHECK(view["up"] == OrderedJson({0.0, 0.0, 1.0}));
     CHECK(found.facts["commit"].is_string());
     CHECK(found.facts["seconds"].contains("measure"));
     CHECK(found.facts["seconds"]["other"].get<double>() >= 0);
@@ -187,9 +187,9 @@ TEST_CASE("surfaces of every kind have a page") {
         check_arrays(found, found.facts["mesh"]["triangles"].get<std::size_t>());
     }
     CHECK(page(folder, {"builtin:terrain:12", "-n", "50"}).facts["view"]["up"] ==
-          Json({0.0, 0.0, 1.0}));
+          OrderedJson({0.0, 0.0, 1.0}));
     CHECK(page(folder, {"builtin:terrain:12", "-n", "50", "--up", "x"}).facts["view"]["up"] ==
-          Json({1.0, 0.0, 0.0}));
+          OrderedJson({1.0, 0.0, 0.0}));
 }
 
 TEST_CASE("radii that vary are each sample's own") {
@@ -202,7 +202,7 @@ TEST_CASE("radii that vary are each sample's own") {
     CHECK(*least == doctest::Approx(found.facts["sample_radii"]["least"].get<double>()));
     CHECK(*most == doctest::Approx(found.facts["sample_radii"]["most"].get<double>()));
     CHECK(found.facts["analysis"]["pair_correlation"].is_null());
-    CHECK(page(folder, {kMesh, "-n", "50"}).arrays.at("sample_radii").size() == 1);
+    CHECK(page(folder, {kPageMesh, "-n", "50"}).arrays.at("sample_radii").size() == 1);
 }
 
 TEST_CASE("lengths alone leave nothing to look at, and the page says so") {
@@ -221,12 +221,12 @@ TEST_CASE("lengths alone leave nothing to look at, and the page says so") {
 TEST_CASE("the report and the summary of a page") {
     const TemporaryFolder folder;
     const Outcome outcome =
-        run(folder, {"report", kMesh, "-n", "100", "-o", "p.htm", "--json", "a.json"});
+        run(folder, {"report", kPageMesh, "-n", "100", "-o", "p.htm", "--json", "a.json"});
     REQUIRE(outcome.status == 0);
     CHECK(contains(outcome.out, "file          p.htm\n"));
     CHECK(contains(outcome.out, "nearest       1.0"));
     CHECK(contains(outcome.out, "room for more "));
-    const Json report = Json::parse(bytes_of(folder / "a.json"));
+    const OrderedJson report = OrderedJson::parse(bytes_of(folder / "a.json"));
     CHECK(report["seconds"].contains("write"));
     CHECK(report["seconds"].contains("disks"));
     CHECK(report["output"] == "p.htm");
@@ -235,16 +235,16 @@ TEST_CASE("the report and the summary of a page") {
 
 TEST_CASE("what cannot be a page is told, and leaves none") {
     const TemporaryFolder folder;
-    const Arguments good = {"report", kMesh, "-n", "50", "-o", "p.html"};
-    check_fails(folder, 2, "*.html", {"report", kMesh, "-n", "50", "-o", "p.pdf"});
-    check_fails(folder, 2, "--output is required", {"report", kMesh, "-n", "50"});
-    check_fails(folder, 2, "--min-distance", {"report", kMesh, "-o", "p.html"});
+    const Arguments good = {"report", kPageMesh, "-n", "50", "-o", "p.html"};
+    check_fails(folder, 2, "*.html", {"report", kPageMesh, "-n", "50", "-o", "p.pdf"});
+    check_fails(folder, 2, "--output is required", {"report", kPageMesh, "-n", "50"});
+    check_fails(folder, 2, "--min-distance", {"report", kPageMesh, "-o", "p.html"});
     check_fails(folder, 2, "--view", joined(good, {"--view", "sideways"}));
     check_fails(folder, 2, "--up", joined(good, {"--up", "north"}));
     check_fails(folder, 2, "--probes", joined(good, {"--probes", "1e8"}));
     check_fails(folder, 2, "would replace", joined(good, {"--json", "p.html"}));
     check_fails(folder, 3, "nowhere.ply", {"report", "nowhere.ply", "-n", "50", "-o", "p.html"});
-    check_fails(folder, 4, "nowhere", {"report", kMesh, "-n", "50", "-o", "nowhere/p.html"});
+    check_fails(folder, 4, "nowhere", {"report", kPageMesh, "-n", "50", "-o", "nowhere/p.html"});
     check_fails(folder, 5, "nowhere", joined(good, {"--device", "nowhere"}));
     Setting full;
     full.file_size_limit = 500000;

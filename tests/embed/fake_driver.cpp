@@ -8,7 +8,7 @@
 namespace geodisk::test {
 namespace {
 
-FakeDriver* active = nullptr;
+FakeDriver* active_driver = nullptr;
 
 Loader open_real_loader() {
     Result<Loader> loader = Loader::open();
@@ -34,13 +34,13 @@ struct FakeDriver::Functions {
     template <class Function>
     static Function real(const char* name) {
         return reinterpret_cast<Function>(
-            active->real_.get_instance_proc_addr()(active->instance_, name));
+            active_driver->real_.get_instance_proc_addr()(active_driver->instance_, name));
     }
 
     /// What `name` is set to fail with, or VK_SUCCESS.
     static VkResult failure_of(const char* name) {
-        const auto found = active->failing.find(name);
-        return found != active->failing.end() ? found->second : VK_SUCCESS;
+        const auto found = active_driver->failing.find(name);
+        return found != active_driver->failing.end() ? found->second : VK_SUCCESS;
     }
 
     static VKAPI_ATTR VkResult VKAPI_CALL create_instance(const VkInstanceCreateInfo* info,
@@ -49,16 +49,16 @@ struct FakeDriver::Functions {
         if (const VkResult failure = failure_of("vkCreateInstance"); failure != VK_SUCCESS)
             return failure;
         const auto create = reinterpret_cast<PFN_vkCreateInstance>(
-            active->real_.get_instance_proc_addr()(VK_NULL_HANDLE, "vkCreateInstance"));
+            active_driver->real_.get_instance_proc_addr()(VK_NULL_HANDLE, "vkCreateInstance"));
         const VkResult result = create(info, allocator, instance);
-        active->live_instances_ += result == VK_SUCCESS ? 1 : 0;
+        active_driver->live_instances_ += result == VK_SUCCESS ? 1 : 0;
         return result;
     }
 
     static VKAPI_ATTR void VKAPI_CALL destroy_instance(VkInstance instance,
                                                        const VkAllocationCallbacks* allocator) {
         real<PFN_vkDestroyInstance>("vkDestroyInstance")(instance, allocator);
-        --active->live_instances_;
+        --active_driver->live_instances_;
     }
 
     static VKAPI_ATTR VkResult VKAPI_CALL enumerate_layers(std::uint32_t* count,
@@ -76,7 +76,7 @@ struct FakeDriver::Functions {
                                                             std::uint32_t* count,
                                                             VkPhysicalDevice* devices) {
         const VkResult failure = failure_of("vkEnumeratePhysicalDevices");
-        if (failure != VK_SUCCESS || active->hide_devices) {
+        if (failure != VK_SUCCESS || active_driver->hide_devices) {
             *count = 0;
             return failure;
         }
@@ -88,8 +88,8 @@ struct FakeDriver::Functions {
                                                      VkPhysicalDeviceProperties* properties) {
         real<PFN_vkGetPhysicalDeviceProperties>("vkGetPhysicalDeviceProperties")(device,
                                                                                  properties);
-        if (active->edit_properties)
-            active->edit_properties(*properties);
+        if (active_driver->edit_properties)
+            active_driver->edit_properties(*properties);
     }
 
     static VKAPI_ATTR void VKAPI_CALL get_queue_families(VkPhysicalDevice device,
@@ -101,8 +101,8 @@ struct FakeDriver::Functions {
         get(device, &real_count, nullptr);
         std::vector<VkQueueFamilyProperties> edited(real_count);
         get(device, &real_count, edited.data());
-        if (active->edit_queue_families)
-            active->edit_queue_families(edited);
+        if (active_driver->edit_queue_families)
+            active_driver->edit_queue_families(edited);
         hand_out(edited, count, families);
     }
 
@@ -110,8 +110,8 @@ struct FakeDriver::Functions {
                                                  VkPhysicalDeviceMemoryProperties* memory) {
         real<PFN_vkGetPhysicalDeviceMemoryProperties>("vkGetPhysicalDeviceMemoryProperties")(
             device, memory);
-        if (active->edit_memory)
-            active->edit_memory(*memory);
+        if (active_driver->edit_memory)
+            active_driver->edit_memory(*memory);
     }
 
     static VKAPI_ATTR VkResult VKAPI_CALL create_device(VkPhysicalDevice physical_device,
@@ -122,18 +122,18 @@ struct FakeDriver::Functions {
             return failure;
         const VkResult result =
             real<PFN_vkCreateDevice>("vkCreateDevice")(physical_device, info, allocator, device);
-        active->live_devices_ += result == VK_SUCCESS ? 1 : 0;
+        active_driver->live_devices_ += result == VK_SUCCESS ? 1 : 0;
         return result;
     }
 
     static VKAPI_ATTR void VKAPI_CALL destroy_device(VkDevice device,
                                                      const VkAllocationCallbacks* allocator) {
         real<PFN_vkDestroyDevice>("vkDestroyDevice")(device, allocator);
-        --active->live_devices_;
+        --active_driver->live_devices_;
     }
 
     static PFN_vkVoidFunction VKAPI_CALL get_device_proc_addr(VkDevice device, const char* name) {
-        if (active->missing.contains(name))
+        if (active_driver->missing.contains(name))
             return nullptr;
         if (std::string_view(name) == "vkDestroyDevice")
             return reinterpret_cast<PFN_vkVoidFunction>(&destroy_device);
@@ -159,30 +159,30 @@ struct FakeDriver::Functions {
             if (replaced == name)
                 return function;
         }
-        if (active->hide_layers && name == "vkEnumerateInstanceLayerProperties")
+        if (active_driver->hide_layers && name == "vkEnumerateInstanceLayerProperties")
             return reinterpret_cast<PFN_vkVoidFunction>(&enumerate_layers);
-        if (active->answer_1_0 && name == "vkEnumerateInstanceVersion")
+        if (active_driver->answer_1_0 && name == "vkEnumerateInstanceVersion")
             return reinterpret_cast<PFN_vkVoidFunction>(&enumerate_version);
         return nullptr;
     }
 };
 
 FakeDriver::FakeDriver() : real_(open_real_loader()) {
-    active = this;
+    active_driver = this;
 }
 
 FakeDriver::~FakeDriver() {
-    active = nullptr;
+    active_driver = nullptr;
 }
 
 PFN_vkVoidFunction FakeDriver::get_instance_proc_addr(VkInstance instance, const char* name) {
     if (instance != VK_NULL_HANDLE)
-        active->instance_ = instance;
-    if (active->missing.contains(name))
+        active_driver->instance_ = instance;
+    if (active_driver->missing.contains(name))
         return nullptr;
     if (const PFN_vkVoidFunction replacement = Functions::find(name))
         return replacement;
-    return active->real_.get_instance_proc_addr()(instance, name);
+    return active_driver->real_.get_instance_proc_addr()(instance, name);
 }
 
 } // namespace geodisk::test

@@ -23,8 +23,8 @@ namespace {
 
 constexpr std::uint32_t kMostCalls = 20'000;
 
-struct Bench : Workshop {
-    explicit Bench(const Context& on)
+struct SearchBench : Workshop {
+    explicit SearchBench(const Context& on)
         : Workshop(on), context(on),
           sampler(std::make_shared<const Sampler>(expect(Sampler::create(on.device())))) {
         cut({});
@@ -43,7 +43,7 @@ struct Bench : Workshop {
     std::shared_ptr<const Sampler> sampler;
 };
 
-std::string refusal(const Bench& bench, const PreparedMesh& mesh, const NeighbourQuery& query,
+std::string refusal(const SearchBench& bench, const PreparedMesh& mesh, const NeighbourQuery& query,
                     const FrameNeighbourOptions& options = {}) {
     const auto made = FrameNeighbours::create(bench.sampler, mesh, query, options);
     REQUIRE_FALSE(made);
@@ -52,7 +52,7 @@ std::string refusal(const Bench& bench, const PreparedMesh& mesh, const Neighbou
 }
 
 template <class T>
-std::vector<T> words(Bench& bench, VkBuffer buffer, VkDeviceSize offset, std::size_t count) {
+std::vector<T> words(SearchBench& bench, VkBuffer buffer, VkDeviceSize offset, std::size_t count) {
     std::vector<T> read(count);
     if (count > 0) {
         const VkDeviceSize bytes = count * sizeof(T);
@@ -65,7 +65,7 @@ std::vector<T> words(Bench& bench, VkBuffer buffer, VkDeviceSize offset, std::si
 }
 
 /// Records a frame at a time; how many that took.
-std::uint32_t record_all(Bench& bench, FrameNeighbours& frames) {
+std::uint32_t record_all(SearchBench& bench, FrameNeighbours& frames) {
     std::uint32_t calls = 0;
     for (bool is_complete = false; !is_complete; ++calls) {
         REQUIRE(calls < kMostCalls);
@@ -77,7 +77,7 @@ std::uint32_t record_all(Bench& bench, FrameNeighbours& frames) {
 }
 
 /// Checks the lists of the sources that are ready.
-void check(Bench& bench, const FrameNeighbourLists& lists, const Neighbours& wanted) {
+void check(SearchBench& bench, const FrameNeighbourLists& lists, const Neighbours& wanted) {
     const std::size_t ready = lists.ready;
     REQUIRE(lists.sources + 1 == wanted.offsets.size());
     REQUIRE(lists.pairs == wanted.offsets[ready]);
@@ -93,7 +93,7 @@ void check(Bench& bench, const FrameNeighbourLists& lists, const Neighbours& wan
           std::vector(wanted.distances.begin(), wanted.distances.begin() + lists.pairs));
 }
 
-void check_complete(Bench& bench, const FrameNeighbours& frames, const Neighbours& wanted) {
+void check_complete(SearchBench& bench, const FrameNeighbours& frames, const Neighbours& wanted) {
     const FrameNeighbourLists lists = frames.lists();
     CHECK(lists.is_complete);
     CHECK(lists.ready == lists.sources);
@@ -122,7 +122,7 @@ struct Subject {
 };
 
 /// Little of everything, so that all of it grows and sources come in many parts.
-FrameNeighbourOptions narrow(const Bench& bench, const PreparedMesh& mesh,
+FrameNeighbourOptions narrow(const SearchBench& bench, const PreparedMesh& mesh,
                              const NeighbourQuery& query) {
     FrameNeighbourOptions options;
     options.record_bytes = 1;
@@ -171,7 +171,7 @@ TEST_SUITE("frame neighbours") {
     TEST_CASE("are those of a run, to the bit, over vertices, points and sources") {
         const Context context = validated_context();
         {
-            Bench bench(context);
+            SearchBench bench(context);
             for (const auto& [shape, resolution] :
                  {std::pair("torus-knot", 8), std::pair("cube", 6), std::pair("plate", 6),
                   std::pair("moebius", 6)}) {
@@ -199,7 +199,7 @@ TEST_SUITE("frame neighbours") {
     TEST_CASE("with little memory, and any number of frames in flight") {
         const Context context = validated_context();
         {
-            Bench bench(context);
+            SearchBench bench(context);
             Subject subject(builtin("torus-knot", 8));
             NeighbourQuery& query = subject.query;
             bool grows = false;
@@ -247,7 +247,7 @@ TEST_SUITE("frame neighbours") {
     TEST_CASE("takes a larger buffer where disks outgrow the first") {
         const Context context = validated_context();
         {
-            Bench bench(context);
+            SearchBench bench(context);
             Subject subject(builtin("lattice", 1));
             NeighbourQuery& query = subject.query;
             query.sources = std::span(subject.vertices).first(3);
@@ -272,7 +272,7 @@ TEST_SUITE("frame neighbours") {
     TEST_CASE("with distances of their own, and vertices that are joined") {
         const Context context = validated_context();
         {
-            Bench bench(context);
+            SearchBench bench(context);
             Subject subject(builtin("torus-knot", 8));
             NeighbourQuery& query = subject.query;
             std::vector<double> radii;
@@ -317,7 +317,7 @@ TEST_SUITE("frame neighbours") {
     TEST_CASE("as the page on embedding shows it") {
         const Context context = validated_context();
         {
-            Bench bench(context);
+            SearchBench bench(context);
             const std::shared_ptr<const Sampler>& sampler = bench.sampler;
             const Subject subject(builtin("icosphere", 2));
             const PreparedMesh& mesh = subject.mesh;
@@ -339,7 +339,7 @@ TEST_SUITE("frame neighbours") {
     TEST_CASE("lengths of any size are rounded as on the host") {
         const Context context = validated_context();
         {
-            Bench bench(context);
+            SearchBench bench(context);
             for (const double scale : {1e-41, 3e-38, 1.7e-20, 1e20, 7e34}) {
                 CAPTURE(scale);
                 TestMesh shape = builtin("torus-knot", 6);
@@ -359,7 +359,7 @@ TEST_SUITE("frame neighbours") {
     TEST_CASE("submits by itself, stops half way and goes on") {
         const Context context = validated_context();
         {
-            Bench bench(context);
+            SearchBench bench(context);
             const Subject subject(builtin("torus-knot", 12));
             const Neighbours wanted = bench.wanted(subject.mesh, subject.query);
             Runner runner = expect(Runner::create(bench.sampler, context.queue()));
@@ -419,7 +419,7 @@ TEST_SUITE("frame neighbours") {
     TEST_CASE("tells of a frame that was not submitted, and of more pairs than are allowed") {
         const Context context = validated_context();
         {
-            Bench bench(context);
+            SearchBench bench(context);
             Subject subject(builtin("torus-knot", 8));
             FrameNeighbours lost = bench.frames(subject.mesh, subject.query);
             Unsent unsent(context);
@@ -449,7 +449,7 @@ TEST_SUITE("frame neighbours") {
 
     TEST_CASE("what cannot be is refused") {
         const Context context = expect(Context::create());
-        const Bench bench(context);
+        const SearchBench bench(context);
         Subject subject(builtin("cube", 2));
         NeighbourQuery query = subject.query;
         query.within = 0;

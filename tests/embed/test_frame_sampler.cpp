@@ -23,21 +23,21 @@
 namespace geodisk::test {
 namespace {
 
-constexpr std::uint32_t kMostCalls = 20'000;
+constexpr std::uint32_t kMaxCalls = 20'000;
 
 std::shared_ptr<const Sampler> shared_sampler(const Context& context) {
     return std::make_shared<const Sampler>(expect(Sampler::create(context.device())));
 }
 
 /// A mesh, where its samples are to lie, and which they are.
-struct Subject {
+struct SampledSubject {
     TestMesh shape;
     PreparedMesh mesh;
     SampleParams params;
     Domain domain;
     Points wanted;
 
-    Subject(const Sampler& sampler, double count, std::uint64_t seed = 1,
+    SampledSubject(const Sampler& sampler, double count, std::uint64_t seed = 1,
             TestMesh of = builtin("torus-knot", 8))
         : shape(std::move(of)), mesh(prepared(shape)), params(params_for(mesh, count, seed)),
           domain(expect(Domain::surface(mesh, params))),
@@ -46,8 +46,8 @@ struct Subject {
 };
 
 /// A workshop whose frames hold other work of its own.
-struct Bench : Workshop {
-    explicit Bench(const Context& context) : Workshop(context) { cut({}); }
+struct SamplerBench : Workshop {
+    explicit SamplerBench(const Context& context) : Workshop(context) { cut({}); }
 };
 
 /// What lies in the buffer: the records, and how many the draw has.
@@ -85,7 +85,7 @@ Placed read(Workshop& workshop, const FrameSamples& samples) {
 std::uint32_t record_all(Workshop& workshop, FrameSampler& frames) {
     std::uint32_t calls = 0;
     for (bool is_complete = false; !is_complete; ++calls) {
-        REQUIRE(calls < kMostCalls);
+        REQUIRE(calls < kMaxCalls);
         workshop.frame(calls, [&](VkCommandBuffer commands) {
             is_complete = expect(frames.record(commands));
         });
@@ -93,7 +93,7 @@ std::uint32_t record_all(Workshop& workshop, FrameSampler& frames) {
     return calls;
 }
 
-void check_all(Workshop& workshop, const FrameSampler& frames, const Subject& subject) {
+void check_all(Workshop& workshop, const FrameSampler& frames, const SampledSubject& subject) {
     const FrameSamples samples = frames.samples();
     CHECK(samples.is_complete);
     CHECK(samples.ready == subject.wanted.size());
@@ -122,7 +122,7 @@ TEST_SUITE("frame sampler") {
         const Context context = validated_context();
         {
             const auto sampler = shared_sampler(context);
-            Subject knot(*sampler, 200);
+            SampledSubject knot(*sampler, 200);
             const std::vector<Sample> given =
                 samples_of(Points(knot.wanted.begin(), knot.wanted.begin() + 9));
             const std::vector<KeepOut> avoid{
@@ -134,7 +134,7 @@ TEST_SUITE("frame sampler") {
             knot.wanted =
                 float_set(knot.mesh, knot.params,
                           expect(sampler->plan_run(knot.domain, Workshop::kPoolBytes)).error_bound);
-            Bench workshop(context);
+            SamplerBench workshop(context);
             FrameSampler frames =
                 expect(FrameSampler::create(sampler, knot.domain, knot.shape.view(), {}));
             record_all(workshop, frames);
@@ -147,8 +147,8 @@ TEST_SUITE("frame sampler") {
         const Context context = validated_context();
         {
             const auto sampler = shared_sampler(context);
-            const Subject knot(*sampler, 200);
-            Bench workshop(context);
+            const SampledSubject knot(*sampler, 200);
+            SamplerBench workshop(context);
             for (const std::uint32_t in_flight : {1u, 2u, 5u}) {
                 FrameSamplerOptions options;
                 options.frames = in_flight;
@@ -167,8 +167,8 @@ TEST_SUITE("frame sampler") {
         const Context context = validated_context();
         {
             const auto sampler = shared_sampler(context);
-            const Subject knot(*sampler, 200);
-            Bench workshop(context);
+            const SampledSubject knot(*sampler, 200);
+            SamplerBench workshop(context);
             FrameSampler frames =
                 expect(FrameSampler::create(sampler, knot.domain, knot.shape.view()));
             std::size_t steps = 0, before = 0;
@@ -193,9 +193,9 @@ TEST_SUITE("frame sampler") {
         const Context context = validated_context();
         {
             const auto sampler = shared_sampler(context);
-            const Subject knot(*sampler, 200, 1);
-            const Subject other(*sampler, 200, 2);
-            Bench workshop(context);
+            const SampledSubject knot(*sampler, 200, 1);
+            const SampledSubject other(*sampler, 200, 2);
+            SamplerBench workshop(context);
             Runner runner = expect(Runner::create(sampler, context.queue()));
             FrameSampler frames =
                 expect(FrameSampler::create(sampler, knot.domain, knot.shape.view()));
@@ -221,8 +221,8 @@ TEST_SUITE("frame sampler") {
         const Context context = validated_context();
         {
             const auto sampler = shared_sampler(context);
-            const Subject few(*sampler, 3, 1, builtin("lattice", 1));
-            Bench workshop(context);
+            const SampledSubject few(*sampler, 3, 1, builtin("lattice", 1));
+            SamplerBench workshop(context);
             FrameSamplerOptions options;
             // The least that one lane fits in.
             for (options.pool_bytes = 1024; !sampler->plan_run(few.domain, options.pool_bytes);) {
@@ -254,7 +254,7 @@ TEST_SUITE("frame sampler") {
             const MeshView views[] = {shapes[0].view(), shapes[1].view()};
             FrameSampler frames = expect(FrameSampler::create(sampler, domain, views));
             expect(frames.sample_and_wait(runner));
-            Bench workshop(context);
+            SamplerBench workshop(context);
             const Placed placed = read(workshop, frames.samples());
             REQUIRE(placed.records.size() == wanted.samples.size());
             for (std::size_t i = 0; i < wanted.samples.size(); ++i) {
@@ -273,7 +273,7 @@ TEST_SUITE("frame sampler") {
             DeviceRefs refs = app.refs();
             refs.memory_hooks = &hooks;
             const auto sampler = std::make_shared<const Sampler>(expect(Sampler::create(refs)));
-            const Subject knot(*sampler, 100);
+            const SampledSubject knot(*sampler, 100);
             {
                 Runner runner = expect(Runner::create(sampler, app.queue()));
                 const std::size_t before = arena.alive.size();
@@ -293,7 +293,7 @@ TEST_SUITE("frame sampler") {
         const Context context = validated_context();
         {
             const auto sampler = shared_sampler(context);
-            const Subject knot(*sampler, 100);
+            const SampledSubject knot(*sampler, 100);
             const TestMesh other = builtin("cube", 1);
             const auto status = [&](const Domain& domain, std::span<const MeshView> meshes,
                                     const FrameSamplerOptions& options = {}) {

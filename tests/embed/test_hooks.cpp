@@ -18,7 +18,7 @@ namespace geodisk::test {
 namespace {
 
 // Of the functions below, which carry no user pointer.
-PFN_vkGetInstanceProcAddr real = nullptr;
+PFN_vkGetInstanceProcAddr real_driver = nullptr;
 PFN_vkSetDebugUtilsObjectNameEXT set_name = nullptr;
 PFN_vkCmdBeginDebugUtilsLabelEXT begin = nullptr;
 PFN_vkCmdEndDebugUtilsLabelEXT end = nullptr;
@@ -45,7 +45,7 @@ VKAPI_ATTR void VKAPI_CALL note_end(VkCommandBuffer commands) {
 }
 
 VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL watched(VkInstance instance, const char* name) {
-    const PFN_vkVoidFunction function = real(instance, name);
+    const PFN_vkVoidFunction function = real_driver(instance, name);
     if (std::strcmp(name, "vkSetDebugUtilsObjectNameEXT") == 0) {
         set_name = reinterpret_cast<PFN_vkSetDebugUtilsObjectNameEXT>(function);
         return reinterpret_cast<PFN_vkVoidFunction>(note_name);
@@ -140,7 +140,7 @@ TEST_SUITE("hooks") {
     TEST_CASE(
         "pipelines and buffers have names, and stages labels, where the caller asks for them") {
         AppDevice app;
-        real = app.refs().get_instance_proc_addr;
+        real_driver = app.refs().get_instance_proc_addr;
         names.clear();
         labels.clear();
         DeviceRefs refs = app.refs();

@@ -37,7 +37,7 @@ BoxParams unit_box(std::size_t dimension, double count, bool is_periodic, std::u
     return box_of(std::vector<double>(dimension, 1.0), count, is_periodic, seed);
 }
 
-SampleSet sample(const BoxParams& box, const RunnerOptions& options = {},
+SampleSet sample_box(const BoxParams& box, const RunnerOptions& options = {},
                  const Context& context = shared_context()) {
     Runner runner = expect(Runner::create(context.device(), context.queue(), options));
     return expect(runner.sample_and_wait(expect(Domain::box(box))));
@@ -307,7 +307,7 @@ TEST_SUITE("boxes") {
                     CAPTURE(is_periodic);
                     CAPTURE(count);
                     const BoxParams box = unit_box(n, count, is_periodic, n);
-                    const SampleSet set = sample(box);
+                    const SampleSet set = sample_box(box);
                     CHECK(set.points == sequential_set<float>(box));
                     CHECK(set.points == sequential_set<double>(box));
                     CHECK(set.points == plain_set(box));
@@ -325,7 +325,7 @@ TEST_SUITE("boxes") {
              {std::vector<double>{1, 1e-3}, {1e6, 1, 1e3}, {3e-9, 1e-9, 2e-9}, {5e20, 5e20}}) {
             CAPTURE(sides[0]);
             const BoxParams box = box_of(sides, 500, sides.back() > sides[0] / 2);
-            const SampleSet set = sample(box);
+            const SampleSet set = sample_box(box);
             CHECK(set.points == sequential_set<float>(box));
             CHECK(set.points == plain_set(box));
             CHECK(smallest_distance2(box, set) >= box.min_distance * box.min_distance);
@@ -336,7 +336,7 @@ TEST_SUITE("boxes") {
         for (const double distance : {1.8, 1e3, 1e300}) {
             BoxParams box = unit_box(3, 10, false);
             box.min_distance = distance;
-            const std::vector<double> set = sample(box).points;
+            const std::vector<double> set = sample_box(box).points;
             CHECK(set.size() == 3);
             const auto candidates = ref::draw_in_box(box).points;
             CHECK(set == coordinates(box, std::span(candidates).first(1)));
@@ -348,7 +348,7 @@ TEST_SUITE("boxes") {
             const BoxParams box = unit_box(n, 700, true);
             const auto want = sequential_set<float>(box);
             const auto same = [&](const RunnerOptions& options) {
-                return sample(box, options).points == want;
+                return sample_box(box, options).points == want;
             };
             for (const std::uint32_t slots : {kLeastSlots, kLeastSlots + 1, 1000u}) {
                 RunnerOptions options;
@@ -388,7 +388,7 @@ TEST_SUITE("boxes") {
                     CAPTURE(at_once);
                     RunnerOptions options;
                     options.plan.stages = at_once;
-                    const SampleSet set = sample(box, options);
+                    const SampleSet set = sample_box(box, options);
                     CHECK(set.report.chunks == (stages + at_once - 1) / at_once);
                     CHECK(set.points == want);
                 }
@@ -404,7 +404,7 @@ TEST_SUITE("boxes") {
         tight.plan.slots = 30;
         tight.plan.list_capacity = 4;
         tight.plan.sample_capacity = 31;
-        const SampleSet set = sample(box, tight);
+        const SampleSet set = sample_box(box, tight);
         CHECK(set.report.regrown > 0);
         CHECK(set.report.plan.sample_capacity > 31);
         CHECK(set.points == sequential_set<float>(box));
@@ -417,7 +417,7 @@ TEST_SUITE("boxes") {
         tight.plan.slots = 30;
         tight.plan.sample_capacity = 31;
         tight.pool_bytes = 1u << 16;
-        const SampleSet set = sample(box, tight);
+        const SampleSet set = sample_box(box, tight);
         CHECK(set.report.regrown > 0);
         CHECK(set.report.plan.sample_capacity > 31);
         CHECK(set.points == sequential_set<float>(box));
@@ -428,7 +428,7 @@ TEST_SUITE("boxes") {
     TEST_CASE("crowds of candidates in every cell") {
         BoxParams box = unit_box(2, 12, true);
         box.pool_ratio = 10000;
-        const SampleSet set = sample(box);
+        const SampleSet set = sample_box(box);
         CHECK(set.report.tested / set.report.disks > 2000);
         CHECK(set.report.most_conflicts > 65535 / 6);
         CHECK(set.points == sequential_set<float>(box));
@@ -439,30 +439,30 @@ TEST_SUITE("boxes") {
             CAPTURE(dimension);
             BoxParams box = unit_box(dimension, 150, dimension == 3, 4);
             box.throws = 1'000;
-            const SampleSet few = sample(box);
+            const SampleSet few = sample_box(box);
             CHECK(few.points == sequential_set<float>(box));
             CHECK(few.report.candidates == 1'000);
             box.throws = 20'000;
-            const SampleSet many = sample(box);
+            const SampleSet many = sample_box(box);
             CHECK(many.points == sequential_set<float>(box));
             CHECK(many.report.candidates == 20'000);
             CHECK(many.report.chunks > 1);
             CHECK(many.points.size() > few.points.size());
             box.stop_count = static_cast<std::uint32_t>(many.points.size() / dimension / 2);
-            const SampleSet half = sample(box);
+            const SampleSet half = sample_box(box);
             CHECK(half.points == sequential_set<float>(box));
             CHECK(half.points.size() == box.stop_count * dimension);
             CHECK(half.report.candidates < 20'000);
             // And of a pool.
             box.throws = 0;
-            CHECK(sample(box).points == sequential_set<float>(box));
+            CHECK(sample_box(box).points == sequential_set<float>(box));
         }
     }
 
     TEST_CASE("few darts come of few candidates, however many samples there is room for") {
         BoxParams box = unit_box(2, 2.5e6, false, 9);
         box.throws = 200;
-        const SampleSet few = sample(box);
+        const SampleSet few = sample_box(box);
         CHECK(few.points == sequential_set<float>(box));
         CHECK(few.report.candidates == 200);
         CHECK(few.points.size() == 400);
@@ -521,7 +521,7 @@ TEST_SUITE("boxes") {
             tight.plan.list_capacity = 4;
             tight.plan.stages = 1;
             const BoxParams box = unit_box(3, 200, true);
-            const SampleSet set = sample(box, tight, context);
+            const SampleSet set = sample_box(box, tight, context);
             CHECK(set.report.regrown > 0);
             CHECK(set.points == sequential_set<float>(box));
         }

@@ -294,13 +294,13 @@ RunPlan roomy_plan(std::uint32_t slots) {
     return plan;
 }
 
-struct Part {
+struct PoolPart {
     std::uint32_t first, count; ///< Stages.
 };
 
 /// Without parts, all stages at once.
 void step_through_by(DisksBy disks_by, const PreparedMesh& mesh, const SampleParams& params,
-                     const SamplerOptions& options, RunPlan plan, std::vector<Part> parts) {
+                     const SamplerOptions& options, RunPlan plan, std::vector<PoolPart> parts) {
     CAPTURE(disks_by == DisksBy::groups);
     expect(pool_size(mesh, params));
     if (parts.empty()) {
@@ -316,7 +316,7 @@ void step_through_by(DisksBy disks_by, const PreparedMesh& mesh, const SamplePar
     DeviceRun run(mesh, params, plan, options);
     std::vector<gpu::SampleRec> samples;
     Totals totals;
-    for (const Part& part : parts) {
+    for (const PoolPart& part : parts) {
         run.set_stages(part.first, part.count);
         Twin twin(mesh, params, run.plan(), part.first, part.count);
         if (options.events == Events::oldest) {
@@ -334,13 +334,13 @@ void step_through_by(DisksBy disks_by, const PreparedMesh& mesh, const SamplePar
 /// Disks by lanes and by groups.
 void step_through(const PreparedMesh& mesh, const SampleParams& params,
                   const SamplerOptions& options, const RunPlan& plan,
-                  const std::vector<Part>& parts = {}) {
+                  const std::vector<PoolPart>& parts = {}) {
     step_through_by(DisksBy::lanes, mesh, params, options, plan, parts);
     step_through_by(DisksBy::groups, mesh, params, options, plan, parts);
 }
 
 void step_through(const PreparedMesh& mesh, double count, const SamplerOptions& options,
-                  std::uint32_t slots, const std::vector<Part>& parts = {},
+                  std::uint32_t slots, const std::vector<PoolPart>& parts = {},
                   const RadiusField* radii = nullptr) {
     RunPlan plan = roomy_plan(slots);
     plan.trims = options.events == Events::oldest; // The kernels for it here, the others there.

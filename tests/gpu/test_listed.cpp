@@ -20,7 +20,7 @@ namespace {
 constexpr std::uint32_t kOneWeight = 1u << 24;
 
 /// Returns random points, as many in each face, also of masked ones.
-std::vector<ListedCandidate> random_points(const PreparedMesh& mesh, std::size_t count) {
+std::vector<ListedCandidate> random_candidates(const PreparedMesh& mesh, std::size_t count) {
     std::mt19937 random(1);
     const auto below = [&](std::uint32_t end) {
         return static_cast<std::uint32_t>(std::uint64_t{random()} * end >> 32);
@@ -36,7 +36,7 @@ std::vector<ListedCandidate> random_points(const PreparedMesh& mesh, std::size_t
 
 /// Checks that a run decides the candidates as the twin does, also if it has little room.
 void check_as_twin(const PreparedMesh& mesh, const SampleParams& params, std::size_t count) {
-    const auto candidates = random_points(mesh, count);
+    const auto candidates = random_candidates(mesh, count);
     const Domain domain = expect(listed_domain(mesh, params, candidates));
     RunnerOptions narrow;
     narrow.plan.slots = 16;

@@ -54,7 +54,7 @@ Error refusal(const PreparedMesh& mesh, const NeighbourQuery& query,
     return neighbours.error();
 }
 
-std::vector<Sample> samples_of(const std::vector<Point>& points) {
+std::vector<Sample> samples_at_points(const std::vector<Point>& points) {
     std::vector<Sample> samples;
     for (const Point& p : points) {
         samples.push_back({p.face,
@@ -64,7 +64,7 @@ std::vector<Sample> samples_of(const std::vector<Point>& points) {
     return samples;
 }
 
-std::vector<Point> points_of(std::span<const Sample> samples) {
+std::vector<Point> face_points_of(std::span<const Sample> samples) {
     std::vector<Point> points;
     for (const Sample& s : samples) {
         points.push_back({s.face, s.weights[1], s.weights[2]});
@@ -104,7 +104,7 @@ void check_as_twin(const PreparedMesh& mesh, const NeighbourQuery& query,
     ref::Tolerances tolerances = tight_tolerances();
     tolerances.limit = 1.001f;
     GeodesicQuery<double> twin(mesh, query.within, targets, tolerances);
-    const std::vector<Point> sources = points_of(query.sources);
+    const std::vector<Point> sources = face_points_of(query.sources);
     for (std::size_t i = 0; i < sources.size(); ++i) {
         check_row(lists, i, query.within, twin.from(sources[i]),
                   std::min(lists.error, kPrecision * query.within));
@@ -116,13 +116,13 @@ void check_as_twin(const PreparedMesh& mesh, const NeighbourQuery& query,
 Neighbours check_mesh(const PreparedMesh& mesh, double within) {
     std::vector<Sample> sources = expect(vertex_points(mesh)).points;
     REQUIRE(sources.size() == mesh.vertex_count());
-    const std::vector<Point> vertices = points_of(sources);
+    const std::vector<Point> vertices = face_points_of(sources);
     std::vector<Sample> some;
     for (std::size_t i = 0; i < sources.size();
          i += std::max<std::size_t>(1, sources.size() / 20)) {
         some.push_back(sources[i]);
     }
-    const std::vector<Sample> points = samples_of(random_points(mesh, 7, 300));
+    const std::vector<Sample> points = samples_at_points(random_points(mesh, 7, 300));
     some.insert(some.end(), points.begin(), points.begin() + 20);
     NeighbourQuery query;
     query.sources = some;
@@ -132,7 +132,7 @@ Neighbours check_mesh(const PreparedMesh& mesh, double within) {
     CHECK(lists.error < 10 * kPrecision * within);
     query.kind = NeighbourKind::points;
     query.points = points;
-    check_as_twin(mesh, query, points_of(points), found(mesh, query));
+    check_as_twin(mesh, query, face_points_of(points), found(mesh, query));
     return lists;
 }
 
@@ -180,7 +180,7 @@ TEST_SUITE("neighbours") {
             query.sources = std::span(all).first(8);
             const Neighbours lists = found(mesh, query);
             GeodesicOracle oracle(shape);
-            const std::vector<Point> targets = points_of(all);
+            const std::vector<Point> targets = face_points_of(all);
             for (std::size_t i = 0; i < query.sources.size(); ++i) {
                 check_row(lists, i, query.within, oracle.distances(targets[i], targets),
                           kPrecision * query.within);
@@ -214,7 +214,7 @@ TEST_SUITE("neighbours") {
 
     TEST_CASE("each source has a distance of its own") {
         const PreparedMesh knot = prepared(builtin("torus-knot", 8));
-        const std::vector<Sample> sources = samples_of(random_points(knot, 3, 90));
+        const std::vector<Sample> sources = samples_at_points(random_points(knot, 3, 90));
         const double least = std::sqrt(knot.statistics().area / knot.vertex_count());
         std::vector<double> radii;
         for (std::size_t i = 0; i < sources.size(); ++i) {
@@ -224,11 +224,11 @@ TEST_SUITE("neighbours") {
         query.sources = sources;
         query.radii = radii;
         const Neighbours lists = found(knot, query);
-        const std::vector<Point> vertices = points_of(expect(vertex_points(knot)).points);
+        const std::vector<Point> vertices = face_points_of(expect(vertex_points(knot)).points);
         ref::Tolerances tolerances = tight_tolerances();
         GeodesicQuery<double> twin(knot, 11 * least, vertices, tolerances);
         for (std::size_t i = 0; i < sources.size(); ++i) {
-            check_row(lists, i, radii[i], twin.from(points_of(sources)[i]),
+            check_row(lists, i, radii[i], twin.from(face_points_of(sources)[i]),
                       kPrecision * 10 * least);
         }
         check_narrow(knot, query, lists);
@@ -236,7 +236,7 @@ TEST_SUITE("neighbours") {
 
     TEST_CASE("other sources, and only the nearest") {
         const PreparedMesh knot = prepared(builtin("torus-knot", 8));
-        const std::vector<Sample> sources = samples_of(random_points(knot, 5, 200));
+        const std::vector<Sample> sources = samples_at_points(random_points(knot, 5, 200));
         NeighbourQuery query;
         query.sources = sources;
         query.within = std::sqrt(knot.statistics().area) / 4;
@@ -272,7 +272,7 @@ TEST_SUITE("neighbours") {
                              two.triangles[at + 2] + first);
         }
         const PreparedMesh mesh = prepared(two);
-        std::vector<Sample> points = samples_of(random_points(mesh, 5, 40));
+        std::vector<Sample> points = samples_at_points(random_points(mesh, 5, 40));
         std::erase_if(points, [&](const Sample& s) { return s.face >= faces + 60; });
         const std::vector<Sample> sources = expect(vertex_points(mesh)).points;
         NeighbourQuery query;

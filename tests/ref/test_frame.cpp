@@ -146,7 +146,7 @@ std::vector<Point> between(const std::vector<Point>& points, std::uint32_t first
     return some;
 }
 
-bool are_equal(const std::vector<Point>& a, const std::vector<Point>& b) {
+bool are_equal_points(const std::vector<Point>& a, const std::vector<Point>& b) {
     return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const Point& p, const Point& q) {
         return p.face == q.face && p.weight1 == q.weight1 && p.weight2 == q.weight2;
     });
@@ -259,7 +259,7 @@ TEST_CASE("frame: a part in the frame of the whole is sampled as the whole is") 
                 const Part part(both, first, last);
                 const PreparedMesh some = prepared(part.mesh);
                 params.face_keys = part.keys;
-                CHECK(are_equal(samples_in(some, params, frame), between(of_all, first, last)));
+                CHECK(are_equal_points(samples_in(some, params, frame), between(of_all, first, last)));
 
                 const auto domain = Domain::surface(some, params, of_host);
                 REQUIRE_MESSAGE(domain, domain.error().message);
@@ -304,7 +304,7 @@ TEST_CASE("frame: the numbers of faces do not matter where they have keys") {
     }
     CHECK(wrong == 0);
     CHECK(ties > 10);
-    CHECK(are_equal(samples_in(mesh, params, a.frame), samples_in(other, of_other, b.frame)));
+    CHECK(are_equal_points(samples_in(mesh, params, a.frame), samples_in(other, of_other, b.frame)));
 }
 
 TEST_CASE("frame: bytes give the same frame back") {

@@ -32,7 +32,7 @@ void check_against_oracle(const std::string& name, const TestMesh& mesh, std::si
     }
 }
 
-void check_shared(const std::string& name, std::size_t sources) {
+void check_shared_mesh(const std::string& name, std::size_t sources) {
     if (const auto mesh = shared_mesh("meshes/" + name)) {
         check_against_oracle(name, *mesh, sources, 1.0);
     }
@@ -102,19 +102,19 @@ TEST_CASE("random pairs against CGAL: built-in shapes") {
 }
 
 TEST_CASE("random pairs against CGAL: bunny") {
-    check_shared("bunny_1k4.obj", 5);
+    check_shared_mesh("bunny_1k4.obj", 5);
 }
 
 TEST_CASE("random pairs against CGAL: spot") {
-    check_shared("spot_pose_a_6k.obj", 3);
+    check_shared_mesh("spot_pose_a_6k.obj", 3);
 }
 
 TEST_CASE("random pairs against CGAL: tray with slivers") {
-    check_shared("tray_4k5.ply", 3);
+    check_shared_mesh("tray_4k5.ply", 3);
 }
 
 TEST_CASE("random pairs against CGAL: fandisk") {
-    check_shared("fandisk_13k.obj", 2);
+    check_shared_mesh("fandisk_13k.obj", 2);
 }
 
 TEST_CASE("symmetry d(a,b) = d(b,a) and triangle inequality") {

@@ -132,7 +132,7 @@ FanCounts check_fans(const TestMesh& mesh) {
     return counts;
 }
 
-TestMesh flipped(TestMesh mesh) {
+TestMesh with_flipped_faces(TestMesh mesh) {
     for (std::uint32_t f = 0; f < mesh.face_count(); f += 3) {
         std::swap(mesh.triangles[3 * f + 1], mesh.triangles[3 * f + 2]);
     }
@@ -153,7 +153,7 @@ TEST_CASE("fans: closed, open and irregular ones, whatever the orientation") {
         {{{0, 0, 0, 1, 0, 0, 0, 1, 0}, {0, 1, 2}}, {0, 3, 0}}};
     for (const auto& [mesh, expected] : cases) {
         CHECK(check_fans(mesh) == expected);
-        CHECK(check_fans(flipped(mesh)) == expected);
+        CHECK(check_fans(with_flipped_faces(mesh)) == expected);
     }
 }
 
@@ -175,7 +175,7 @@ TEST_CASE("fans: shared meshes") {
             CHECK(found.closed == expected.closed);
             CHECK(found.open == expected.open);
             CHECK(found.irregular == expected.irregular);
-            CHECK(check_fans(flipped(*mesh)) == expected);
+            CHECK(check_fans(with_flipped_faces(*mesh)) == expected);
         }
     }
     if (const auto teapot = shared_mesh("meshes/teapot_6k.obj")) {
@@ -183,7 +183,7 @@ TEST_CASE("fans: shared meshes") {
         CHECK(check_fans(*teapot).irregular == 38);
     }
     if (const auto gear = shared_mesh("meshes/cycloidal_43k.ply")) {
-        CHECK(check_fans(flipped(*gear)) == check_fans(*gear));
+        CHECK(check_fans(with_flipped_faces(*gear)) == check_fans(*gear));
     }
 }
 

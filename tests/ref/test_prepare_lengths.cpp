@@ -36,7 +36,7 @@ Result<PreparedMesh> from_lengths(const Indices& triangles, const Lengths& lengt
     return PreparedMesh::prepare({triangles, lengths, vertex_count});
 }
 
-Error rejection(const Indices& triangles, const Lengths& lengths, std::uint32_t vertex_count = 4) {
+Error rejection_of_lengths(const Indices& triangles, const Lengths& lengths, std::uint32_t vertex_count = 4) {
     const auto result = from_lengths(triangles, lengths, vertex_count);
     REQUIRE(!result);
     CHECK(result.error().message.find('\n') == std::string::npos);
@@ -99,7 +99,7 @@ TEST_CASE("lengths: scale does not matter within the range of double") {
         CHECK(mesh->half_edges()[0].apex_x == doctest::Approx(3 * scale).epsilon(1e-14));
         CHECK(mesh->half_edges()[0].apex_y == doctest::Approx(4 * scale).epsilon(1e-14));
     }
-    CHECK(rejection(kTriangle, {1e-101, 1e-101, 1e-101}).message ==
+    CHECK(rejection_of_lengths(kTriangle, {1e-101, 1e-101, 1e-101}).message ==
           "no face has area: all are degenerate");
 }
 
@@ -139,30 +139,30 @@ TEST_CASE("lengths: what is rejected is named") {
     CHECK(from_lengths(kPair, {3, 4, 5, 5, 4, 3}));
     for (const double bad : {0.0, -1.0, 1e101, std::numeric_limits<double>::quiet_NaN(),
                              std::numeric_limits<double>::infinity()}) {
-        const Error error = rejection(kPair, {3, 4, 5, 5, bad, 3});
+        const Error error = rejection_of_lengths(kPair, {3, 4, 5, 5, bad, 3});
         CHECK(error.status == Status::mesh_rejected);
         CHECK(error.element == 1);
         CHECK(contains(error.message, "face 1 has an edge of length "));
     }
-    const Error open = rejection(kPair, {3, 4, 5, 5, 1, 3});
+    const Error open = rejection_of_lengths(kPair, {3, 4, 5, 5, 1, 3});
     CHECK(open.element == 1);
     CHECK(open.message ==
           "face 1 violates the triangle inequality: its edges have the lengths 5, 1 and 3");
-    const Error torn = rejection(kPair, {3, 4, 5, 5.001, 4, 3});
+    const Error torn = rejection_of_lengths(kPair, {3, 4, 5, 5.001, 4, 3});
     CHECK(torn.element == 0);
     CHECK(torn.message == "faces 0 and 1 disagree about edge 2-0: its length is 5 and 5.001");
     CHECK(from_lengths(kPair, {3, 4, 5, 5 * (1 + 1e-10), 4, 3}));
 
-    const Error range = rejection({0, 1, 4}, {3, 4, 5});
+    const Error range = rejection_of_lengths({0, 1, 4}, {3, 4, 5});
     CHECK(range.element == 0);
     CHECK(range.message == "face 0 names vertex 4, but there are only 4");
-    CHECK(rejection(kPair, {3, 4, 5}).status == Status::invalid_argument);
-    CHECK(rejection({0, 1}, {3, 4}).status == Status::invalid_argument);
-    CHECK(contains(rejection({}, {}).message, "no faces"));
-    CHECK(contains(rejection(kTriangle, {1, 2, 3}).message, "no face has area"));
-    CHECK(contains(rejection({0, 0, 1}, {1, 1, 1}).message, "no face has area"));
+    CHECK(rejection_of_lengths(kPair, {3, 4, 5}).status == Status::invalid_argument);
+    CHECK(rejection_of_lengths({0, 1}, {3, 4}).status == Status::invalid_argument);
+    CHECK(contains(rejection_of_lengths({}, {}).message, "no faces"));
+    CHECK(contains(rejection_of_lengths(kTriangle, {1, 2, 3}).message, "no face has area"));
+    CHECK(contains(rejection_of_lengths({0, 0, 1}, {1, 1, 1}).message, "no face has area"));
     // Above a vertex's number the kernels keep two flags.
-    CHECK(contains(rejection(kTriangle, {1, 1, 1}, (1u << 30) + 1).message, "too large"));
+    CHECK(contains(rejection_of_lengths(kTriangle, {1, 1, 1}, (1u << 30) + 1).message, "too large"));
 }
 
 TEST_CASE("lengths: a face that names a vertex twice takes no part, whatever its lengths") {

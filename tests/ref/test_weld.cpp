@@ -17,7 +17,7 @@ using namespace geodisk::test;
 namespace {
 
 /// Every face with vertices of its own.
-TestMesh soup_of(const TestMesh& mesh) {
+TestMesh loose_triangles_of(const TestMesh& mesh) {
     TestMesh soup{{}, {}, mesh.dimension};
     for (const std::uint32_t v : mesh.triangles) {
         const auto first = mesh.positions.begin() + std::ptrdiff_t{v} * mesh.dimension;
@@ -71,7 +71,7 @@ std::vector<std::uint32_t> by_all_pairs(const TestMesh& mesh, double epsilon) {
 TEST_CASE("weld: a soup becomes the mesh it was made of") {
     for (const TestMesh& mesh : {builtin("icosphere", 3), builtin("moebius", 4),
                                  builtin("klein-bottle", 6), flat_grid(5, 4, 1, 1)}) {
-        const TestMesh soup = soup_of(mesh);
+        const TestMesh soup = loose_triangles_of(mesh);
         const MeshStatistics open = statistics_of(soup, soup.triangles);
         const MeshStatistics whole = prepared(mesh).statistics();
         CHECK(open.components == mesh.face_count());

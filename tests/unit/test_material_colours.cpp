@@ -22,7 +22,7 @@ namespace {
 
 using Colour = std::array<double, 3>;
 
-constexpr Colour kRed{1, 0, 0}, kGreen{0, 1, 0}, kBlue{0, 0, 1}, kWhite{1, 1, 1};
+constexpr Colour kRed{1, 0, 0}, kGreen{0, 1, 0}, kBlue{0, 0, 1}, kWhiteColour{1, 1, 1};
 
 /// Red and green above, blue and white below.
 const std::string kImage =
@@ -200,7 +200,7 @@ TEST_CASE("OBJ faces have the colours of their materials") {
     CHECK(warning_of(mesh, "no_material").count == 0);
     CHECK(warning_of(mesh, "no_texture_coordinates").count == 0);
     check_colours(mesh, 0, {{0.25, 0.5, 1}, {0.25, 0.5, 1}, {0.25, 0.5, 1}});
-    check_colours(mesh, 1, {kRed, kGreen, kWhite});
+    check_colours(mesh, 1, {kRed, kGreen, kWhiteColour});
     check_colours(mesh, 2, {{0.5, 0, 0}, {0, 0.5, 0}, {0.5, 0.5, 0.5}});
     // Between the centres of pixels, as with one image for all.
     SampleRow row;
@@ -220,17 +220,17 @@ TEST_CASE("options of map_Kd scale, move and clamp texture coordinates") {
                       expected);
     };
     colours("-o 0.5 a.png", kFace, {kGreen, kRed, kBlue});
-    colours("-o 0.5 0.5 0 a.png", kFace, {kWhite, kBlue, kRed});
+    colours("-o 0.5 0.5 0 a.png", kFace, {kWhiteColour, kBlue, kRed});
     // At (0.25, 0.75), (0.75, 0.75) and (0.75, 0.25): u stays, 3 v - 1.5 is 0.75 or -0.75.
-    colours("-s 1 3 -o 0 -1.5 a.png", kFace, {kRed, kGreen, kWhite});
+    colours("-s 1 3 -o 0 -1.5 a.png", kFace, {kRed, kGreen, kWhiteColour});
     colours("-s -1 1 1 a.png", kFace, {kGreen, kRed, kBlue});
     // At (1.75, -0.25): repeated at (0.75, 0.75), clamped to the lower right.
     colours("a.png", "f 1/4 2/4 3/4", {kGreen, kGreen, kGreen});
-    colours("-clamp on a.png", "f 1/4 2/4 3/4", {kWhite, kWhite, kWhite});
+    colours("-clamp on a.png", "f 1/4 2/4 3/4", {kWhiteColour, kWhiteColour, kWhiteColour});
     colours("-clamp off -blendu on -texres 64 a.png", "f 1/4 2/4 3/4", {kGreen, kGreen, kGreen});
     const MeshFile mesh =
         mesh_of(Obj{obj_of({"usemtl m", kFace}), "newmtl m\nmap_Kd -mm 0.2 0.5 -t 1 1 1 a.png\n"});
-    check_colours(mesh, 0, {kRed, kGreen, kWhite});
+    check_colours(mesh, 0, {kRed, kGreen, kWhiteColour});
     CHECK(warning_of(mesh, "ignored_map_option").count == 2);
     CHECK(contains(warning_of(mesh, "ignored_map_option").message, "material 'm': -mm"));
 }
@@ -247,7 +247,7 @@ TEST_CASE("MTL files and their images are found beside the file that names them"
                                   "usemtl o", kFace},
                                  "in side\\the paint.mtl"));
     const MeshFile mesh = read_with_materials(folder / "a.obj");
-    check_colours(mesh, 0, {kRed, kGreen, kWhite});
+    check_colours(mesh, 0, {kRed, kGreen, kWhiteColour});
     check_colours(mesh, 1, {kBlue, kBlue, kBlue});
     check_colours(mesh, 2, {kGreen, kGreen, kGreen});
     // Several files in one line.
@@ -262,7 +262,7 @@ TEST_CASE("OBJ faces without material or texture coordinates are counted") {
     const MeshFile mesh = mesh_of(Obj{obj_of({"f 1 2 3", "usemtl nowhere", "f 1 2 3 4", "usemtl m",
                                               "f 2 3 4", "f 1/1 2/2 4", "f 1/1 3/2 4/3"}),
                                       "newmtl m\nKd 0.5 1 1\nmap_Kd a.png\n"});
-    const std::vector<Colour> white(3, kWhite);
+    const std::vector<Colour> white(3, kWhiteColour);
     check_colours(mesh, 0, white);
     check_colours(mesh, 1, white);
     check_colours(mesh, 2, white); // The other half of the quad.
@@ -335,14 +335,14 @@ TEST_CASE("glTF faces have the colours of their materials") {
     CHECK(mesh.materials->images.size() == 1);
     const Colour plain{encoded(0.25), encoded(0.5), 1};
     check_colours(mesh, 0, {plain, plain, plain});
-    check_colours(mesh, 1, {kRed, kGreen, kWhite});
+    check_colours(mesh, 1, {kRed, kGreen, kWhiteColour});
     check_colours(mesh, 2,
                   {{encoded(0.5), 0, 0},
                    {0, encoded(0.002), 0},
                    {encoded(0.5), encoded(0.002), encoded(0.5)}});
-    check_colours(mesh, 3, {kWhite, kWhite, kWhite});
+    check_colours(mesh, 3, {kWhiteColour, kWhiteColour, kWhiteColour});
     check_colours(mesh, 4, {kRed, {0, encoded(0.5), 0}, {1, encoded(0.5), 1}});
-    check_colours(mesh, 5, {kWhite, kWhite, kWhite});
+    check_colours(mesh, 5, {kWhiteColour, kWhiteColour, kWhiteColour});
     CHECK(contains(warning_of(mesh, "no_material").message, "1 face without material is white"));
     // A factor multiplies light, not its code: 128 is 0.2158605 of the light.
     const TemporaryFolder folder;
@@ -360,7 +360,7 @@ TEST_CASE("images of glTF are files, data and views") {
           std::string(R"({"bufferView": 4, "mimeType": "image/png"})"),
           R"({"uri": "data:image/png;base64,)" + base64(kImage) + "\"}"}) {
         gltf.images = "[" + image + "]";
-        check_colours(mesh_of(gltf), 0, {kRed, kGreen, kWhite});
+        check_colours(mesh_of(gltf), 0, {kRed, kGreen, kWhiteColour});
     }
     gltf.images = R"([{"uri": "a.jpg"}])";
     const TemporaryFolder folder;
@@ -379,15 +379,15 @@ TEST_CASE("texture coordinates of glTF are of the set and transform of the mater
         colours(R"(, "extensions": {"KHR_texture_transform": {)" + transform + "}}", expected);
     };
     moved(R"("offset": [0.5, 0])", {kGreen, kRed, kBlue});
-    moved(R"("offset": [0, 0.5])", {kBlue, kWhite, kGreen});
-    moved(R"("scale": [2, 2], "texCoord": 1)", {kRed, kGreen, kWhite});
+    moved(R"("offset": [0, 0.5])", {kBlue, kWhiteColour, kGreen});
+    moved(R"("scale": [2, 2], "texCoord": 1)", {kRed, kGreen, kWhiteColour});
     colours(R"(, "texCoord": 1, "extensions": {"KHR_texture_transform": {"scale": [2, 2]}})",
-            {kRed, kGreen, kWhite});
+            {kRed, kGreen, kWhiteColour});
     // A quarter turn from u to -v: (u, v) becomes (v, -u), with the offset (v, 1 - u).
     moved(R"("rotation": 1.5707963267948966, "offset": [0, 1])", {kBlue, kRed, kGreen});
     // First scaled: (u, v) becomes (3 v, 1 - u), and 3 v is 0.75 or 2.25.
     moved(R"("rotation": 1.5707963267948966, "offset": [0, 1], "scale": [1, 3])",
-          {kWhite, kGreen, kRed});
+          {kWhiteColour, kGreen, kRed});
     // Each primitive has the set of its own material, and no other needs it.
     Gltf gltf;
     gltf.materials =
@@ -396,9 +396,9 @@ TEST_CASE("texture coordinates of glTF are of the set and transform of the mater
             {"pbrMetallicRoughness": {"baseColorTexture": {"index": 0, "texCoord": 3}}}])";
     gltf.primitives = {R"("material": 1)", R"("material": 0)", R"("material": 2)"};
     const MeshFile mesh = mesh_of(gltf);
-    check_colours(mesh, 0, {kRed, kGreen, kWhite});
+    check_colours(mesh, 0, {kRed, kGreen, kWhiteColour});
     check_colours(mesh, 1, {kRed, kBlue, {0.5, 0, 0.5}});
-    check_colours(mesh, 2, {kWhite, kWhite, kWhite});
+    check_colours(mesh, 2, {kWhiteColour, kWhiteColour, kWhiteColour});
     CHECK(warning_of(mesh, "no_texture_coordinates").count == 1);
 }
 

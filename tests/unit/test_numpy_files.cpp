@@ -51,7 +51,7 @@ std::string npz(const std::vector<std::pair<std::string, std::string>>& arrays) 
     return bytes_of(folder / "a.npz");
 }
 
-void check_refused(std::string_view name, std::string_view bytes, std::string_view part) {
+void check_array_refused(std::string_view name, std::string_view bytes, std::string_view part) {
     const TemporaryFolder folder;
     check_fails(ExitCode::bad_input, part, [&] { read_samples(folder.write(name, bytes)); });
 }
@@ -113,42 +113,42 @@ TEST_CASE("samples in arrays of numpy are whole, whoever wrote them") {
     arrays[3].second = npy<double>("<f8", "(2,)", {.25, .125});
     CHECK(read_samples(folder.write("b.npz", npz(arrays))).rows[1].radius == .125);
     arrays[1].second = npy<std::int64_t>("<i8", "(1,)", {7});
-    check_refused("c.npz", npz(arrays), "array 'face_index' has 1 rows, but there are 2 samples");
+    check_array_refused("c.npz", npz(arrays), "array 'face_index' has 1 rows, but there are 2 samples");
     arrays[1].second = npy<std::int64_t>("<i8", "(2,)", {7, -1});
-    check_refused("c.npz", npz(arrays), "row 1: face_index is out of range");
+    check_array_refused("c.npz", npz(arrays), "row 1: face_index is out of range");
     arrays.erase(arrays.begin() + 2);
-    check_refused("c.npz", npz(arrays), "no column bary_u");
+    check_array_refused("c.npz", npz(arrays), "no column bary_u");
 }
 
 TEST_CASE("files of numpy that hold no samples are refused with what they hold") {
     const std::string rows = npy("<f8", "(2, 3)", kRows);
-    check_refused("a.npz", "", "is no file of numpy");
-    check_refused("a.npy", "1 2 3\n", "is no file of numpy");
-    check_refused("a.npy", npy("<f8", "(3, 2)", kRows), "no column z");
-    check_refused("a.npy", npy("<f8", "(6,)", kRows), "but float64 (6,); save the positions as");
-    check_refused("a.npy", npy<double>("<f8", "(1, 9)", std::vector<double>(9)),
+    check_array_refused("a.npz", "", "is no file of numpy");
+    check_array_refused("a.npy", "1 2 3\n", "is no file of numpy");
+    check_array_refused("a.npy", npy("<f8", "(3, 2)", kRows), "no column z");
+    check_array_refused("a.npy", npy("<f8", "(6,)", kRows), "but float64 (6,); save the positions as");
+    check_array_refused("a.npy", npy<double>("<f8", "(1, 9)", std::vector<double>(9)),
                   "its points are float64 (1, 9); save them as float64 of shape (n, 3)");
-    check_refused("a.npy", npy<std::uint16_t>("<f2", "(2, 3)", {0, 0, 0, 0, 0, 0}),
+    check_array_refused("a.npy", npy<std::uint16_t>("<f2", "(2, 3)", {0, 0, 0, 0, 0, 0}),
                   "its points are <f2 (2, 3); save them as float64");
-    check_refused("a.npy", npy("<f8", "(2, 4)", kRows), "fewer values than its shape says");
-    check_refused("a.npy", npy("<f8", "(2, 9223372036854775808, 4)", kRows), "fewer values");
-    check_refused("a.npy", npy("<f8", "(2, x)", kRows), "which is none");
-    check_refused("a.npy",
+    check_array_refused("a.npy", npy("<f8", "(2, 4)", kRows), "fewer values than its shape says");
+    check_array_refused("a.npy", npy("<f8", "(2, 9223372036854775808, 4)", kRows), "fewer values");
+    check_array_refused("a.npy", npy("<f8", "(2, x)", kRows), "which is none");
+    check_array_refused("a.npy",
                   npy<double>("<f8", "(1, 3)", {1, std::numeric_limits<double>::infinity(), 0}),
                   "row 0: y");
     std::string records = rows;
     records.replace(records.find("'<f8'"), 5, "[('x'");
-    check_refused("a.npy", records, "has records instead of numbers");
-    check_refused("a.npy", rows.substr(0, 20), "ends within its header");
-    check_refused("a.npz", npz({{"a", rows}, {"b", rows}}),
+    check_array_refused("a.npy", records, "has records instead of numbers");
+    check_array_refused("a.npy", rows.substr(0, 20), "ends within its header");
+    check_array_refused("a.npz", npz({{"a", rows}, {"b", rows}}),
                   "several of shape (n, 3), but a float64 (2, 3), b float64 (2, 3)");
-    check_refused("a.npz", npz({}), "is a ZIP archive without arrays of numpy");
+    check_array_refused("a.npz", npz({}), "is a ZIP archive without arrays of numpy");
 }
 
 TEST_CASE("damaged archives are refused") {
     const std::string good = npz({{"points", npy("<f8", "(2, 3)", kRows)}});
     for (std::size_t size = 4; size < good.size(); ++size) {
-        check_refused("a.npz", good.substr(0, size), "is no whole ZIP archive");
+        check_array_refused("a.npz", good.substr(0, size), "is no whole ZIP archive");
     }
     const TemporaryFolder folder;
     const std::size_t local = 30 + std::string("points.npy").size();

@@ -18,7 +18,7 @@ using namespace geodisk::tools;
 
 namespace {
 
-const SampleHeader kHeader{{{"version", "geodisk 0.1.0"},
+const SampleHeader kFormatHeader{{{"version", "geodisk 0.1.0"},
                             {"mesh", "caf\xc3\xa9.obj"},
                             {"lift", "normals:1"},
                             {"lift", "attribute:q:2"},
@@ -26,7 +26,7 @@ const SampleHeader kHeader{{{"version", "geodisk 0.1.0"},
                             {"seed", "18446744073709551615"},
                             {"device", "not \xff UTF-8"}}};
 
-std::vector<SampleRow> some_rows(double offset, double radius = 0) {
+std::vector<SampleRow> rows_of_format(double offset, double radius = 0) {
     std::vector<SampleRow> rows;
     for (std::uint32_t i = 0; i < 5; ++i) {
         SampleRow row;
@@ -85,9 +85,9 @@ Array array_of(const std::string& npy) {
 std::string written(const std::string& name, const std::vector<SampleRow>& rows,
                     std::uint32_t dimension = 3, bool is_text = false) {
     const TemporaryFolder folder;
-    write_samples(folder / name, kHeader, rows, is_text, dimension);
+    write_samples(folder / name, kFormatHeader, rows, is_text, dimension);
     std::string bytes = bytes_of(folder / name);
-    write_samples(folder / name, kHeader, rows, is_text, dimension);
+    write_samples(folder / name, kFormatHeader, rows, is_text, dimension);
     CHECK(bytes_of(folder / name) == bytes); // Whenever it is written.
     CHECK(folder.file_count() == 1);
     return bytes;
@@ -97,7 +97,7 @@ std::string written_box(const std::string& name, const std::vector<SampleRow>& r
                         std::uint32_t dimension) {
     const TemporaryFolder folder;
     AtomicFile file(folder / name);
-    write_box_samples(file, sample_target(folder / name), kHeader, rows, dimension);
+    write_box_samples(file, sample_target(folder / name), kFormatHeader, rows, dimension);
     file.commit();
     return bytes_of(folder / name);
 }
@@ -105,7 +105,7 @@ std::string written_box(const std::string& name, const std::vector<SampleRow>& r
 } // namespace
 
 TEST_CASE("OBJ has points and their normals") {
-    const std::vector<SampleRow> rows = some_rows(0);
+    const std::vector<SampleRow> rows = rows_of_format(0);
     const std::vector<std::string> lines = lines_of(written("a.obj", rows));
     REQUIRE(lines.size() == 7 + 3 * 5);
     CHECK(lines[0] == "# version: geodisk 0.1.0");
@@ -113,13 +113,13 @@ TEST_CASE("OBJ has points and their normals") {
     CHECK(lines[12] == "vn 1 0 0");
     CHECK(lines[17] == "p 1");
     CHECK(lines[21] == "p 5");
-    const std::string box = written_box("a.obj", some_rows(0), 2);
+    const std::string box = written_box("a.obj", rows_of_format(0), 2);
     CHECK_FALSE(contains(box, "vn "));
     CHECK(contains(box, "p 5\n"));
 }
 
 TEST_CASE("PCD tells its fields, in text and binary") {
-    const std::vector<SampleRow> rows = some_rows(0, 0.5);
+    const std::vector<SampleRow> rows = rows_of_format(0, 0.5);
     const std::string text = written("a.pcd", rows, 3, true);
     CHECK(text.starts_with("# .PCD v0.7 - Point Cloud Data file format\n# version: geodisk"));
     const std::string fields =
@@ -142,7 +142,7 @@ TEST_CASE("PCD tells its fields, in text and binary") {
         CHECK(value_at<double>(binary, at + 40) == rows[i].radius);
     }
     // Others read x y z as floats, so these are kept about a point that the header names.
-    const std::vector<SampleRow> far = some_rows(1e7);
+    const std::vector<SampleRow> far = rows_of_format(1e7);
     for (const bool is_text : {false, true}) {
         const std::string bytes = written("b.pcd", far, 3, is_text);
         CHECK(contains(bytes, "SIZE 4 4 4 4"));
@@ -157,12 +157,12 @@ TEST_CASE("PCD tells its fields, in text and binary") {
     CHECK(precision_note(sample_target("b.pcd"), far, 3));
     CHECK_FALSE(precision_note(sample_target("b.pcd"), rows, 3));
     CHECK_FALSE(precision_note(sample_target("b.ply"), far, 3));
-    CHECK(contains(written("b.pcd", some_rows(0), 4), "FIELDS x y z x0 x1 x2 x3 face_index"));
-    CHECK(contains(written_box("b.pcd", some_rows(0), 2), "FIELDS x y z\nSIZE 4 4 4\n"));
+    CHECK(contains(written("b.pcd", rows_of_format(0), 4), "FIELDS x y z x0 x1 x2 x3 face_index"));
+    CHECK(contains(written_box("b.pcd", rows_of_format(0), 2), "FIELDS x y z\nSIZE 4 4 4\n"));
 }
 
 TEST_CASE("distances in a box that a float rounds are told") {
-    const std::vector<SampleRow> rows = some_rows(0);
+    const std::vector<SampleRow> rows = rows_of_format(0);
     const auto note = rounding_note(sample_target("b.pcd"), rows, 2, 1e-3);
     REQUIRE(note);
     CHECK(contains(*note, ".pcd holds floats, which change distances by up to "));
@@ -178,7 +178,7 @@ TEST_CASE("numbers that a float does not hold are told") {
 #endif
          }) {
         for (const double scale : {1e39, 1e-40}) {
-            std::vector<SampleRow> rows = some_rows(0);
+            std::vector<SampleRow> rows = rows_of_format(0);
             for (SampleRow& row : rows) {
                 for (double& x : row.position) {
                     x *= scale;
@@ -191,7 +191,7 @@ TEST_CASE("numbers that a float does not hold are told") {
 }
 
 TEST_CASE("NPZ has arrays of numpy") {
-    const std::vector<SampleRow> rows = some_rows(0, 0.5);
+    const std::vector<SampleRow> rows = rows_of_format(0, 0.5);
     const auto files = files_of_zip(written("a.npz", rows));
     CHECK(files.size() == 8);
     const auto check = [&](const std::string& name, const std::string& type,
@@ -236,14 +236,14 @@ TEST_CASE("NPZ has what coordinates there are") {
     const auto points_of = [](const std::map<std::string, std::string>& files) {
         return array_of(files.at("points.npy")).description;
     };
-    const auto five = files_of_zip(written("a.npz", some_rows(0), 5));
+    const auto five = files_of_zip(written("a.npz", rows_of_format(0), 5));
     CHECK(contains(points_of(five), "(5, 5)"));
     CHECK_FALSE(five.contains("normals.npy"));
     CHECK_FALSE(five.contains("radius.npy"));
-    const auto none = files_of_zip(written("a.npz", some_rows(0), 0));
+    const auto none = files_of_zip(written("a.npz", rows_of_format(0), 0));
     CHECK_FALSE(none.contains("points.npy"));
     CHECK(none.contains("barycentric.npy"));
-    const auto box = files_of_zip(written_box("a.npz", some_rows(0), 2));
+    const auto box = files_of_zip(written_box("a.npz", rows_of_format(0), 2));
     CHECK(contains(points_of(box), "(5, 2)"));
     CHECK_FALSE(box.contains("face_index.npy"));
     CHECK(contains(points_of(files_of_zip(written("a.npz", {}))), "(0, 3)"));
@@ -262,7 +262,7 @@ TEST_CASE("glTF has points with attributes") {
     const double offset = 1e7;
     for (const std::string name : {"a.glb", "a.gltf"}) {
         CAPTURE(name);
-        const std::vector<SampleRow> rows = some_rows(offset, 0.5);
+        const std::vector<SampleRow> rows = rows_of_format(offset, 0.5);
         const std::string bytes = written(name, rows);
         tinygltf::Model model;
         tinygltf::TinyGLTF reader;
@@ -312,10 +312,10 @@ TEST_CASE("glTF has points with attributes") {
             CHECK(static_cast<double>(radii[i]) == rows[i].radius);
         }
     }
-    CHECK_FALSE(contains(written("b.gltf", some_rows(0)), "translation"));
-    CHECK_FALSE(contains(written_box("b.gltf", some_rows(0), 2), "NORMAL"));
+    CHECK_FALSE(contains(written("b.gltf", rows_of_format(0)), "translation"));
+    CHECK_FALSE(contains(written_box("b.gltf", rows_of_format(0), 2), "NORMAL"));
     CHECK_FALSE(contains(written("b.gltf", {}), "accessors"));
-    std::vector<SampleRow> far = some_rows(0);
+    std::vector<SampleRow> far = rows_of_format(0);
     far[3].face = (1u << 24) + 1;
     check_fails(ExitCode::usage, "up to 16,777,216", [&] { written("b.glb", far); });
 }

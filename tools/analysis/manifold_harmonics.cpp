@@ -115,9 +115,9 @@ class Inverse {
 };
 
 /// What a slice's Lanczos runs have found.
-class Found {
+class FoundModes {
   public:
-    Found(const Laplacian& laplacian, const Slice& slice)
+    FoundModes(const Laplacian& laplacian, const Slice& slice)
         : laplacian_(laplacian), slice_(slice),
           functions_(laplacian.mass.rows(), static_cast<Index>(slice.count)) {}
 
@@ -183,7 +183,7 @@ HarmonicBand solve_slice(const Laplacian& laplacian, Factors& factors, const Sli
     const double shift = factors.factorize((slice.low + slice.high) / 2);
     Spectra::SparseSymMatProd<double> mass(laplacian.mass);
     Inverse inverse(factors, laplacian, watch);
-    Found found(laplacian, slice);
+    FoundModes found(laplacian, slice);
     while (found.count() < slice.count) {
         const std::size_t known = found.count(), wanted = slice.count - known;
         const std::size_t krylov = std::min<std::size_t>(krylov_size(wanted), laplacian.size());

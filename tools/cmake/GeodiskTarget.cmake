@@ -22,6 +22,9 @@ function(geodisk_target name)
         endif()
         geodisk_harden(${name})
     endif()
+    if(GEODISK_UNITY)
+        geodisk_unity(${name})
+    endif()
 endfunction()
 
 # geodisk_harden(NAME): programs read files from anywhere. What compilers and linkers can do against
@@ -43,23 +46,34 @@ if(NOT MSVC)
     set(geodisk_quick_options "$<$<CONFIG:Release>:-O1>")
 endif()
 
-# geodisk_compile_quickly(SOURCE...): for sources that hardly compute and whose headers take long to
-# optimize, such as options.
-function(geodisk_compile_quickly)
-    set_source_files_properties(${ARGN} PROPERTIES COMPILE_OPTIONS "${geodisk_quick_options}")
+# geodisk_compile_quickly(NAME): for a target that hardly computes itself and whose headers take long to
+# optimize.
+function(geodisk_compile_quickly name)
+    target_compile_options(${name} PRIVATE ${geodisk_quick_options})
 endfunction()
 
-option(GEODISK_PRECOMPILE "Compile the standard headers once per target: builds all in less time, but finds no forgotten #include" OFF)
+option(GEODISK_UNITY "Compile sources of a folder together: a whole build takes a third of the time, but no forgotten #include is found" OFF)
 
-# geodisk_precompile(NAME): for a target of many sources.
-function(geodisk_precompile name)
-    if(GEODISK_PRECOMPILE)
-        target_precompile_headers(${name} PRIVATE
-            "$<$<COMPILE_LANGUAGE:CXX>:${CMAKE_CURRENT_FUNCTION_LIST_DIR}/standard_headers.hpp>")
-        # GCC 12 warns of std::string itself, whose header it no longer knows to be the system's.
-        if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-            target_compile_options(${name} PRIVATE
-                -Wno-array-bounds -Wno-restrict -Wno-stringop-overflow -Wno-stringop-overread)
+# geodisk_unity(NAME): joins the C++ sources of a target, up to eight of one folder at a time. Names in
+# anonymous namespaces must therefore differ within a folder.
+function(geodisk_unity name)
+    get_target_property(sources ${name} SOURCES)
+    list(FILTER sources INCLUDE REGEX "\\.cpp$")
+    foreach(source IN LISTS sources)
+        get_filename_component(folder "${source}" DIRECTORY)
+        string(MAKE_C_IDENTIFIER "${folder}" folder)
+        if(NOT DEFINED count_${folder})
+            set(count_${folder} 0)
         endif()
+        math(EXPR group "${count_${folder}} / 8")
+        math(EXPR count_${folder} "${count_${folder}} + 1")
+        set_property(SOURCE "${source}" PROPERTY UNITY_GROUP "${folder}_${group}")
+    endforeach()
+    set_target_properties(${name} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+    # GCC warns of types in anonymous namespaces wherever their source is included by another file, and
+    # GCC 12 of std::string itself where much is inlined.
+    if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+        target_compile_options(${name} PRIVATE
+            $<$<COMPILE_LANGUAGE:CXX>:-Wno-subobject-linkage;-Wno-restrict>)
     endif()
 endfunction()

@@ -31,12 +31,12 @@ class Fnv1a {
     std::uint64_t hash_ = 0xcbf29ce484222325;
 };
 
-constexpr std::string_view kDigits = "0123456789abcdef";
+constexpr std::string_view kHexDigits = "0123456789abcdef";
 
 std::string hexadecimal(std::uint64_t number) {
     std::string digits;
     for (int shift = 60; shift >= 0; shift -= 4) {
-        digits += kDigits[number >> shift & 0xf];
+        digits += kHexDigits[number >> shift & 0xf];
     }
     return digits;
 }
@@ -85,7 +85,7 @@ void check_digest(const Path& path, const SampleHeader& header) {
         return;
     }
     const std::string_view text = trimmed(*digest);
-    if (text.size() != 16 || text.find_first_not_of(kDigits) != std::string_view::npos) {
+    if (text.size() != 16 || text.find_first_not_of(kHexDigits) != std::string_view::npos) {
         fail_input(path, "its header has " +
                              (text.empty() ? "an empty digest" : "the digest " + in_quotes(text)) +
                              ", not one of 16 hexadecimal digits; give the file as geodisk wrote "

@@ -19,7 +19,7 @@
 namespace geodisk::tools {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 std::filesystem::path cache_folder() {
     const auto variable = [](const char* name) {
@@ -41,7 +41,7 @@ std::filesystem::path cache_folder() {
 constexpr const char* kRemedy = "; run geodisk_bench --tune again, or remove the file";
 
 /// The value of `key` in the file `path`. Throws UserError(bad_input).
-const Json& value_of(const Path& path, const Json& document, const char* key) {
+const OrderedJson& value_of(const Path& path, const OrderedJson& document, const char* key) {
     if (!document.is_object()) {
         fail_input(path, std::string("is not as geodisk_bench --tune writes it") + kRemedy);
     }
@@ -51,26 +51,26 @@ const Json& value_of(const Path& path, const Json& document, const char* key) {
     return document[key];
 }
 
-[[noreturn]] void fail_value(const Path& path, const char* key, const Json& value,
+[[noreturn]] void fail_value(const Path& path, const char* key, const OrderedJson& value,
                              const std::string& wanted) {
     fail_input(path, std::string(key) + ": " + in_quotes(json_text(value, -1)) + " is not " +
                          wanted + kRemedy);
 }
 
 /// Takes no number that a conversion would change, nor anything else.
-std::uint32_t number_of(const Path& path, const Json& document, const char* key) {
+std::uint32_t number_of(const Path& path, const OrderedJson& document, const char* key) {
     constexpr std::uint64_t kMost = std::numeric_limits<std::uint32_t>::max();
-    const Json& value = value_of(path, document, key);
-    const auto* const number = value.get_ptr<const Json::number_unsigned_t*>();
+    const OrderedJson& value = value_of(path, document, key);
+    const auto* const number = value.get_ptr<const OrderedJson::number_unsigned_t*>();
     if (number == nullptr || *number > kMost) {
         fail_value(path, key, value, "a whole number of 0 to " + exact_text(kMost));
     }
     return static_cast<std::uint32_t>(*number);
 }
 
-Reads reads_of(const Path& path, const Json& document) {
-    const Json& value = value_of(path, document, "reads");
-    const auto* const name = value.get_ptr<const Json::string_t*>();
+Reads reads_of(const Path& path, const OrderedJson& document) {
+    const OrderedJson& value = value_of(path, document, "reads");
+    const auto* const name = value.get_ptr<const OrderedJson::string_t*>();
     const std::optional<Reads> reads = name != nullptr ? reads_named(*name) : std::nullopt;
     if (!reads) {
         fail_value(path, "reads", value, "one of auto, storage and texels");
@@ -106,7 +106,7 @@ std::optional<Tuning> load_tuning(const DeviceReport& device) {
         return std::nullopt;
     }
     // Without exceptions: a document that is none holds no key.
-    const Json document = Json::parse(read_text(path), nullptr, false);
+    const OrderedJson document = OrderedJson::parse(read_text(path), nullptr, false);
     Tuning tuning;
     tuning.local_size = number_of(path, document, "local_size");
     tuning.slot_local_size = number_of(path, document, "slot_local_size");
@@ -134,7 +134,7 @@ std::filesystem::path writable_tuning_path(const DeviceReport& device) {
 }
 
 void store_tuning(const Path& path, const DeviceReport& device, const Tuning& tuning) {
-    const Json document{{"geodisk_version", GEODISK_VERSION_STRING},
+    const OrderedJson document{{"geodisk_version", GEODISK_VERSION_STRING},
                         {"device", device.name},
                         {"driver", driver_text(device)},
                         {"local_size", tuning.local_size},

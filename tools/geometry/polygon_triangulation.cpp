@@ -195,14 +195,14 @@ class EarClipper {
     bool cut_straight_ = false; ///< Since the last find_ears().
 };
 
-using Vector = std::vector<double>;
+using Coordinates = std::vector<double>;
 
-double dot(const Vector& a, const Vector& b) {
+double dot(const Coordinates& a, const Coordinates& b) {
     return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
 }
 
 /// Corners relative to the first, in units of the largest coordinate.
-std::vector<Vector> relative_corners(std::span<const double> positions, std::uint32_t dimension,
+std::vector<Coordinates> relative_corners(std::span<const double> positions, std::uint32_t dimension,
                                      std::span<const std::uint32_t> corners) {
     const auto coordinates = [&](std::uint32_t vertex) {
         return positions.subspan(std::size_t{vertex} * dimension, dimension);
@@ -214,9 +214,9 @@ std::vector<Vector> relative_corners(std::span<const double> positions, std::uin
         }
     }
     const double unit = largest > 0 ? largest : 1;
-    std::vector<Vector> points;
+    std::vector<Coordinates> points;
     for (const std::uint32_t vertex : corners) {
-        Vector& point = points.emplace_back(dimension);
+        Coordinates& point = points.emplace_back(dimension);
         for (std::size_t axis = 0; axis < dimension; ++axis) {
             point[axis] = coordinates(vertex)[axis] / unit - coordinates(corners[0])[axis] / unit;
         }
@@ -226,16 +226,16 @@ std::vector<Vector> relative_corners(std::span<const double> positions, std::uin
 
 /// The unit vector along the longest of `points`, whose part along it is then taken off all of
 /// them and returned; zeros when all are zero.
-Vector take_axis(std::vector<Vector>& points) {
+Coordinates take_axis(std::vector<Coordinates>& points) {
     const auto longest =
         std::max_element(points.begin(), points.end(),
-                         [](const Vector& a, const Vector& b) { return dot(a, a) < dot(b, b); });
+                         [](const Coordinates& a, const Coordinates& b) { return dot(a, a) < dot(b, b); });
     const double size = std::sqrt(dot(*longest, *longest));
-    Vector along(points.size(), 0.0);
+    Coordinates along(points.size(), 0.0);
     if (size == 0) {
         return along;
     }
-    Vector axis = *longest;
+    Coordinates axis = *longest;
     for (double& x : axis) {
         x /= size;
     }
@@ -252,9 +252,9 @@ Vector take_axis(std::vector<Vector>& points) {
 /// shape up to scale; of another one this is a projection.
 std::vector<Vec3> flattened_polygon(std::span<const double> positions, std::uint32_t dimension,
                                     std::span<const std::uint32_t> corners) {
-    std::vector<Vector> points = relative_corners(positions, dimension, corners);
-    const Vector x = take_axis(points);
-    const Vector y = take_axis(points);
+    std::vector<Coordinates> points = relative_corners(positions, dimension, corners);
+    const Coordinates x = take_axis(points);
+    const Coordinates y = take_axis(points);
     std::vector<Vec3> flat;
     for (std::size_t i = 0; i < corners.size(); ++i) {
         flat.emplace_back(x[i], y[i], 0.0);

@@ -10,15 +10,15 @@ namespace geodisk::tools {
 namespace {
 
 /// A circle around the axis; a point where the radius is 0, as the first and the last may be.
-struct Ring {
+struct PlateRing {
     double radius, height;
 };
 
 /// The surface between rings one above the other, of `around` points each.
-MeshFile make_turned(std::span<const Ring> rings, std::uint32_t around) {
+MeshFile make_turned(std::span<const PlateRing> rings, std::uint32_t around) {
     MeshFile mesh;
     std::vector<std::uint32_t> first; // vertex of each ring
-    for (const Ring& ring : rings) {
+    for (const PlateRing& ring : rings) {
         const std::uint32_t points = ring.radius == 0 ? 1 : around;
         for (std::uint32_t i = 0; i < points; ++i) {
             const double turn = angle(i, around);
@@ -49,7 +49,7 @@ MeshFile make_turned(std::span<const Ring> rings, std::uint32_t around) {
 
 MeshFile make_tube(int resolution) {
     constexpr double kRadius = 1e-4;
-    std::vector<Ring> rings{{0, 0}};
+    std::vector<PlateRing> rings{{0, 0}};
     for (const double height : {0.0, 0.25, 0.5, 0.75, 1.0}) {
         rings.push_back({kRadius, height});
     }
@@ -58,7 +58,7 @@ MeshFile make_tube(int resolution) {
 }
 
 MeshFile make_spike(int resolution) {
-    std::vector<Ring> rings;
+    std::vector<PlateRing> rings;
     double height = 0;
     for (const double radius : {1.0, 1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7}) {
         rings.push_back({radius, height / 7});
@@ -70,7 +70,7 @@ MeshFile make_spike(int resolution) {
 
 MeshFile make_cone(int resolution) {
     constexpr double kSlope = 1e-3;
-    std::vector<Ring> rings{{0, 0}};
+    std::vector<PlateRing> rings{{0, 0}};
     for (const double height : {0.001, 0.01, 0.1, 0.4, 0.7, 1.0}) {
         rings.push_back({kSlope * height, height});
     }

@@ -23,7 +23,7 @@ struct geodisk_frame_neighbours {
 namespace geodisk::c {
 namespace {
 
-constexpr const char* kName = "the search";
+constexpr const char* kSearchName = "the search";
 
 FrameNeighbourOptions options_of(const geodisk_frame_neighbour_options& given) {
     auto options = frame_options_of<FrameNeighbourOptions>(given);
@@ -78,14 +78,14 @@ geodisk_status geodisk_frame_neighbours_create(const geodisk_device* device,
 geodisk_status geodisk_frame_neighbours_record(geodisk_frame_neighbours* frames,
                                                void* command_buffer, int32_t* is_complete,
                                                geodisk_error* error) {
-    return with_frames(frames, kName, error, [&](geodisk_frame_neighbours& own) -> Result<Done> {
+    return with_frames(frames, kSearchName, error, [&](geodisk_frame_neighbours& own) -> Result<Done> {
         return record_frame(own.recorded, command_buffer, is_complete);
     });
 }
 
 geodisk_status geodisk_frame_neighbours_wait(geodisk_frame_neighbours* frames,
                                              geodisk_sampler* sampler, geodisk_error* error) {
-    return with_frames(frames, kName, error, [&](geodisk_frame_neighbours& own) -> Result<Done> {
+    return with_frames(frames, kSearchName, error, [&](geodisk_frame_neighbours& own) -> Result<Done> {
         if (sampler == nullptr) {
             return wrong("sampler is NULL");
         }

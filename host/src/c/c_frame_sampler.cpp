@@ -24,7 +24,7 @@ struct geodisk_frame_sampler {
 namespace geodisk::c {
 namespace {
 
-constexpr const char* kName = "the frame sampler";
+constexpr const char* kSamplerName = "the frame sampler";
 
 FrameSamplerOptions options_of(const geodisk_frame_options& given) {
     auto options = frame_options_of<FrameSamplerOptions>(given);
@@ -72,14 +72,14 @@ geodisk_status geodisk_frame_sampler_create(const geodisk_device* device,
 
 geodisk_status geodisk_frame_sampler_record(geodisk_frame_sampler* frames, void* command_buffer,
                                             int32_t* is_complete, geodisk_error* error) {
-    return with_frames(frames, kName, error, [&](geodisk_frame_sampler& own) -> Result<Done> {
+    return with_frames(frames, kSamplerName, error, [&](geodisk_frame_sampler& own) -> Result<Done> {
         return record_frame(own.recorded, command_buffer, is_complete);
     });
 }
 
 geodisk_status geodisk_frame_sampler_wait(geodisk_frame_sampler* frames, geodisk_sampler* sampler,
                                           geodisk_error* error) {
-    return with_frames(frames, kName, error, [&](geodisk_frame_sampler& own) -> Result<Done> {
+    return with_frames(frames, kSamplerName, error, [&](geodisk_frame_sampler& own) -> Result<Done> {
         if (sampler == nullptr) {
             return wrong("sampler is NULL");
         }
@@ -114,7 +114,7 @@ geodisk_status geodisk_frame_sampler_describe(const geodisk_frame_sampler* frame
 
 geodisk_status geodisk_frame_sampler_set_seed(geodisk_frame_sampler* frames, uint64_t seed,
                                               geodisk_error* error) {
-    return with_frames(frames, kName, error, [&](geodisk_frame_sampler& own) -> Result<Done> {
+    return with_frames(frames, kSamplerName, error, [&](geodisk_frame_sampler& own) -> Result<Done> {
         own.recorded.set_seed(seed);
         return Done{};
     });

@@ -13,11 +13,11 @@
 namespace geodisk {
 namespace {
 
-constexpr char kMagic[8] = {'g', 'e', 'o', 'd', 'i', 's', 'k', 'R'};
-constexpr std::uint32_t kVersion = 1;
-constexpr std::uint32_t kByteOrder = 0x01020304;
+constexpr char kRadiiMagic[8] = {'g', 'e', 'o', 'd', 'i', 's', 'k', 'R'};
+constexpr std::uint32_t kRadiiVersion = 1;
+constexpr std::uint32_t kRadiiByteOrder = 0x01020304;
 
-struct Header {
+struct RadiiHeader {
     char magic[8];
     std::uint32_t version;
     std::uint32_t byte_order;
@@ -27,7 +27,7 @@ struct Header {
     double effective_area;
     double least_density;
 };
-static_assert(sizeof(Header) == 48);
+static_assert(sizeof(RadiiHeader) == 48);
 
 bool are_within(std::span<const float> values, float least, float most) {
     return std::ranges::all_of(values, [&](float x) { return x >= least && x <= most; });
@@ -37,15 +37,15 @@ bool are_within(std::span<const float> values, float least, float most) {
 
 Result<std::vector<std::byte>> RadiusField::save() const noexcept {
     return guarded([&]() -> Result<std::vector<std::byte>> {
-        Header header{{},
-                      kVersion,
-                      kByteOrder,
+        RadiiHeader header{{},
+                      kRadiiVersion,
+                      kRadiiByteOrder,
                       face_count(),
                       packing_.empty() ? 0u : 1u,
                       largest_density_,
                       effective_area_,
                       least_density_};
-        std::memcpy(header.magic, kMagic, sizeof kMagic);
+        std::memcpy(header.magic, kRadiiMagic, sizeof kRadiiMagic);
         std::vector<std::byte> bytes(sizeof header);
         std::memcpy(bytes.data(), &header, sizeof header);
         for (const std::vector<float>* values : {&factors_, &spreads_, &packing_, &densities_}) {
@@ -58,12 +58,12 @@ Result<std::vector<std::byte>> RadiusField::save() const noexcept {
 
 Result<RadiusField> RadiusField::load(std::span<const std::byte> bytes) noexcept {
     return guarded([&]() -> Result<RadiusField> {
-        Header header;
-        if (bytes.size() < sizeof header || std::memcmp(bytes.data(), kMagic, sizeof kMagic) != 0) {
+        RadiiHeader header;
+        if (bytes.size() < sizeof header || std::memcmp(bytes.data(), kRadiiMagic, sizeof kRadiiMagic) != 0) {
             return invalid("these bytes are no saved radii");
         }
         std::memcpy(&header, bytes.data(), sizeof header);
-        if (header.byte_order != kByteOrder || header.version != kVersion) {
+        if (header.byte_order != kRadiiByteOrder || header.version != kRadiiVersion) {
             return invalid("the radii were saved by another version, or by a machine of another "
                            "byte order");
         }

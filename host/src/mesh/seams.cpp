@@ -29,7 +29,7 @@ std::vector<Link> linked_edges(const MeshView& mesh) {
 }
 
 /// Returns true for the lowest half-edge of an edge whose faces all have the same corners.
-bool is_border(std::span<const Link> links, std::uint32_t h) {
+bool starts_edge_of_one_apex(std::span<const Link> links, std::uint32_t h) {
     const std::uint32_t apex = links[previous_in_face(h)].origin;
     for (std::uint32_t g = around_half_edge(links[h].around); g != h;
          g = around_half_edge(links[g].around)) {
@@ -46,7 +46,7 @@ std::vector<EdgeEnds> border_edges(const MeshView& mesh) {
     const std::vector<Link> links = linked_edges(mesh);
     std::vector<EdgeEnds> borders;
     for (std::uint32_t h = 0; h < links.size(); ++h) {
-        if (is_border(links, h) && takes_part(mesh.triangles.face(h / 3))) {
+        if (starts_edge_of_one_apex(links, h) && takes_part(mesh.triangles.face(h / 3))) {
             borders.push_back({links[h].origin, links[next_in_face(h)].origin});
         }
     }

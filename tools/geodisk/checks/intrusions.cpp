@@ -15,7 +15,7 @@ namespace geodisk::tools {
 namespace {
 
 constexpr double kSmallestIntrusion = 1e-9; // Of a radius, for the rounding of doubles.
-constexpr double kMostCells = 0x1p26;
+constexpr double kMaxCells = 0x1p26;
 constexpr double kOutside = std::numeric_limits<double>::infinity();
 
 } // namespace
@@ -43,7 +43,7 @@ std::vector<Intrusion> find_intrusions(const MeshInput& mesh, std::span<const Sa
     for (const auto& [center, radius] : avoided) {
         points.push_back({center.face, center.weights[1], center.weights[2]});
     }
-    const double unit = ref::suitable_unit(mesh.prepared, radius_of(order.front()), kMostCells);
+    const double unit = ref::suitable_unit(mesh.prepared, radius_of(order.front()), kMaxCells);
     const ref::Surface<double> surface(mesh.prepared, unit);
     const ref::Bins<double> bins(surface, points);
     ref::Detector<double> detector(surface, bins, ref::double_tolerances(), 1);

@@ -28,7 +28,7 @@
 namespace geodisk::tools {
 namespace {
 
-constexpr const char* kExamples[] = {
+constexpr const char* kAnalyzeExamples[] = {
     "geodisk analyze bunny.obj points.csv",
     "geodisk analyze bunny.obj first.csv second.csv --json analysis.json",
 };
@@ -169,7 +169,7 @@ void add_analyze_command(Command app) {
     add_mask_options(command, options->mask);
     add_json_option(command, options->out);
     add_quiet_option(command, options->out, "No progress and no result");
-    command.has_footer(help_footer(kExamples));
+    command.has_footer(help_footer(kAnalyzeExamples));
     command.calls([options] { run_analyze(*options); });
 }
 

@@ -28,7 +28,7 @@
 namespace geodisk::tools {
 namespace {
 
-constexpr const char* kExamples[] = {
+constexpr const char* kBakeExamples[] = {
     "geodisk bake spot.obj points.ply -o nearest.npz",
     "geodisk bake spot.obj points.ply -o cells.png --size 2048",
 };
@@ -153,7 +153,7 @@ void add_bake_command(Command app) {
     add_device_options(command, options->run.device);
     add_verbose_option(command, options->run.device);
     add_limit_options(command, options->run);
-    command.has_footer(help_footer(kExamples));
+    command.has_footer(help_footer(kBakeExamples));
     command.calls([options] { run_bake(*options); });
 }
 

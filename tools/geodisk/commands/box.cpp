@@ -18,7 +18,7 @@
 namespace geodisk::tools {
 namespace {
 
-constexpr const char* kExamples[] = {
+constexpr const char* kBoxExamples[] = {
     "geodisk box -o points.csv --dim 2 --count 1000 --periodic",
     "geodisk box -o points.npz --extents 2,1,1 --min-distance 0.1",
     "geodisk box -o points.csv --dim 4 --count 1e4 --periodic",
@@ -83,7 +83,7 @@ void add_box_command(Command app) {
     add_run_options(command, options->run);
     add_output_options(command, options->out);
     add_verbose_option(command, options->run.device);
-    command.has_footer(help_footer(kExamples));
+    command.has_footer(help_footer(kBoxExamples));
     command.calls([options] { run_box(*options); });
 }
 

@@ -23,7 +23,7 @@
 namespace geodisk::tools {
 namespace {
 
-constexpr const char* kExamples[] = {
+constexpr const char* kCellsExamples[] = {
     "geodisk cells bunny.ply points.ply -o areas.csv",
     "geodisk cells bunny.ply points.ply -o areas.ply --dual remeshed.obj",
 };
@@ -149,7 +149,7 @@ void add_cells_command(Command app) {
     add_device_options(command, options->run.device);
     add_verbose_option(command, options->run.device);
     add_limit_options(command, options->run);
-    command.has_footer(help_footer(kExamples));
+    command.has_footer(help_footer(kCellsExamples));
     command.calls([options] { run_cells_command(*options); });
 }
 

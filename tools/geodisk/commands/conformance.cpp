@@ -14,7 +14,7 @@
 namespace geodisk::tools {
 namespace {
 
-constexpr const char* kExamples[] = {
+constexpr const char* kConformanceExamples[] = {
     "geodisk conformance",
     "geodisk conformance --device 1 -o record.json",
 };
@@ -71,7 +71,7 @@ void add_conformance_command(Command app) {
                      "Print one set of this device per line: fingerprint, number of\n"
                      "samples, job",
                      "Development");
-    command.has_footer(help_footer(kExamples));
+    command.has_footer(help_footer(kConformanceExamples));
     command.calls([options] { run_conformance(*options); });
 }
 

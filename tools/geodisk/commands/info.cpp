@@ -24,7 +24,7 @@
 namespace geodisk::tools {
 namespace {
 
-constexpr const char* kExamples[] = {
+constexpr const char* kInfoExamples[] = {
     "geodisk info",
     "geodisk info --json devices.json",
 };
@@ -180,7 +180,7 @@ void add_info_command(Command app) {
                     "Variant of the kernels: auto, storage or texels (default auto)", "Development")
         .offers({"auto", "storage", "texels"})
         .needs(kernels);
-    command.has_footer(help_footer(kExamples));
+    command.has_footer(help_footer(kInfoExamples));
     command.calls([options, json] { // Owns them, as the options refer to them.
         if (json.is_given() && options->out.json.empty()) {
             options->out.json = "-";

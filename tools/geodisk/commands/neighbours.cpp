@@ -25,7 +25,7 @@
 namespace geodisk::tools {
 namespace {
 
-constexpr const char* kExamples[] = {
+constexpr const char* kNeighboursExamples[] = {
     "geodisk neighbours brain.obj --within 10 -o near.npz",
     "geodisk neighbours brain.obj electrodes.csv --within 10 -o near.csv",
     "geodisk neighbours terrain.ply wells.csv --within reach --among houses.csv -o near.csv",
@@ -242,7 +242,7 @@ void add_neighbours_command(Command app) {
     add_device_options(command, options->run.device);
     add_verbose_option(command, options->run.device);
     add_limit_options(command, options->run);
-    command.has_footer(help_footer(kExamples));
+    command.has_footer(help_footer(kNeighboursExamples));
     command.calls([options] { run_neighbours(*options); });
 }
 

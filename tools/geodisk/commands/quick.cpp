@@ -23,7 +23,7 @@
 namespace geodisk::tools {
 namespace {
 
-constexpr const char* kExamples[] = {
+constexpr const char* kQuickExamples[] = {
     "geodisk bunny.obj",
     "geodisk bunny.obj --count 500 --seed 7",
     "geodisk bunny.obj teapot.ply --min-distance 2% --format csv",
@@ -236,7 +236,7 @@ void add_quick_command(Command app) {
     const auto options = std::make_shared<QuickOptions>();
     add_mesh_arguments(command, options->meshes, "Meshes to sample");
     add_sample_options(command, options->sample);
-    command.has_footer(help_footer(kExamples));
+    command.has_footer(help_footer(kQuickExamples));
     command.calls([options] { run_quick(*options); });
 }
 

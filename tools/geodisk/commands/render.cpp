@@ -20,7 +20,7 @@
 namespace geodisk::tools {
 namespace {
 
-constexpr const char* kExamples[] = {
+constexpr const char* kRenderExamples[] = {
     "geodisk render bunny.obj points.ply -o picture.png",
     "geodisk render bunny.obj points.ply -o cells.png --style voronoi --view front --view back",
     "geodisk render bunny.obj points.ply -o density.png --style density --legend",
@@ -64,7 +64,7 @@ void add_render_command(Command app) {
         app.add_command("render", "Draw samples and their geodesic disks as a picture");
     const auto options = std::make_shared<RenderOptions>();
     add_render_options(command, *options);
-    command.has_footer(help_footer(kExamples));
+    command.has_footer(help_footer(kRenderExamples));
     command.calls([options] {
         if (options->samples.empty()) {
             render_box(*options);

@@ -26,7 +26,7 @@
 namespace geodisk::tools {
 namespace {
 
-constexpr const char* kExamples[] = {
+constexpr const char* kReportExamples[] = {
     "geodisk report bunny.obj -o bunny.html --count 1000",
     "geodisk report bunny.obj -o bunny.html --min-distance 2% --view front",
 };
@@ -100,7 +100,7 @@ void add_report_command(Command app) {
         "report", "Sample a mesh and write a page that shows and measures the samples");
     const auto options = std::make_shared<ReportOptions>();
     add_report_options(command, *options);
-    command.has_footer(help_footer(kExamples));
+    command.has_footer(help_footer(kReportExamples));
     command.calls([options] { run_report(*options); });
 }
 

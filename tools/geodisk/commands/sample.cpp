@@ -19,7 +19,7 @@
 namespace geodisk::tools {
 namespace {
 
-constexpr const char* kExamples[] = {
+constexpr const char* kSampleExamples[] = {
     "geodisk sample bunny.obj -o points.ply --count 10000",
     "geodisk sample bunny.obj -o points.csv --min-distance 1% --seed 7",
     "geodisk sample bunny.obj -o points.ply --min-distance 1% --method darts --count 500",
@@ -112,7 +112,7 @@ void add_sample_command(Command app) {
     const auto options = std::make_shared<SampleOptions>();
     add_mesh_argument(command, options->mesh, "Mesh to sample");
     add_sample_options(command, *options);
-    command.has_footer(help_footer(kExamples));
+    command.has_footer(help_footer(kSampleExamples));
     command.calls([options] { sample_to_files(*options); });
 }
 

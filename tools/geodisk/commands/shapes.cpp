@@ -15,7 +15,7 @@
 namespace geodisk::tools {
 namespace {
 
-constexpr const char* kExamples[] = {
+constexpr const char* kShapesExamples[] = {
     "geodisk shapes",
     "geodisk shapes torus-knot:64 -o knot.ply",
 };
@@ -74,7 +74,7 @@ void add_shapes_command(Command app) {
     const auto options = std::make_shared<ShapesOptions>();
     command.add_option("SHAPE", options->shape, "", "Surface to write: NAME or NAME:RESOLUTION");
     command.add_option("-o,--output", options->output, "OUT", "File to write: *.ply");
-    command.has_footer(help_footer(kExamples));
+    command.has_footer(help_footer(kShapesExamples));
     command.calls([options] { run_shapes(*options); });
 }
 

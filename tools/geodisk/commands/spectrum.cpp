@@ -32,7 +32,7 @@
 namespace geodisk::tools {
 namespace {
 
-constexpr const char* kExamples[] = {
+constexpr const char* kSpectrumExamples[] = {
     "geodisk spectrum bunny.obj points.csv --harmonics 200 -o spectrum.csv",
     "geodisk spectrum box.csv -o spectrum.png",
 };
@@ -165,7 +165,7 @@ void add_spectrum_command(Command app) {
     const auto options = std::make_shared<SpectrumOptions>();
     const auto files = std::make_shared<std::vector<std::string>>();
     add_spectrum_options(command, *options, *files);
-    command.has_footer(help_footer(kExamples));
+    command.has_footer(help_footer(kSpectrumExamples));
     command.calls([options, files] {
         if ((files->size() == 1 && files->front() == "-") || are_box_samples(files->front())) {
             options->samples = *files;

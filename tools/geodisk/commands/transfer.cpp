@@ -39,7 +39,7 @@
 namespace geodisk::tools {
 namespace {
 
-constexpr const char* kExamples[] = {
+constexpr const char* kTransferExamples[] = {
     "geodisk transfer points.csv standing.obj sitting.obj -o sitting.csv",
     "geodisk transfer points.csv mesh.obj mesh.obj --order farthest --keep 100 -o first.csv",
 };
@@ -279,7 +279,7 @@ void add_transfer_command(Command app) {
     add_device_options(command, options->run.device);
     add_limit_options(command, options->run);
     add_output_options(command, options->out);
-    command.has_footer(help_footer(kExamples));
+    command.has_footer(help_footer(kTransferExamples));
     command.calls([options] { run_transfer(*options); });
 }
 

@@ -29,7 +29,7 @@
 namespace geodisk::tools {
 namespace {
 
-constexpr const char* kExamples[] = {
+constexpr const char* kVerifyExamples[] = {
     "geodisk verify bunny.obj points.csv",
     "geodisk verify bunny.obj points.csv --min-distance 0.01",
     "geodisk verify bunny.obj points_of_another_program.npy",
@@ -151,7 +151,7 @@ void add_verify_command(Command app) {
         app.add_command("verify", "Check the distances of samples (exact, CPU only)");
     const auto options = std::make_shared<VerifyOptions>();
     add_verify_options(command, *options);
-    command.has_footer(help_footer(kExamples));
+    command.has_footer(help_footer(kVerifyExamples));
     command.calls([options] { verify_samples(*options); });
 }
 

@@ -15,7 +15,7 @@
 namespace geodisk::tools {
 namespace {
 
-using Kind = OnlyRule::Kind;
+using RuleKind = OnlyRule::Kind;
 using Mask = std::vector<std::uint8_t>;
 /// Numbers of what a part of the file belongs to.
 using Numbers = std::vector<std::uint32_t>;
@@ -26,29 +26,29 @@ struct Naming {
     const char* source;
 };
 
-Naming naming_of(Kind kind) {
+Naming naming_of(RuleKind kind) {
     switch (kind) {
-    case Kind::material:
+    case RuleKind::material:
         return {"materials", "; OBJ (usemtl) and glTF files may"};
-    case Kind::group:
+    case RuleKind::group:
         return {"groups", "; OBJ files may (g, o)"};
     default:
         return {"nodes", "; glTF files may"};
     }
 }
 
-const std::vector<std::string>& names_of(const MeshFile& mesh, Kind kind) {
+const std::vector<std::string>& names_of(const MeshFile& mesh, RuleKind kind) {
     const PartNames& names = mesh.part_names;
-    return kind == Kind::material ? names.materials
-           : kind == Kind::group  ? names.groups
+    return kind == RuleKind::material ? names.materials
+           : kind == RuleKind::group  ? names.groups
                                   : names.nodes;
 }
 
-Numbers numbers_of(const MeshFile& mesh, const MeshPart& part, Kind kind) {
-    if (kind == Kind::group) {
+Numbers numbers_of(const MeshFile& mesh, const MeshPart& part, RuleKind kind) {
+    if (kind == RuleKind::group) {
         return part.groups;
     }
-    if (kind == Kind::material) {
+    if (kind == RuleKind::material) {
         return part.material ? Numbers{*part.material} : Numbers{};
     }
     Numbers numbers;
@@ -62,7 +62,7 @@ Numbers numbers_of(const MeshFile& mesh, const MeshPart& part, Kind kind) {
 /// Which parts of the file have what a rule of this kind may name.
 class PartIndex {
   public:
-    PartIndex(const MeshFile& mesh, Kind kind) : mesh_(mesh), kind_(kind) {
+    PartIndex(const MeshFile& mesh, RuleKind kind) : mesh_(mesh), kind_(kind) {
         std::vector<bool> has_triangles(mesh.parts.size(), false);
         for (const std::uint32_t part : mesh.part_of_triangle) {
             has_triangles[part] = true;
@@ -129,7 +129,7 @@ class PartIndex {
     }
 
     const MeshFile& mesh_;
-    Kind kind_;
+    RuleKind kind_;
     std::vector<Numbers> numbers_; ///< Of each part; none of a part without triangles.
     std::set<std::uint32_t> known_;
 };
@@ -159,7 +159,7 @@ Mask chosen_by(const std::string& path, const MeshFile& mesh, const std::vector<
     Mask chosen(mesh.triangle_count(), rules.empty() ? 1 : 0);
     std::vector<bool> parts(mesh.parts.size(), false);
     for (const OnlyRule& rule : rules) {
-        if (rule.kind == Kind::part) {
+        if (rule.kind == RuleKind::part) {
             choose_component(path, mesh, rule, chosen);
         } else {
             PartIndex(mesh, rule.kind).choose(path, rule, parts);

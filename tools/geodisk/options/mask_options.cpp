@@ -18,13 +18,13 @@
 namespace geodisk::tools {
 namespace {
 
-using Kind = OnlyRule::Kind;
+using RuleKind = OnlyRule::Kind;
 using Comparison = MaskRule::Comparison;
 
-constexpr std::array<std::pair<std::string_view, Kind>, 4> kKinds{{{"material:", Kind::material},
-                                                                   {"group:", Kind::group},
-                                                                   {"node:", Kind::node},
-                                                                   {"part:", Kind::part}}};
+constexpr std::array<std::pair<std::string_view, RuleKind>, 4> kKinds{{{"material:", RuleKind::material},
+                                                                   {"group:", RuleKind::group},
+                                                                   {"node:", RuleKind::node},
+                                                                   {"part:", RuleKind::part}}};
 // Longer ones first.
 constexpr std::array<std::pair<std::string_view, Comparison>, 6> kComparisons{
     {{"<=", Comparison::at_most},
@@ -41,7 +41,7 @@ OnlyRule parse_only(const std::string& text) {
     for (const auto& [prefix, kind] : kKinds) {
         if (text.starts_with(prefix) && text.size() > prefix.size()) {
             OnlyRule rule{kind, text.substr(prefix.size()), text};
-            if (kind == Kind::part && !parse_integer<std::uint32_t>(rule.name)) {
+            if (kind == RuleKind::part && !parse_integer<std::uint32_t>(rule.name)) {
                 fail_usage("--only: " + in_quotes(text) +
                            " is not the number of a part; --columns part tells the numbers");
             }

@@ -21,8 +21,6 @@ namespace {
 using Words = std::array<std::uint32_t, 4>;
 using Corners = std::array<float, 3>;
 
-constexpr std::uint32_t kOneWeight = 1u << 24;
-
 std::uint32_t steps_of(float weight) {
     return static_cast<std::uint32_t>(weight * 0x1p24f);
 }

@@ -20,8 +20,6 @@ constexpr double kDartsPerDistance = 64;
 constexpr double kMostDarts = 0x1p28;
 // Philox counters of darts on half-edges, by the corner of the face; candidates have other stages.
 constexpr std::uint32_t kFeatureStage = 0xfea70000u;
-constexpr std::uint32_t kOneWeight = 1u << 24;
-
 /// Returns a half-edge of the edge of h whose face takes samples.
 std::optional<std::uint32_t> sampled_edge(const PreparedMesh& mesh, const SampleParams& params,
                                           std::uint32_t h) {

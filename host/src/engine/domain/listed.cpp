@@ -19,7 +19,6 @@
 namespace geodisk {
 namespace {
 
-constexpr std::uint32_t kOneWeight = 1u << 24;
 constexpr std::size_t kMostListed = std::size_t{1} << gpu::kPriorityBits;
 
 Result<Done> check_listed(const PreparedMesh& mesh, const SampleParams& params,

@@ -18,10 +18,13 @@
 
 namespace geodisk {
 
+/// The weight 1, in the units of candidates.
+inline constexpr std::uint32_t kOneWeight = 1u << 24;
+
 /// A candidate of the host: a point of a face.
 struct ListedCandidate {
     std::uint32_t face;
-    std::uint32_t weight1, weight2; ///< Weights of the second and third corner, in units of 2^-24.
+    std::uint32_t weight1, weight2; ///< Weights of the second and third corner, of kOneWeight.
 
     friend bool operator==(const ListedCandidate&, const ListedCandidate&) = default;
 };

@@ -44,16 +44,16 @@ std::uint64_t hilbert_place(std::array<std::uint32_t, 3> cell) {
     return place;
 }
 
-/// Place of a face in the order of the curve. No two faces have the same.
-struct Place {
+/// PlaceOnCurve of a face in the order of the curve. No two faces have the same.
+struct PlaceOnCurve {
     std::uint64_t on_curve = 0;
     std::uint32_t face = 0; ///< In the whole.
 
-    auto operator<=>(const Place&) const = default;
+    auto operator<=>(const PlaceOnCurve&) const = default;
 
     /// Returns the place with a bit set, of kPlaceBits.
-    Place with(std::uint32_t bit) const {
-        Place place = *this;
+    PlaceOnCurve with(std::uint32_t bit) const {
+        PlaceOnCurve place = *this;
         if (bit < 32) {
             place.face |= std::uint32_t{1} << bit;
         } else {
@@ -65,10 +65,10 @@ struct Place {
 
 /// The faces of one process in order, and their work.
 struct Sorted {
-    std::vector<Place> places;
+    std::vector<PlaceOnCurve> places;
     std::vector<std::uint64_t> work; ///< Of all faces before, one more than faces.
 
-    std::size_t before(const Place& place) const {
+    std::size_t before(const PlaceOnCurve& place) const {
         return static_cast<std::size_t>(std::ranges::lower_bound(places, place) - places.begin());
     }
 };
@@ -78,9 +78,9 @@ struct Before {
     std::uint64_t faces = 0, work = 0;
 };
 
-std::vector<Before> before_all(Talk& talk, const Sorted& own, const std::vector<Place>& ends) {
+std::vector<Before> before_all(Talk& talk, const Sorted& own, const std::vector<PlaceOnCurve>& ends) {
     std::vector<std::uint64_t> counts;
-    for (const Place& end : ends) {
+    for (const PlaceOnCurve& end : ends) {
         const std::size_t faces = own.before(end);
         counts.insert(counts.end(), {faces, own.work[faces]});
     }
@@ -95,15 +95,15 @@ std::vector<Before> before_all(Talk& talk, const Sorted& own, const std::vector<
 /// Returns for each part but the last a place before which lie as many faces as before the highest
 /// place that `is_within` allows, by the part's number. `all` is what lies before the end.
 template <class Within>
-std::vector<Place> find_ends(Talk& talk, const Sorted& own, const Before& all,
+std::vector<PlaceOnCurve> find_ends(Talk& talk, const Sorted& own, const Before& all,
                              const Within& is_within) {
-    std::vector<Place> ends(talk.size() - 1);
+    std::vector<PlaceOnCurve> ends(talk.size() - 1);
     // Faces before the end, and before the places that are too high.
     std::vector<std::uint64_t> low(ends.size(), 0), high(ends.size(), all.faces);
     for (std::uint32_t bit = kPlaceBits; bit-- > 0 && low != high;) {
-        std::vector<Place> tried;
+        std::vector<PlaceOnCurve> tried;
         tried.reserve(ends.size());
-        for (const Place& end : ends) {
+        for (const PlaceOnCurve& end : ends) {
             tried.push_back(end.with(bit));
         }
         const std::vector<Before> before = before_all(talk, own, tried);
@@ -120,10 +120,10 @@ std::vector<Place> find_ends(Talk& talk, const Sorted& own, const Before& all,
 }
 
 /// Returns the ends of all parts but the last: a part has the faces before its end.
-std::vector<Place> ends_of_parts(Talk& talk, const Sorted& own, std::uint64_t faces) {
+std::vector<PlaceOnCurve> ends_of_parts(Talk& talk, const Sorted& own, std::uint64_t faces) {
     const std::uint64_t parts = talk.size();
     const Before all{faces, talk.sum(own.work.back())};
-    std::vector<Place> ends =
+    std::vector<PlaceOnCurve> ends =
         find_ends(talk, own, all, [&](std::size_t part, const Before& before) {
             return before.work <= all.work / parts * (part + 1);
         });
@@ -147,7 +147,7 @@ std::uint64_t work_of(double part, std::uint64_t faces) {
     return static_cast<std::uint64_t>(kUnit * (1 + by_area));
 }
 
-Place place_of(const MeshRange& range, const RangeFaces& faces, const RangeFindings& findings,
+PlaceOnCurve place_of(const MeshRange& range, const RangeFaces& faces, const RangeFindings& findings,
                std::uint32_t first, std::size_t face) {
     std::array<std::uint32_t, 3> cell{};
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -181,14 +181,14 @@ std::vector<std::uint32_t> divide_by_curve(Talk& talk, const MeshRange& range, R
     std::sort(own.places.begin(), own.places.end());
     own.work.reserve(count + 1);
     own.work.assign(1, 0);
-    for (const Place& place : own.places) {
+    for (const PlaceOnCurve& place : own.places) {
         own.work.push_back(own.work.back() +
                            work_of(areas[place.face - first] / area, range.faces.count));
     }
     std::vector<std::uint32_t> owners(count);
-    const std::vector<Place> ends = ends_of_parts(talk, own, range.faces.count);
+    const std::vector<PlaceOnCurve> ends = ends_of_parts(talk, own, range.faces.count);
     std::uint32_t part = 0;
-    for (const Place& place : own.places) {
+    for (const PlaceOnCurve& place : own.places) {
         while (part < ends.size() && !(place < ends[part])) {
             ++part;
         }

@@ -10,15 +10,15 @@
 namespace geodisk {
 namespace {
 
-bool takes_part(const WholeFace& face) {
-    return geodisk::takes_part({face.corners[0], face.corners[1], face.corners[2]});
+bool face_takes_part(const WholeFace& face) {
+    return takes_part({face.corners[0], face.corners[1], face.corners[2]});
 }
 
 VertexNumbers vertices_of(std::span<const WholeFace> faces) {
     std::vector<std::uint32_t> vertices;
     vertices.reserve(3 * faces.size());
     for (const WholeFace& face : faces) {
-        if (takes_part(face)) {
+        if (face_takes_part(face)) {
             vertices.insert(vertices.end(), face.corners, face.corners + 3);
         }
     }
@@ -26,7 +26,7 @@ VertexNumbers vertices_of(std::span<const WholeFace> faces) {
 }
 
 /// A vertex, and the piece that it belongs to at a process.
-struct Entry {
+struct HolderEntry {
     std::uint32_t vertex, piece;
 };
 
@@ -81,7 +81,7 @@ Directory Directory::create(Talk& talk, const Blocks& vertices, std::span<const 
     {
         VertexSets sets(numbers.size());
         for (const WholeFace& face : faces) {
-            if (takes_part(face)) {
+            if (face_takes_part(face)) {
                 const std::uint32_t vertex = numbers.of(face.corners[0]);
                 sets.join(vertex, numbers.of(face.corners[1]));
                 sets.join(vertex, numbers.of(face.corners[2]));
@@ -97,12 +97,12 @@ Directory Directory::create(Talk& talk, const Blocks& vertices, std::span<const 
     std::vector<Contact> contacts;
     directory.starts_.reserve(vertices.size(talk.rank()) + 1);
     directory.starts_.push_back(0);
-    const std::uint64_t turns = turns_for(vertices.each() * 4 * sizeof(Entry));
+    const std::uint64_t turns = turns_for(vertices.each() * 4 * sizeof(HolderEntry));
     for (std::uint64_t turn = 0; turn < turns; ++turn) {
         const auto begin_of = [&](std::uint32_t home, std::uint64_t at) {
             return vertices.first(home) + vertices.size(home) * at / turns;
         };
-        ByProcess<Entry> sent(talk.size());
+        ByProcess<HolderEntry> sent(talk.size());
         for (std::uint32_t home = 0; home < talk.size(); ++home) {
             const auto& all = numbers.vertices();
             const auto first = std::ranges::lower_bound(all, begin_of(home, turn));
@@ -146,7 +146,7 @@ Directory Directory::create(Talk& talk, const Blocks& vertices, std::span<const 
     join(talk, std::move(contacts), components);
     if (components.count > 1) {
         for (const WholeFace& face : faces) {
-            directory.pieces_.push_back(takes_part(face) ? pieces[numbers.of(face.corners[0])] : 0);
+            directory.pieces_.push_back(face_takes_part(face) ? pieces[numbers.of(face.corners[0])] : 0);
         }
     }
     return directory;

@@ -30,7 +30,7 @@ std::array<std::uint32_t, 3> face_at(const MeshRange& range, std::size_t face) {
 }
 
 /// What one process adds to the findings.
-struct Share {
+struct VertexShare {
     double low[3] = {HUGE_VAL, HUGE_VAL, HUGE_VAL};
     double high[3] = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
     double longest_edge = 0;
@@ -40,7 +40,7 @@ struct Share {
 };
 
 /// Measures the faces of a range one by one, in blocks. `first` is the number of the first one.
-void measure(const MeshRange& range, std::uint64_t first, RangeFaces& faces, Share& share) {
+void measure(const MeshRange& range, std::uint64_t first, RangeFaces& faces, VertexShare& share) {
     const std::size_t count = range.triangles.size() / 3;
     faces.areas.resize(count);
     const ThreadOptions alone{1};
@@ -93,7 +93,7 @@ using EdgeEnds = std::pair<std::uint32_t, std::uint32_t>;
 
 /// Counts the edges that came together, and notes those on borders. Returns false if a face has a
 /// copy.
-bool count_edges(std::vector<FaceEdge>& edges, Share& share, std::vector<EdgeEnds>& borders) {
+bool count_edges(std::vector<FaceEdge>& edges, VertexShare& share, std::vector<EdgeEnds>& borders) {
     std::sort(edges.begin(), edges.end());
     for (std::size_t begin = 0, end = 0; begin < edges.size(); begin = end) {
         for (end = begin + 1; end < edges.size() && edges[end].joins_as(edges[begin]); ++end) {
@@ -113,7 +113,7 @@ bool count_edges(std::vector<FaceEdge>& edges, Share& share, std::vector<EdgeEnd
 }
 
 /// Sends each edge to the home of its lower vertex, turn by turn of these.
-std::vector<EdgeEnds> link_edges(Talk& talk, const MeshRange& range, Share& share) {
+std::vector<EdgeEnds> link_edges(Talk& talk, const MeshRange& range, VertexShare& share) {
     const std::uint64_t turns = turns_for(range.faces.each() * 3 * sizeof(FaceEdge));
     std::vector<EdgeEnds> borders;
     std::optional<Error> error;
@@ -225,18 +225,18 @@ RangeFaces faces_of(Talk& talk, const MeshRange& range) {
 }
 
 RangeFindings examine(Talk& talk, const MeshRange& range, RangeFaces& faces) {
-    Share share;
+    VertexShare share;
     measure(range, range.faces.first(talk.rank()), faces, share);
     // Areas are added in the order of the whole.
     const double area = sum_in_order(talk, faces.areas);
     const std::vector<EdgeEnds> borders = link_edges(talk, range, share);
     RangeFindings all;
-    std::ranges::copy(Share().low, all.low);
-    std::ranges::copy(Share().high, all.high);
+    std::ranges::copy(VertexShare().low, all.low);
+    std::ranges::copy(VertexShare().high, all.high);
     MeshStatistics& statistics = all.statistics;
     statistics.triangles = range.faces.count;
     statistics.area = area;
-    for (const Share& one : talk.all(share)) {
+    for (const VertexShare& one : talk.all(share)) {
         for (std::size_t axis = 0; axis < 3; ++axis) {
             all.low[axis] = std::min(all.low[axis], one.low[axis]);
             all.high[axis] = std::max(all.high[axis], one.high[axis]);
