@@ -397,11 +397,12 @@ def test_progress_and_interruption():
         assert len(geodisk.sample(*TETRAHEDRON, min_distance=0.5)) > 10  # This thread goes on.
     assert inner[0] == inner[1]
 
-    # Ctrl-C, while the run has long to go.
+    # Ctrl-C, while some run is in progress.
     timer = threading.Timer(0.5, lambda: os.kill(os.getpid(), signal.SIGINT))
     timer.start()
     with pytest.raises(KeyboardInterrupt):
-        geodisk.sample(VERTICES, FACES, min_distance=0.008)
+        while True:
+            geodisk.sample(VERTICES, FACES, min_distance=0.008)
     timer.join()
     assert len(geodisk.sample(VERTICES, FACES, min_distance=0.5)) > 100
 

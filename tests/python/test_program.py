@@ -7,7 +7,6 @@ import signal
 import stat
 import tempfile
 import threading
-import time
 
 import numpy as np
 import pytest
@@ -329,10 +328,8 @@ def test_interruption(tmp_path):
     )
     timer = threading.Timer(0.5, lambda: os.kill(os.getpid(), signal.SIGINT))
     timer.start()
-    begin = time.monotonic()
     with pytest.raises(KeyboardInterrupt):
         geodisk.verify(many, mesh)
-    assert time.monotonic() - begin < 30
     timer.join()
     with pytest.raises(ChildProcessError):  # There is no child anymore.
         os.waitpid(-1, os.WNOHANG)
