@@ -59,6 +59,7 @@ option(GEODISK_UNITY "Compile sources of a folder together: a whole build takes 
 function(geodisk_unity name)
     get_target_property(sources ${name} SOURCES)
     list(FILTER sources INCLUDE REGEX "\\.cpp$")
+    list(FILTER sources EXCLUDE REGEX "(^|/)main\\.cpp$") # Says how doctest.h is to be read.
     foreach(source IN LISTS sources)
         get_filename_component(folder "${source}" DIRECTORY)
         string(MAKE_C_IDENTIFIER "${folder}" folder)
