@@ -67,14 +67,14 @@ std::size_t gaps(const Conflicts& conflicts, const std::vector<std::uint32_t>& a
 }
 
 /// A surface, a pool on it, and what sequential dart throwing makes of it.
-struct Scene {
+struct PoolScene {
     TestMesh mesh;
     PreparedMesh prepared_mesh;
     Darts darts;
     std::vector<ref::OrientedPoint> points;
     std::vector<Vec3> positions;
 
-    Scene(const TestMesh& of, double count) : mesh(of), prepared_mesh(prepared(of)) {
+    PoolScene(const TestMesh& of, double count) : mesh(of), prepared_mesh(prepared(of)) {
         darts = thrown<double>(prepared_mesh, params_for(prepared_mesh, count));
         points = ref::oriented_points(mesh.view(), darts.pool);
         for (const ref::OrientedPoint& point : points) {
@@ -83,7 +83,7 @@ struct Scene {
     }
 };
 
-void check_methods(const Scene& scene, ref::DiskQuery& disks) {
+void check_methods(const PoolScene& scene, ref::DiskQuery& disks) {
     const auto count = static_cast<std::uint32_t>(scene.darts.pool.size());
     const Conflicts conflicts(disks);
     const auto brute = ref::throw_brute_force(
@@ -112,9 +112,10 @@ void check_methods(const Scene& scene, ref::DiskQuery& disks) {
 } // namespace
 
 TEST_CASE("pool darts: exact disks") {
-    const Scene scenes[] = {Scene(builtin("icosphere", 2), 60), Scene(builtin("cube", 1), 60),
-                            Scene(builtin("torus-knot", 6), 60), Scene(two_sided_square(), 60)};
-    for (const Scene& scene : scenes) {
+    const PoolScene scenes[] = {
+        PoolScene(builtin("icosphere", 2), 60), PoolScene(builtin("cube", 1), 60),
+        PoolScene(builtin("torus-knot", 6), 60), PoolScene(two_sided_square(), 60)};
+    for (const PoolScene& scene : scenes) {
         ref::GeodesicDisks disks(scene.prepared_mesh, scene.darts.min_distance, scene.darts.pool,
                                  scene.darts.tolerances);
         check_methods(scene, disks);
@@ -129,8 +130,9 @@ TEST_CASE("pool darts: exact disks") {
 }
 
 TEST_CASE("pool darts: disks by straight lines and by the closed form") {
-    const Scene scenes[] = {Scene(builtin("icosphere", 3), 60), Scene(builtin("plate", 4), 60)};
-    for (const Scene& scene : scenes) {
+    const PoolScene scenes[] = {PoolScene(builtin("icosphere", 3), 60),
+                                PoolScene(builtin("plate", 4), 60)};
+    for (const PoolScene& scene : scenes) {
         for (const auto length : {ref::straight_length, ref::curve_length}) {
             ref::SpaceDisks disks(scene.points, scene.darts.min_distance, length);
             check_methods(scene, disks);
@@ -139,7 +141,7 @@ TEST_CASE("pool darts: disks by straight lines and by the closed form") {
 }
 
 TEST_CASE("pool darts: straight lines see through a thin plate, and no farther than they reach") {
-    const Scene scene(builtin("plate", 4), 60);
+    const PoolScene scene(builtin("plate", 4), 60);
     const auto of = [&](std::uint32_t rank) { return scene.positions[rank]; };
     ref::SpaceDisks disks(scene.points, scene.darts.min_distance, ref::straight_length);
     const auto brute = ref::throw_brute_force(disks.size(), [&](std::uint32_t i, std::uint32_t j) {
@@ -154,7 +156,7 @@ TEST_CASE("pool darts: straight lines see through a thin plate, and no farther t
 }
 
 TEST_CASE("phase groups: darts of different cells of a group cannot conflict") {
-    const Scene scene(builtin("icosphere", 2), 60);
+    const PoolScene scene(builtin("icosphere", 2), 60);
     ref::GeodesicDisks disks(scene.prepared_mesh, scene.darts.min_distance, scene.darts.pool,
                              scene.darts.tolerances);
     const Conflicts conflicts(disks);
@@ -183,7 +185,7 @@ TEST_CASE("phase groups: darts of different cells of a group cannot conflict") {
 }
 
 TEST_CASE("brute force: by straight distances on a plane") {
-    const Scene scene(flat_grid(3, 2, 1, 1), 80);
+    const PoolScene scene(flat_grid(3, 2, 1, 1), 80);
     const double limit = scene.darts.tolerances.limit * scene.darts.min_distance;
     const auto brute = ref::throw_brute_force(
         static_cast<std::uint32_t>(scene.darts.pool.size()), [&](std::uint32_t i, std::uint32_t j) {
@@ -202,7 +204,7 @@ TEST_CASE("curve length: exact on planes and spheres, never below the straight l
         const ref::OrientedPoint sphere[] = {{{0, 1, 0}, {0, 1, 0}}, {there, there}};
         CHECK(ref::curve_length(sphere[0], sphere[1]) == doctest::Approx(angle).epsilon(1e-6));
     }
-    const Scene scene(builtin("torus-knot", 6), 30);
+    const PoolScene scene(builtin("torus-knot", 6), 30);
     for (std::size_t i = 0; i < 100; ++i) {
         const ref::OrientedPoint& a = scene.points[i];
         const ref::OrientedPoint& b = scene.points[i + 100];
