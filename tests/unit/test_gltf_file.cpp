@@ -301,6 +301,22 @@ TEST_CASE("glTF instances stand where their node has them") {
                 [&] { square.mesh(); });
 }
 
+TEST_CASE("glTF instances take time in proportion to their number") {
+    // Copying all before for each of them would take minutes.
+    constexpr std::size_t kInstances = 100'000;
+    std::vector<float> places(3 * kInstances, 0);
+    for (std::size_t i = 0; i < kInstances; ++i) {
+        places[3 * i] = static_cast<float>(2 * i);
+    }
+    SkinnedSquare square;
+    square.add(bytes_of_values<float>(places), 5126, kInstances, "VEC3");
+    square.parts.nodes = R"("nodes": [{"mesh": 0, "extensions":
+        {"EXT_mesh_gpu_instancing": {"attributes": {"TRANSLATION": 2}}}}],)";
+    const MeshFile mesh = square.mesh();
+    CHECK(mesh.triangle_count() == 2 * kInstances);
+    CHECK(mesh.positions[mesh.positions.size() - 3] == 2 * (kInstances - 1));
+}
+
 TEST_CASE("glTF morph targets move vertices by their default weights") {
     SkinnedSquare square;
     square.add(bytes_of_values<float>({0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 2}), 5126, 4, "VEC3");

@@ -359,7 +359,6 @@ class GltfReader {
     bool add_vertices(const GltfPlacement& placement, const GltfVertices& vertices,
                       const glm::dmat4& transform) {
         Placing placing = placing_of(placement, transform);
-        mesh_.positions.reserve(mesh_.positions.size() + 3 * vertices.points.size());
         for (std::size_t i = 0; i < vertices.points.size(); ++i) {
             const std::optional<glm::dvec3> point = placing.place(vertices, i);
             if (!point) {
