@@ -6,6 +6,10 @@
 #include <optional>
 #include <string>
 
+#ifndef _WIN32
+#include <sys/stat.h>
+#endif
+
 using namespace geodisk::tools;
 
 TEST_CASE("glTF that is nested too deeply or of another version is refused") {
@@ -124,6 +128,28 @@ TEST_CASE("glTF buffers are read from the folder of the file alone, images not a
                                  {"bufferView": 0, "mimeType": "image/png"}])";
     CHECK(mesh_of(parts).triangle_count() == 2);
 }
+
+#ifndef _WIN32
+TEST_CASE("pipes that a glTF file names are refused") {
+    const TemporaryFolder folder;
+    folder.write("mesh.bin", kBuffer);
+    REQUIRE(mkfifo((folder / "pipe").c_str(), 0600) == 0);
+    Parts parts;
+    parts.buffer = R"("uri": "pipe", "byteLength": 60)";
+    MeshSources sources;
+    sources.mesh = folder.write("buffer.gltf", text_of(parts)).string();
+    check_fails(ExitCode::bad_input, "pipe: is a pipe, not a regular file",
+                [&] { read_mesh(sources); });
+    parts = {};
+    parts.primitives = R"([{"attributes": {"POSITION": 0}, "indices": 1, "material": 0}])";
+    parts.more = R"(, "images": [{"uri": "pipe"}], "textures": [{"source": 0}], "materials":
+                    [{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}])";
+    sources.mesh = folder.write("image.gltf", text_of(parts)).string();
+    sources.fields.materials = true;
+    check_fails(ExitCode::bad_input, "pipe: is a pipe, not a regular file",
+                [&] { read_mesh(sources); });
+}
+#endif
 
 TEST_CASE("cut and altered glTF files are read or refused") {
     const TemporaryFolder folder;

@@ -123,7 +123,7 @@ std::string GltfData::uri_bytes(const std::string& uri, const std::string& what)
         }
         std::error_code ignored;
         if (std::filesystem::exists(folder / Path(file), ignored)) {
-            return read_file(folder / Path(file));
+            return read_regular_file(folder / Path(file));
         }
     }
     document_.fail(what + ": " + (folder / Path(plain)).string() + ": no such file");

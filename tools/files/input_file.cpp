@@ -3,6 +3,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <memory>
+#include <optional>
 #include <system_error>
 
 #include "files/open_file.hpp"
@@ -31,24 +32,12 @@ void check_regular(const Path& path) {
     }
     check_no_folder(path);
     if (!std::filesystem::is_regular_file(status)) {
-        fail_input(path, "is not a regular file");
+        fail_input(path, std::filesystem::is_fifo(status) ? "is a pipe, not a regular file"
+                                                          : "is not a regular file");
     }
 }
 
-} // namespace
-
-void check_no_folder(const Path& path) {
-    std::error_code ignored;
-    if (std::filesystem::is_directory(path, ignored)) {
-        fail_input(path, "is a folder, not a file");
-    }
-}
-
-std::string read_file(const Path& path) {
-    const auto stream = input_stream(path);
-    if (!stream) {
-        check_regular(path);
-    }
+std::string read_bytes(const Path& path, const std::optional<StreamPath>& stream) {
     const std::unique_ptr<std::FILE, FileCloser> file(stream ? open_stream_to_read(path, *stream)
                                                              : open_to_read(path));
     if (!file && errno == ENODEV) {
@@ -71,6 +60,25 @@ std::string read_file(const Path& path) {
         fail_with_errno(path, errno);
     }
     return bytes;
+}
+
+} // namespace
+
+void check_no_folder(const Path& path) {
+    std::error_code ignored;
+    if (std::filesystem::is_directory(path, ignored)) {
+        fail_input(path, "is a folder, not a file");
+    }
+}
+
+std::string read_file(const Path& path) {
+    const auto stream = input_stream(path);
+    return stream ? read_bytes(path, stream) : read_regular_file(path);
+}
+
+std::string read_regular_file(const Path& path) {
+    check_regular(path);
+    return read_bytes(path, std::nullopt);
 }
 
 std::string lower_case(std::string text) {

@@ -11,6 +11,10 @@ namespace geodisk::tools {
 /// is missing, a folder or unreadable, and for devices but terminals, which may never end.
 std::string read_file(const Path& path);
 
+/// Returns the bytes of a file that another file names. Throws UserError(bad_input) for pipes too:
+/// nobody may write to them.
+std::string read_regular_file(const Path& path);
+
 /// Throws UserError(bad_input) if `path` is a folder.
 void check_no_folder(const Path& path);
 

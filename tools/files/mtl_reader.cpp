@@ -220,7 +220,7 @@ class MtlReader {
                      " is not there; correct map_Kd, or add the file");
             }
             result_.images.push_back(
-                {mtl_.string() + ": " + material + path.string(), read_file(path)});
+                {mtl_.string() + ": " + material + path.string(), read_regular_file(path)});
         }
         return index->second;
     }
