@@ -153,8 +153,19 @@ TEST_CASE("an exact search keeps the largest distance with enough samples") {
 TEST_CASE("an exact search has no best try where too few samples fit") {
     const Found none = search_exact(1000, 1, [](double) { return 0u; });
     CHECK(none.distance == 0);
-    CHECK(none.tries == 2);
+    CHECK(none.tries == 3);
+    CHECK(search_exact(100000, 1, [](double) { return 0u; }).tries == 2);
     CHECK(search_exact(1, 1, [](double) { return 0u; }).distance == 0);
+    // It goes on where a smaller distance gives no more by chance, as long as few are expected.
+    for (const std::uint64_t count : {2u, 5u, 100u}) {
+        CAPTURE(count);
+        const auto wanted = static_cast<double>(count);
+        const double room = std::sqrt(wanted / 30000);
+        const Found found =
+            search_exact(count, 1, [&](double d) { return d > room ? 1u : rounded(wanted); });
+        CHECK(found.count == count);
+        CHECK(found.distance > 0);
+    }
     // It goes on beyond six tries until there are enough.
     const Found late = search_exact(1000, 64, [](double d) { return d > 0.1 ? 0u : 1000u; });
     CHECK(late.distance == 0);

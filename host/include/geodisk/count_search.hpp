@@ -25,7 +25,7 @@ class CountSearch {
     /// nothing when the search has ended:
     /// - the count is within 5 % of `wanted` or differs by one; or is as exact() says,
     /// - a larger distance gives no fewer samples; an exact search also ends if a smaller one gives
-    ///   no more,
+    ///   no more, and over 2^17 samples would be expected at the next,
     /// - this was the seventh try. Exact searches end with the sixth, or go on to the twelfth while
     ///   no try has given enough.
     GEODISK_API std::optional<double> note(double distance, std::uint64_t count) noexcept;
@@ -50,6 +50,7 @@ class CountSearch {
     double aim_;                       ///< Count to steer for, `wanted_` or a little more.
     std::optional<double> most_;       ///< Maximum count of an exact search, which this is then.
     std::optional<Try> above_, below_; ///< Latest tries with too many and too few samples.
+    double first_distance_ = 0;        ///< Of the first try, which `wanted_` is expected at.
     double least_miss_ = 0;            ///< Smallest difference from `wanted_` so far.
     double best_distance_ = 0;         ///< Largest distance with enough samples; 0 for none.
     bool is_nearest_ = false;

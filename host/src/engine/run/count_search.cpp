@@ -14,6 +14,9 @@ constexpr std::uint32_t kMostTries = 7;
 constexpr double kMostExcess = 0.01;
 constexpr std::uint32_t kExactTries = 6;
 constexpr std::uint32_t kMostExactTries = 12;
+/// Samples expected at a distance up to which an exact search goes on where smaller distances give
+/// no more.
+constexpr double kMostExpected = 0x1p17;
 /// Stands for no sample at all in an exact search.
 constexpr double kNone = 0.5;
 /// Maximum factor between the distances of the first two tries, and of later ones on one side.
@@ -79,6 +82,7 @@ CountSearch CountSearch::exact(std::uint64_t count) noexcept {
 
 bool CountSearch::ends_with(double distance, double count) noexcept {
     const bool is_first = tries_++ == 0;
+    first_distance_ = is_first ? distance : first_distance_;
     if (most_) {
         is_nearest_ = count >= wanted_ && distance > best_distance_;
         best_distance_ = is_nearest_ ? distance : best_distance_;
@@ -122,16 +126,15 @@ std::optional<double> CountSearch::note(double distance, std::uint64_t count) no
                trend_factor(other->distance / distance, other->count, last.count, aim_);
     }
     if (before && std::max(before->distance / distance, distance / before->distance) > kTrend) {
-        const bool is_stuck =
-            distance > kWide * before->distance
-                ? last.count >= before->count
-                : most_ && kWide * distance < before->distance && last.count <= before->count;
-        if (is_stuck) {
-            return std::nullopt;
-        }
-        const double next = before->distance * trend_factor(before->distance / distance,
+        const double goal = before->distance * trend_factor(before->distance / distance,
                                                             before->count, last.count, aim_);
-        return std::clamp(next, distance / kMostFactor, distance * kMostFactor);
+        const double next = std::clamp(goal, distance / kMostFactor, distance * kMostFactor);
+        const bool is_stuck = distance > kWide * before->distance
+                                  ? last.count >= before->count
+                                  : most_ && kWide * distance < before->distance &&
+                                        last.count <= before->count &&
+                                        wanted_ * square(first_distance_ / next) > kMostExpected;
+        return is_stuck ? std::nullopt : std::optional(next);
     }
     return distance * first_factor(last.count);
 }
