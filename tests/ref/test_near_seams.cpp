@@ -36,6 +36,15 @@ TestMesh shaken(const TestMesh& mesh, double shift) {
     return soup;
 }
 
+/// A plate of size 1 whose halves are this far apart, and a square of two sides of another size.
+TestMesh plate_beside(double body, double gap) {
+    return {{0,        0,        1,        0,        0,        1,        1,        1,
+             1,        gap,      0,        1 + gap, //
+             2 * body, 2 * body, 3 * body, 2 * body, 2 * body, 3 * body, 3 * body, 3 * body},
+            {0, 1, 2, 4, 3, 5, 6, 7, 8, 7, 9, 8, 6, 7, 9, 6, 9, 8},
+            2};
+}
+
 } // namespace
 
 TEST_CASE("near seams: what is told joins a shaken soup, at any scale") {
@@ -118,6 +127,47 @@ TEST_CASE("near seams: parts far smaller than the whole have their own measure")
     mesh.positions.insert(mesh.positions.end(), {1, 0, 0, 2, 0, 0, 1, 1, 0});
     mesh.triangles.insert(mesh.triangles.end(), {first, first + 1, first + 2});
     CHECK(found_in(mesh).edges == 0);
+}
+
+TEST_CASE("near seams: of a small part beside a large one, at any scale and place") {
+    for (const double scale : {1e-30, 1.0, 1e30}) {
+        for (const double body : {1e-3, 1.0, 1e3, 1e9}) {
+            for (const double gap : {1e-16, 1e-10, 1e-4}) {
+                for (const double offset : {0.0, 1.0}) {
+                    CAPTURE(scale);
+                    CAPTURE(body);
+                    CAPTURE(gap);
+                    CAPTURE(offset);
+                    TestMesh mesh = plate_beside(body, gap);
+                    for (double& x : mesh.positions) {
+                        x = scale * (x + offset * body);
+                    }
+                    const bool is_open = mesh.positions[3] != mesh.positions[9] ||
+                                         mesh.positions[5] != mesh.positions[11];
+                    const NearSeams seams = found_in(mesh);
+                    if (!is_open) { // Rounding closes it.
+                        CHECK(seams.edges == 0);
+                        continue;
+                    }
+                    CHECK(seams.edges == 2);
+                    CHECK(seams.degenerate_faces == 0);
+                    REQUIRE(seams.epsilon > 0);
+                    const auto joined = weld(mesh.view(), seams.epsilon);
+                    REQUIRE(joined);
+                    CHECK(joined->merged_vertices == 2);
+                    CHECK(joined->degenerate_faces == 0);
+                }
+            }
+        }
+    }
+    // No epsilon that weld() takes leaves the plate as it is.
+    for (const double body : {1e15, 1e25, 1e99}) {
+        const NearSeams seams = found_in(plate_beside(body, 1e-15));
+        CHECK(seams.edges == 2);
+        CHECK(seams.gap > 0);
+        CHECK(seams.epsilon == 0);
+        CHECK(seams.degenerate_faces == 0);
+    }
 }
 
 TEST_CASE("near seams: faces that a chain of many vertices removes are told") {

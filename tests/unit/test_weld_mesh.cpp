@@ -118,6 +118,31 @@ TEST_CASE("no built-in shape has seams") {
     }
 }
 
+TEST_CASE("near misses in a part that is tiny beside the whole") {
+    const TemporaryFolder folder;
+    const auto told = [&](const std::string& size) {
+        MeshSources sources;
+        const std::string plate =
+            "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nv 1 1e-16 0\nv 0 1 1e-16\nf 1 2 3\nf 5 4 6\n";
+        const std::string body = "v 2 2 2\nv " + size + " 2 2\nv 2 " + size + " 2\nv 2 2 " + size +
+                                 "\nf 7 9 8\nf 7 8 10\nf 8 9 10\nf 9 7 10\n";
+        sources.mesh = folder.write("a.obj", plate + body).string();
+        const MeshFile mesh = read_mesh(sources);
+        for (const MeshWarning& warning : surface_warnings(
+                 mesh, take(geodisk::PreparedMesh::prepare({mesh.positions, mesh.triangles, 3})))) {
+            if (warning.kind == "near_seams") {
+                return warning.message;
+            }
+        }
+        return std::string();
+    };
+    CHECK(contains(told("1000"),
+                   "2 edges nearly coincide but are not connected, up to 1e-16 apart: "
+                   "spacing is not kept across them. --weld=1e-9 joins them"));
+    CHECK(contains(told("1e14"), "spacing is not kept across them. The gap is too small for --weld "
+                                 "beside the size of the mesh; give both sides the same"));
+}
+
 TEST_CASE("near misses name the distance that joins them") {
     struct Case {
         const char* vertex; // What should be 1 1 0.

@@ -107,14 +107,18 @@ void warn_of_near_seams(const MeshView& view, const MeshStatistics& statistics,
     if (seams.edges == 0) {
         return;
     }
+    const std::string dropped = seams.degenerate_faces > 0
+                                    ? " and drops " +
+                                          counted(seams.degenerate_faces, "triangle", "triangles") +
+                                          " as narrow as that"
+                                    : "";
+    const std::string advice =
+        seams.epsilon > 0
+            ? "--weld=" + weld_text(seams.epsilon) + " joins them" + dropped
+            : "The gap is too small for --weld beside the size of the mesh; give both sides the "
+              "same coordinates";
     const std::string effect =
-        ", up to " + rounded(seams.gap, 2) +
-        " apart: spacing is not kept across them. --weld=" + weld_text(seams.epsilon) +
-        " joins them" +
-        (seams.degenerate_faces > 0
-             ? " and drops " + counted(seams.degenerate_faces, "triangle", "triangles") +
-                   " as narrow as that"
-             : "");
+        ", up to " + rounded(seams.gap, 2) + " apart: spacing is not kept across them. " + advice;
     add_warning(warnings, "near_seams", seams.edges, "",
                 "edge nearly coincides with another one but is not connected" + effect,
                 "edges nearly coincide but are not connected" + effect);

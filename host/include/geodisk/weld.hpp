@@ -54,7 +54,9 @@ GEODISK_API Result<WeldedMesh> join_seams(const MeshView& mesh) noexcept;
 struct NearSeams {
     std::uint64_t edges = 0; ///< Border edges whose ends are both close to those of another one.
     double gap = 0;          ///< Largest distance between such ends, in mesh units.
-    double epsilon = 0;      ///< A round number with which weld() joins them all.
+    /// A round number with which weld() joins them all. 0 if the gap is so small beside the mesh
+    /// that weld() takes none without losing faces.
+    double epsilon = 0;
     std::uint64_t degenerate_faces = 0; ///< Faces that weld() then removes.
 };
 

@@ -29,7 +29,7 @@ constexpr double kPartOfDiagonal = 1e-4;
 /// Allows for the rounding in weld().
 constexpr double kRounding = 1 + 1e-9;
 
-/// Minimum epsilon of weld() with some room, relative to the longest side.
+/// Minimum epsilon of weld() with some room, relative to the longest side of the mesh.
 constexpr double kLeastEpsilon = 0x1p-42;
 
 /// Scales coordinates by a power of two so that the longest side of the borders is about 1. Squares
@@ -57,7 +57,6 @@ class ScaledMesh {
 
     /// Returns false without borders, or if all borders are one point.
     bool is_sized() const { return longest_side_ > 0 && std::isfinite(longest_side_); }
-    double longest_side() const { return longest_side_; } ///< In mesh units.
     double diagonal() const { return diagonal_; }
     double in_mesh_units(double length) const { return length / scale_; }
 
@@ -270,6 +269,22 @@ double rounded_up(double least, int digits) {
     }
 }
 
+/// Returns the longest side of the bounding box of all vertices that faces name, as weld() takes
+/// it.
+double longest_side_of(const MeshView& mesh) {
+    double longest = 0;
+    for (std::uint32_t axis = 0; axis < mesh.dimension; ++axis) {
+        double low = HUGE_VAL, high = -HUGE_VAL;
+        for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+            const double x = mesh.coordinate(mesh.triangles[i], axis);
+            low = std::min(low, x);
+            high = std::max(high, x);
+        }
+        longest = std::max(longest, high - low);
+    }
+    return longest;
+}
+
 /// Chooses an epsilon that joins all of them: round and, if possible, without loss of faces.
 Result<Done> choose_epsilon(const MeshView& mesh, double least, NearSeams& seams) {
     for (const int digits : {0, 1, 3}) {
@@ -311,10 +326,14 @@ Result<NearSeams> find_near_seams(const MeshView& mesh, const ThreadOptions& thr
         seams.edges = gaps.edges;
         seams.gap = gaps.largest;
         if (seams.edges > 0) {
-            const double least =
-                std::max(kRounding * seams.gap, kLeastEpsilon * scaled.longest_side());
-            if (auto chosen = choose_epsilon(mesh, least, seams); !chosen) {
+            const double gap = kRounding * seams.gap;
+            const double least = kLeastEpsilon * longest_side_of(mesh);
+            if (auto chosen = choose_epsilon(mesh, std::max(gap, least), seams); !chosen) {
                 return chosen.error();
+            }
+            if (gap < least && seams.degenerate_faces > 0) { // Wider than the gap, so too much.
+                seams.epsilon = 0;
+                seams.degenerate_faces = 0;
             }
         }
         // If as many triangles vanish as edges join, the surface itself is that narrow.
