@@ -115,6 +115,12 @@ TEST_CASE("samples have classes") {
     CHECK(first > 10);
     CHECK(second > first);
     CHECK(static_cast<std::size_t>(first + second) == count);
+    std::vector<double> radii(count);
+    REQUIRE(geodisk_samples_copy(samples.get(), GEODISK_RADIUS, GEODISK_FLOAT64, radii.data(), 0,
+                                 count, nullptr) == GEODISK_OK);
+    for (std::size_t i = 0; i < count; ++i) {
+        REQUIRE(radii[i] == doctest::Approx(classes[i] == 0 ? 0.25 : 0.2).epsilon(1e-6));
+    }
     const auto plain = sample(shared_sampler(), surface_of(mesh.get(), 0.5, 0).get());
     CHECK(geodisk_samples_width(plain.get(), GEODISK_CLASS) == 0);
 

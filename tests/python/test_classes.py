@@ -35,6 +35,17 @@ def test_a_table_has_all_distances():
     assert 1.5 < many / few < 4
     again = geodisk.sample(VERTICES, FACES, classes=table, seed=4, existing=samples[:40])
     assert same(again, samples) and np.array_equal(again.classes, samples.classes)
+    radii = np.array([0.3, 0.2])[samples.classes]
+    assert np.array_equal(samples.radius, radii) and samples[3].radius == radii[3]
+    made = geodisk.Samples(
+        face_index=samples.face_index,
+        barycentric=samples.barycentric,
+        columns={"class": samples.classes},
+        class_distances=table,
+    )
+    assert np.array_equal(made.radius, radii)
+    moved = geodisk.transfer(samples, 2 * VERTICES)
+    assert moved.class_distances is None and np.ptp(moved.radius) == 0
     samples.classes[:] = 0
     assert not geodisk.verify(samples).ok
 

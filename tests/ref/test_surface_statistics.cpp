@@ -117,3 +117,25 @@ TEST_CASE("radii that vary are taken in pairs") {
     CHECK(result.lonely == 0);
     CHECK(result.pair_correlation.counts.empty());
 }
+
+TEST_CASE("samples of classes are taken by the distances of their classes") {
+    const TestMesh mesh = flat_grid(4, 4, 1, 1);
+    const PreparedMesh surface = prepared(mesh);
+    std::vector<SurfaceDisk> samples =
+        with_radius({point_at(mesh, 0.4, 0.5), point_at(mesh, 0.6, 0.5)}, 0.2);
+    samples[1].radius = 0.05;
+    samples[0].kind = 1;
+    samples[1].kind = 2;
+    const tools::ClassDistances classes{2, {0.4, 0.16, 0.16, 0.1}};
+    const SurfaceStatistics result = measure(surface, {}, samples, 40000, 1, {}, classes);
+    CHECK(result.smallest == doctest::Approx(0.2 / 0.16).epsilon(1e-6));
+    CHECK(result.pair_correlation.counts.empty());
+    REQUIRE(result.rooms.size() == 2);
+    // One of the first class keeps 0.4 from the first sample and 0.16 from the second, which is
+    // all within the larger disk; one of the second class 0.16 and 0.1.
+    CHECK(result.rooms[0].uncovered == doctest::Approx(1 - 3.14159 * 0.16).epsilon(0.02));
+    const double both = 3.14159 * (0.16 * 0.16 + 0.1 * 0.1);
+    CHECK(result.rooms[1].uncovered > 1 - both);
+    CHECK(result.rooms[1].uncovered < 1 - 3.14159 * 0.16 * 0.16);
+    CHECK(result.uncovered == doctest::Approx(result.rooms[1].uncovered).epsilon(1e-9));
+}

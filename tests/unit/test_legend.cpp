@@ -145,4 +145,30 @@ TEST_CASE("a legend without a scale has no bar") {
     CHECK(longest_line(pixels) < 20);
 }
 
+TEST_CASE("a legend has an entry in its colour for each class") {
+    for (const auto& [width, height] : {std::pair(1920u, 1080u), std::pair(320u, 240u)}) {
+        LegendFacts facts{700, 0.01, 0.06, Style::disks, true};
+        facts.classes = {{100, 0.06}, {200, 0.04}, {400, 0.01}};
+        Pixels pixels = blank(width, height);
+        Legend(facts, width, height).draw(pixels, kWhite, 0, 0, {.pixels_per_unit = 900});
+        const auto pixels_of = [&](std::size_t number) {
+            const glm::vec3 color = picture::class_color(number);
+            std::size_t count = 0;
+            for (std::size_t at = 0; at < pixels.rgba.size(); at += 4) {
+                bool is_same = true;
+                for (int k = 0; k < 3; ++k) {
+                    is_same = is_same && std::abs(pixels.rgba[at + static_cast<std::size_t>(k)] -
+                                                  255 * color[k]) < 1.5f;
+                }
+                count += is_same;
+            }
+            return count;
+        };
+        for (std::size_t number = 0; number < 3; ++number) {
+            CHECK(pixels_of(number) > 20);
+        }
+        CHECK(pixels_of(3) == 0);
+    }
+}
+
 } // namespace geodisk::tools

@@ -222,15 +222,24 @@ TEST_CASE("distances by what a page carries are those of the table, to a thousan
 TEST_CASE("samples tell their nearest in mesh units, or themselves where there is none") {
     const std::vector<SurfaceDisk> disks = {{5, 0.25, 0.5, 2}, {6, 0, 0, 1}, {70000, 1, 0, 2}};
     const std::vector<analysis::Neighbor> neighbors = {{1, 1.5}, {0, 1.5}, {}};
-    const auto arrays = report::sample_arrays(disks, neighbors);
+    const auto arrays = report::sample_arrays({disks, {}}, neighbors);
     CHECK(numbers_of(arrays, "sample_faces") == std::vector<double>{5, 6, 70000});
     CHECK(numbers_of(arrays, "sample_weights") == std::vector<double>{0.25, 0.5, 0, 0, 1, 0});
     CHECK(numbers_of(arrays, "sample_radii") == std::vector<double>{2, 1, 2});
     CHECK(numbers_of(arrays, "sample_neighbors") == std::vector<double>{1, 0, 2});
     CHECK(numbers_of(arrays, "sample_distances") == std::vector<double>{4.5, 4.5, 0});
     const std::vector<SurfaceDisk> alike = {{5, 0.25, 0.5, 2}, {6, 0, 0, 2}};
-    CHECK(numbers_of(report::sample_arrays(alike, std::span(neighbors).first(2)), "sample_radii") ==
-          std::vector<double>{2});
+    const auto same = report::sample_arrays({alike, {}}, std::span(neighbors).first(2));
+    CHECK(numbers_of(same, "sample_radii") == std::vector<double>{2});
+    CHECK(numbers_of(same, "sample_kinds") == std::vector<double>{0});
+    // Distances of classes, not sums of radii.
+    std::vector<SurfaceDisk> kinds = alike;
+    kinds[0].kind = 1;
+    kinds[1].kind = 2;
+    const auto classes =
+        report::sample_arrays({kinds, {2, {4, 3, 3, 4}}}, std::span(neighbors).first(2));
+    CHECK(numbers_of(classes, "sample_kinds") == std::vector<double>{1, 2});
+    CHECK(numbers_of(classes, "sample_distances") == std::vector<double>{4.5, 4.5});
 }
 
 TEST_CASE("a page is made of texts that are there, and ends no script too early") {

@@ -69,8 +69,8 @@ struct Pair {
 /// What the disks of a batch of samples found.
 struct Found {
     std::vector<Pair> sample_distances; ///< Each pair both ways.
-    /// By place, of those that were found: the least distance from a sample.
-    std::vector<std::pair<std::uint32_t, double>> place_distances;
+    /// Distances of places from samples, for each place and class: `place * classes + class`.
+    std::vector<std::pair<std::size_t, double>> place_distances;
     std::vector<double> sample_pairs, place_pairs; ///< By bin.
 };
 
@@ -103,10 +103,12 @@ struct Layout {
 /// Computes the disks of samples, one after the other.
 class Worker {
   public:
-    Worker(const Layout& layout, std::span<const SurfaceDisk> samples, double reach, double longest,
-           std::size_t bins, std::vector<Found>& found)
-        : layout_(layout), samples_(samples), reach_(reach), longest_(longest), bin_count_(bins),
-          found_(found), detector_(layout.surface, layout.bins, ref::double_tolerances(), 1),
+    Worker(const Layout& layout, std::span<const SurfaceDisk> samples,
+           const ClassDistances& classes, double reach, double longest, std::size_t bins,
+           std::vector<Found>& found)
+        : layout_(layout), samples_(samples), classes_(classes), reach_(reach), longest_(longest),
+          bin_count_(bins), found_(found),
+          detector_(layout.surface, layout.bins, ref::double_tolerances(), 1),
           distances_(layout.bins.order.size(), kNone) {}
     Worker(const Worker&) = delete;
     Worker& operator=(const Worker&) = delete;
@@ -123,9 +125,9 @@ class Worker {
   private:
     void take(std::size_t i, Found& found) {
         const double unit = layout_.surface.frame.unit;
-        const double own = samples_[i].radius;
+        const SurfaceDisk& own = samples_[i];
         const std::uint32_t source = layout_.place_of[i];
-        detector_.set_limit(std::min(reach_ * 2 * own, longest_) / unit);
+        detector_.set_limit(std::min(reach_ * classes_.reach(own), longest_) / unit);
         detector_.run(
             layout_.bins.points[source], [&](std::uint32_t place) { return place != source; },
             [&](std::uint32_t place, double distance) {
@@ -138,14 +140,14 @@ class Worker {
             const double distance = std::exchange(distances_[place], kNone);
             const std::uint32_t other = layout_.bins.order[place];
             const bool is_sample = other < layout_.samples;
-            const double relative = distance / (own + (is_sample ? samples_[other].radius : own));
+            const double relative =
+                distance / (is_sample ? classes_.of(own, samples_[other]) : 2 * own.radius);
             if (is_sample) {
                 const auto self = static_cast<std::uint32_t>(i);
                 found.sample_distances.push_back({self, other, relative});
                 found.sample_distances.push_back({other, self, relative});
             } else {
-                found.place_distances.emplace_back(
-                    other - static_cast<std::uint32_t>(layout_.samples), relative);
+                note_place(other - layout_.samples, own, distance, found);
             }
             const auto bin = static_cast<std::size_t>(relative * kBinsPerDistance);
             if (bin < bin_count_) {
@@ -155,8 +157,20 @@ class Worker {
         near_.clear();
     }
 
+    void note_place(std::size_t place, const SurfaceDisk& own, double distance,
+                    Found& found) const {
+        if (classes_.count == 0) {
+            found.place_distances.emplace_back(place, distance / (2 * own.radius));
+        }
+        for (std::size_t other = 0; other < classes_.count; ++other) {
+            found.place_distances.emplace_back(place * classes_.count + other,
+                                               distance / classes_.of(own.kind - 1, other));
+        }
+    }
+
     const Layout& layout_;
     std::span<const SurfaceDisk> samples_;
+    const ClassDistances& classes_;
     double reach_, longest_;
     std::size_t bin_count_;
     std::vector<Found>& found_;
@@ -183,13 +197,26 @@ void note_nearest(SurfaceStatistics& result) {
     result.mean_nearest = others > 0 ? sum / static_cast<double>(others) : 0;
 }
 
-void note_gaps(const std::vector<double>& gaps, SurfaceStatistics& result) {
+/// `gaps` has, for each place and class, the distance to the nearest sample.
+void note_gaps(const std::vector<double>& gaps, std::size_t classes, SurfaceStatistics& result) {
+    std::vector<ClassRoom> rooms(std::max<std::size_t>(1, classes));
     std::uint64_t uncovered = 0;
-    for (const double gap : gaps) {
-        uncovered += gap >= 1;
-        result.largest_gap = std::max(result.largest_gap, std::min(gap, result.reach));
+    const double part = 1 / static_cast<double>(gaps.size() / rooms.size());
+    for (auto place = gaps.begin(); place != gaps.end();) {
+        bool has_room = false;
+        for (ClassRoom& room : rooms) {
+            const double gap = *place++;
+            has_room |= gap >= 1;
+            room.uncovered += gap >= 1 ? part : 0;
+            room.largest_gap = std::max(room.largest_gap, std::min(gap, result.reach));
+        }
+        uncovered += has_room;
     }
-    result.uncovered = static_cast<double>(uncovered) / static_cast<double>(gaps.size());
+    result.uncovered = static_cast<double>(uncovered) * part;
+    result.largest_gap = std::ranges::max(rooms, {}, &ClassRoom::largest_gap).largest_gap;
+    if (classes > 0) {
+        result.rooms = std::move(rooms);
+    }
 }
 
 void note_pairs(const std::vector<Found>& all, std::size_t samples, SurfaceStatistics& result) {
@@ -215,13 +242,13 @@ void note_pairs(const std::vector<Found>& all, std::size_t samples, SurfaceStati
 
 SurfaceStatistics measure(const PreparedMesh& mesh, std::span<const std::uint8_t> face_mask,
                           std::span<const SurfaceDisk> samples, std::uint32_t probes,
-                          std::uint64_t seed, const PartDone& tell) {
+                          std::uint64_t seed, const PartDone& tell, const ClassDistances& classes) {
     std::mt19937_64 random(seed);
     const std::vector<Point> places = draw_places(mesh, face_mask, probes, random);
     const auto [least, most] = std::minmax_element(
         samples.begin(), samples.end(),
         [](const SurfaceDisk& a, const SurfaceDisk& b) { return a.radius < b.radius; });
-    const bool vary = least->radius < most->radius;
+    const bool vary = least->radius < most->radius || classes.count > 0;
     SurfaceStatistics result;
     result.reach = vary ? SurfaceStatistics::kReachVarying : SurfaceStatistics::kReach;
     result.probes = probes;
@@ -233,12 +260,13 @@ SurfaceStatistics measure(const PreparedMesh& mesh, std::span<const std::uint8_t
     try {
         in_batches(
             samples.size(), kBatch,
-            [&] { return Worker(layout, samples, result.reach, longest, bins, found); }, tell);
+            [&] { return Worker(layout, samples, classes, result.reach, longest, bins, found); },
+            tell);
     } catch (const ref::EndlessDisk& error) {
         throw UserError(ExitCode::bad_input, error.what());
     }
     result.neighbors.resize(samples.size());
-    std::vector<double> gaps(probes, kNone);
+    std::vector<double> gaps(probes * std::max<std::size_t>(1, classes.count), kNone);
     for (const Found& batch : found) {
         for (const auto& [sample, other, distance] : batch.sample_distances) {
             Neighbor& nearest = result.neighbors[sample];
@@ -251,7 +279,7 @@ SurfaceStatistics measure(const PreparedMesh& mesh, std::span<const std::uint8_t
         }
     }
     note_nearest(result);
-    note_gaps(gaps, result);
+    note_gaps(gaps, classes.count, result);
     if (!vary) {
         note_pairs(found, samples.size(), result);
     }

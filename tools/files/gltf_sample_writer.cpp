@@ -208,11 +208,16 @@ void add_surface(Points& points, std::span<const SampleRow> rows, const SampleLa
     }
 }
 
-/// Adds a node that places a triangle at each point, turned by the frames, scaled by the radius.
-void add_instances(tinygltf::Model& model, const tinygltf::Node& points, int positions,
+constexpr const char* kInstances = "EXT_mesh_gpu_instancing";
+
+/// Adds a node that places a triangle at each of the points of a node, turned by the frames, scaled
+/// by the radius.
+void add_instances(tinygltf::Model& model, const tinygltf::Node& points,
                    std::span<const SampleRow> rows, const SampleHeader& header,
                    const SampleLayout& layout) {
-    constexpr const char* kExtension = "EXT_mesh_gpu_instancing";
+    const tinygltf::Primitive& primitive =
+        model.meshes[static_cast<std::size_t>(points.mesh)].primitives[0];
+    const int positions = primitive.attributes.at("POSITION"), material = primitive.material;
     const SampleField& frames = *find_frames(layout.further);
     FloatAccessors instances(model, rows.size());
     const int turns = instances.add(4, [&](std::size_t i, std::size_t k) {
@@ -227,22 +232,25 @@ void add_instances(tinygltf::Model& model, const tinygltf::Node& points, int pos
     mesh.name = "sample";
     mesh.primitives.push_back(corners.primitive());
     mesh.primitives[0].mode = TINYGLTF_MODE_TRIANGLES;
+    mesh.primitives[0].material = material;
     tinygltf::Node node;
+    node.name = points.name.empty() ? "" : points.name + "Instances";
     node.translation = points.translation;
     node.mesh = static_cast<int>(model.meshes.size());
     tinygltf::Value::Object attributes{{"TRANSLATION", tinygltf::Value(positions)},
                                        {"ROTATION", tinygltf::Value(turns)},
                                        {"SCALE", tinygltf::Value(scales)}};
-    node.extensions.emplace(kExtension, tinygltf::Value(tinygltf::Value::Object{
+    node.extensions.emplace(kInstances, tinygltf::Value(tinygltf::Value::Object{
                                             {"attributes", tinygltf::Value(attributes)}}));
-    model.extensionsUsed.emplace_back(kExtension);
+    model.extensionsUsed = {kInstances};
     model.meshes.push_back(std::move(mesh));
     model.nodes.push_back(std::move(node));
 }
 
-/// A node with all points.
-tinygltf::Node add_points(tinygltf::Model& model, std::span<const SampleRow> rows,
-                          const SampleTarget& target, const SampleLayout& layout) {
+/// Adds a node with a point for each row, and one that places a triangle at each if there are
+/// frames. A class gives their name and, unless it is null, their colour.
+void add_nodes(tinygltf::Model& model, std::span<const SampleRow> rows, const SampleHeader& header,
+               const SampleTarget& target, const SampleLayout& layout, const SampleClass* own) {
     tinygltf::Node node;
     const std::array<double, 3> origin = origin_for_float(rows, 3);
     check_float_range(target, rows, origin);
@@ -258,9 +266,54 @@ tinygltf::Node add_points(tinygltf::Model& model, std::span<const SampleRow> row
     }
     tinygltf::Mesh mesh;
     mesh.primitives.push_back(points.primitive());
+    if (own != nullptr) {
+        node.name = own->name;
+        if (!has_colours(layout)) {
+            tinygltf::Material material;
+            material.name = own->name;
+            const auto& [red, green, blue] = own->colour;
+            material.pbrMetallicRoughness.baseColorFactor = {red, green, blue, 1};
+            material.pbrMetallicRoughness.metallicFactor = 0;
+            mesh.primitives[0].material = static_cast<int>(model.materials.size());
+            model.materials.push_back(std::move(material));
+        }
+    }
+    node.mesh = static_cast<int>(model.meshes.size());
     model.meshes.push_back(std::move(mesh));
-    node.mesh = 0;
-    return node;
+    model.nodes.push_back(node);
+    if (find_frames(layout.further) != nullptr) {
+        add_instances(model, node, rows, header, layout);
+    }
+}
+
+/// Adds the nodes of a class, with its part of all columns.
+void add_class(tinygltf::Model& model, std::span<const SampleRow> rows, const SampleHeader& header,
+               const SampleTarget& target, const SampleLayout& layout, const SampleClass& own) {
+    std::vector<SampleRow> own_rows;
+    std::vector<ExtraColumn> numbers;
+    std::vector<SampleField> fields;
+    for (const ExtraColumn& column : layout.further.numbers) {
+        numbers.push_back({column.name, {}});
+    }
+    for (const SampleField& field : layout.further.fields) {
+        fields.push_back(field);
+        fields.back().values.clear();
+    }
+    for (const std::uint32_t row : own.rows) {
+        own_rows.push_back(rows[row]);
+        for (std::size_t i = 0; i < numbers.size(); ++i) {
+            numbers[i].values.push_back(layout.further.numbers[i].values[row]);
+        }
+        for (std::size_t i = 0; i < fields.size(); ++i) {
+            const std::size_t size = fields[i].components.size();
+            const auto values =
+                std::span(layout.further.fields[i].values).subspan(row * size, size);
+            fields[i].values.insert(fields[i].values.end(), values.begin(), values.end());
+        }
+    }
+    SampleLayout own_layout = layout;
+    own_layout.further = {numbers, fields};
+    add_nodes(model, own_rows, header, target, own_layout, &own);
 }
 
 /// tinygltf throws at text that is not UTF-8, which json_text() replaces.
@@ -291,16 +344,15 @@ void write_gltf(AtomicFile& file, const SampleHeader& header, std::span<const Sa
     model.asset.extras = extras_of(header);
     model.scenes.resize(1);
     model.defaultScene = 0;
-    if (!rows.empty()) { // No accessor may be empty.
-        model.nodes.push_back(add_points(model, rows, target, layout));
-        if (find_frames(layout.further) != nullptr) {
-            const tinygltf::Node points = model.nodes[0];
-            const int positions = model.meshes[0].primitives[0].attributes.at("POSITION");
-            add_instances(model, points, positions, rows, header, layout);
-        }
-        for (std::size_t i = 0; i < model.nodes.size(); ++i) {
-            model.scenes[0].nodes.push_back(static_cast<int>(i));
-        }
+    for (const std::vector<SampleClass> classes = sample_classes(rows, layout);
+         const SampleClass& own : classes) {
+        add_class(model, rows, header, target, layout, own);
+    }
+    if (model.nodes.empty() && !rows.empty()) { // No accessor may be empty.
+        add_nodes(model, rows, header, target, layout, nullptr);
+    }
+    for (std::size_t i = 0; i < model.nodes.size(); ++i) {
+        model.scenes[0].nodes.push_back(static_cast<int>(i));
     }
     const bool is_binary = target.format == SampleFormat::glb;
     FileBuffer buffer(file);

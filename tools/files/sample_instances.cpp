@@ -1,10 +1,26 @@
 #include "files/sample_instances.hpp"
 
+#include <algorithm>
+#include <iterator>
+#include <map>
 #include <string>
+#include <utility>
 
+#include "files/mesh_fields.hpp"
+#include "files/srgb_encoding.hpp"
 #include "program/exact_text.hpp"
 
 namespace geodisk::tools {
+namespace {
+
+struct vec3 {
+    double red, green, blue;
+};
+constexpr vec3 kColours[] = {
+#include "picture/shaders/class_colors.h"
+};
+
+} // namespace
 
 std::optional<double> common_radius(const SampleHeader& header, const SampleLayout& layout) {
     if (layout.has_radius) {
@@ -12,6 +28,31 @@ std::optional<double> common_radius(const SampleHeader& header, const SampleLayo
     }
     const std::string* const distance = header.find("min_distance");
     return (distance != nullptr ? parse_real(*distance) : std::nullopt).value_or(2) / 2;
+}
+
+bool has_colours(const SampleLayout& layout) {
+    return std::ranges::any_of(layout.further.fields,
+                               [](const SampleField& field) { return field.name == kColourField; });
+}
+
+std::vector<SampleClass> sample_classes(std::span<const SampleRow> rows,
+                                        const SampleLayout& layout) {
+    const auto column = std::ranges::find(layout.further.numbers, kClassColumn, &ExtraColumn::name);
+    if (column == layout.further.numbers.end()) {
+        return {};
+    }
+    std::map<std::uint32_t, std::vector<std::uint32_t>> members;
+    for (std::uint32_t i = 0; i < rows.size(); ++i) {
+        members[column->values[i]].push_back(i);
+    }
+    std::vector<SampleClass> classes;
+    for (auto& [number, own] : members) {
+        const vec3& encoded = kColours[number % std::size(kColours)];
+        classes.push_back({"Class" + std::to_string(number),
+                           {light_of(encoded.red), light_of(encoded.green), light_of(encoded.blue)},
+                           std::move(own)});
+    }
+    return classes;
 }
 
 } // namespace geodisk::tools

@@ -2,8 +2,11 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
+#include <vector>
 
 #include "files/sample_file.hpp"
 #include "files/sample_layout.hpp"
@@ -17,6 +20,20 @@ inline constexpr std::array<std::array<float, 3>, 3> kMarker{
 
 /// Returns the radius that all samples have, if the header says it; nothing if radii vary.
 std::optional<double> common_radius(const SampleHeader& header, const SampleLayout& layout);
+
+/// Returns true if each sample has a colour of its own.
+bool has_colours(const SampleLayout& layout);
+
+/// A class of samples, as scenes show it.
+struct SampleClass {
+    std::string name;                ///< "Class0" and so on.
+    std::array<double, 3> colour;    ///< Linear.
+    std::vector<std::uint32_t> rows; ///< Of the samples, at least one.
+};
+
+/// Returns the classes that have samples, in order; none if the samples have no classes.
+std::vector<SampleClass> sample_classes(std::span<const SampleRow> rows,
+                                        const SampleLayout& layout);
 
 /// Returns the number of `row` by which a shape of radius 1 is scaled: the radius of the sample.
 inline float scale_of(const SampleRow& row, const std::optional<double>& common) {

@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <vector>
 
 #include "files/block_writer.hpp"
 #include "files/float_values.hpp"
@@ -36,6 +37,11 @@ std::string identifier(std::string name) {
         c = c == '.' || c == '-' ? '_' : c;
     }
     return name[0] >= '0' && name[0] <= '9' ? '_' + name : name;
+}
+
+/// Returns the float nearest to a number.
+std::string float_text(double value) {
+    return exact_text(static_cast<float>(value));
 }
 
 /// Writes the properties of a PointInstancer, one array after the other.
@@ -138,29 +144,59 @@ void add_surface(Properties& properties, std::span<const SampleRow> rows,
     }
 }
 
-/// The shape that stands for a sample: a triangle where frames turn it, else a ball.
-std::string prototype(bool is_turned) {
+/// Returns the shape that stands for a sample: a triangle where frames turn it, else a ball. It has
+/// the colour of a class, unless that is null.
+std::string prototype(const std::string& name, const std::array<double, 3>* colour,
+                      bool is_turned) {
+    std::string text = "        def " + std::string(is_turned ? "Mesh" : "Sphere") + " \"" + name +
+                       "\"\n        {\n";
+    if (colour != nullptr) {
+        text += "            color3f[] primvars:displayColor = [(" + float_text((*colour)[0]) +
+                ", " + float_text((*colour)[1]) + ", " + float_text((*colour)[2]) + ")]\n";
+    }
     if (!is_turned) {
-        return R"(        def Sphere "Sample"
-        {
-            double radius = 1
-        }
-)";
+        return text + "            double radius = 1\n        }\n";
     }
     std::string points;
     for (const std::array<float, 3>& corner : kMarker) {
         points += (points.empty() ? "(" : ", (") + exact_text(corner[0]) + ", " +
                   exact_text(corner[1]) + ", " + exact_text(corner[2]) + ')';
     }
-    return R"(        def Mesh "Sample"
-        {
-            uniform bool doubleSided = 1
+    return text + R"(            uniform bool doubleSided = 1
             uniform token subdivisionScheme = "none"
             int[] faceVertexCounts = [3]
             int[] faceVertexIndices = [0, 1, 2]
             point3f[] points = [)" +
            points + "]\n        }\n";
 }
+
+/// The shapes of all samples.
+struct Prototypes {
+    std::vector<std::uint32_t> of_row; ///< Their numbers.
+    std::string paths, shapes;
+
+    Prototypes(std::span<const SampleRow> rows, const SampleLayout& layout) : of_row(rows.size()) {
+        const bool is_turned = find_frames(layout.further) != nullptr;
+        const std::vector<SampleClass> classes = sample_classes(rows, layout);
+        for (const SampleClass& one : classes) {
+            for (const std::uint32_t row : one.rows) {
+                of_row[row] = static_cast<std::uint32_t>(&one - classes.data());
+            }
+            paths += (paths.empty() ? "[<" : ", <") + path_of(one.name);
+            shapes += prototype(one.name, has_colours(layout) ? nullptr : &one.colour, is_turned);
+        }
+        paths += classes.empty() ? "" : "]";
+        if (classes.empty()) {
+            paths = "<" + path_of("Sample");
+            shapes = prototype("Sample", nullptr, is_turned);
+        }
+    }
+
+  private:
+    static std::string path_of(const std::string& name) {
+        return "/Samples/Prototypes/" + name + ">";
+    }
+};
 
 } // namespace
 
@@ -181,16 +217,17 @@ void write_usd(AtomicFile& file, const SampleHeader& header, std::span<const Sam
     properties.add("point3f[] positions", 3, [&](std::size_t i, std::size_t k) {
         return static_cast<float>(rows[i].position[k] - origin[k]);
     });
-    properties.add("int[] protoIndices", 1, [](std::size_t, std::size_t) { return 0; });
+    const Prototypes prototypes(rows, layout);
+    properties.add("int[] protoIndices", 1,
+                   [&](std::size_t i, std::size_t) { return prototypes.of_row[i]; });
     const auto radius = common_radius(header, layout);
     properties.add("float3[] scales", 3,
                    [&](std::size_t i, std::size_t) { return scale_of(rows[i], radius); });
     if (layout.is_on_surface) {
         add_surface(properties, rows, layout);
     }
-    file.write("    rel prototypes = </Samples/Prototypes/Sample>\n\n"
-               "    def Scope \"Prototypes\"\n    {\n" +
-               prototype(find_frames(layout.further) != nullptr) + "    }\n}\n");
+    file.write("    rel prototypes = " + prototypes.paths +
+               "\n\n    def Scope \"Prototypes\"\n    {\n" + prototypes.shapes + "    }\n}\n");
 }
 
 } // namespace geodisk::tools

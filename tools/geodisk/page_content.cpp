@@ -46,11 +46,11 @@ void add_disks(const MeshInput& mesh, std::span<const SurfaceDisk> disks, Progre
 
 } // namespace
 
-PageContent make_page_content(const MeshInput& mesh, std::span<const SurfaceDisk> disks,
+PageContent make_page_content(const MeshInput& mesh, const SampleDisks& samples,
                               std::span<const analysis::Neighbor> neighbors,
                               std::optional<picture::Up> up, ProgressLine& progress) {
     PageContent content;
-    content.arrays = report::sample_arrays(disks, neighbors);
+    content.arrays = report::sample_arrays(samples, neighbors);
     if (mesh.dimension() == 0) {
         content.left_out.emplace_back("The surface, as the mesh has edge lengths without "
                                       "coordinates, so that there is nothing to look at.");
@@ -61,7 +61,7 @@ PageContent make_page_content(const MeshInput& mesh, std::span<const SurfaceDisk
                                    " triangles, too many for a page.");
         return content;
     }
-    add_disks(mesh, disks, progress, content);
+    add_disks(mesh, samples.disks, progress, content);
     progress.begin_stage("preparing the page");
     const picture::Scene scene =
         picture::make_scene(mesh.file.positions, mesh.dimension(), mesh.file.triangles);

@@ -27,7 +27,7 @@ struct PageContent {
 
 /// The surface with these disks, one for each sample. `up` is what points up, if it was given. What
 /// a browser could not draw is left out. Throws UserError.
-PageContent make_page_content(const MeshInput& mesh, std::span<const SurfaceDisk> disks,
+PageContent make_page_content(const MeshInput& mesh, const SampleDisks& samples,
                               std::span<const analysis::Neighbor> neighbors,
                               std::optional<picture::Up> up, ProgressLine& progress);
 

@@ -264,6 +264,9 @@ SampleResult sample_mesh(const SampleJob& job, const MeshInput& mesh, RunDevice&
     result.feature_length = features.length();
     result.classes.assign(set.classes.begin(), set.classes.end());
     result.classes.resize(result.rows.size()); // A single class has no table.
+    for (std::size_t i = 0; i < result.rows.size() && job.classes.has_radii(); ++i) {
+        result.rows[i].radius = job.classes.radius(result.classes[i], params.min_distance);
+    }
     if (job.method.has_levels) {
         result.levels = levels_of(job.method, mesh, params);
     }

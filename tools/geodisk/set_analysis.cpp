@@ -1,6 +1,8 @@
 #include "geodisk/set_analysis.hpp"
 
 #include <algorithm>
+#include <iterator>
+#include <optional>
 #include <vector>
 
 #include <geodisk/params.hpp>
@@ -18,6 +20,50 @@ namespace {
 constexpr double kProbesPerSample = 10;
 constexpr double kFewestProbes = 20000;
 constexpr double kMostProbes = 1e7;
+
+/// Returns the packing density; nothing where radii vary otherwise than by class.
+std::optional<double> rho_of(const MeshInput& mesh, std::span<const SurfaceDisk> disks,
+                             const ClassDistances& classes, double min_distance) {
+    const auto [least, most] = std::ranges::minmax(disks, {}, &SurfaceDisk::radius);
+    if (classes.count == 0 && least.radius != most.radius) {
+        return std::nullopt;
+    }
+    std::vector<float> factors;
+    for (const double distance : classes.distances) {
+        factors.push_back(std::max(static_cast<float>(distance / min_distance), kLeastClassFactor));
+    }
+    SampleParams params;
+    params.face_mask = mesh.face_mask;
+    params.class_factors = factors;
+    return packing_density(effective_area(mesh.prepared, params), min_distance,
+                           static_cast<double>(disks.size()));
+}
+
+/// Measures samples, not none, but no class alone.
+SetAnalysis measure_disks(const MeshInput& mesh, std::span<const SurfaceDisk> disks,
+                          const ClassDistances& classes, std::uint32_t probes, std::uint64_t seed,
+                          ProgressLine& progress) {
+    SetAnalysis set;
+    set.samples = disks.size();
+    set.min_distance = classes.count > 0
+                           ? std::ranges::max(classes.distances)
+                           : 2 * std::ranges::max(disks, {}, &SurfaceDisk::radius).radius;
+    set.rho = rho_of(mesh, disks, classes, set.min_distance);
+    std::vector<std::uint32_t> faces;
+    faces.reserve(set.samples);
+    for (const SurfaceDisk& disk : disks) {
+        faces.push_back(disk.face);
+    }
+    set.bare_components = parts_without(mesh.prepared, faces, mesh.face_mask).count;
+    progress.begin_stage("measuring distances");
+    const auto tell = [&](double part) {
+        check_interrupted();
+        progress.update(part, grouped(set.samples) + " samples");
+    };
+    set.found =
+        analysis::measure(mesh.prepared, mesh.face_mask, disks, probes, seed, tell, classes);
+    return set;
+}
 
 } // namespace
 
@@ -39,32 +85,25 @@ std::uint32_t probes_for(const std::string& probes, std::size_t samples) {
         std::clamp(kProbesPerSample * static_cast<double>(samples), kFewestProbes, kMostProbes));
 }
 
-SetAnalysis analyze_disks(const MeshInput& mesh, std::span<const SurfaceDisk> disks,
+SetAnalysis analyze_disks(const MeshInput& mesh, const SampleDisks& samples,
                           const std::string& probes, std::uint64_t seed, ProgressLine& progress) {
-    SetAnalysis set;
-    set.samples = disks.size();
-    const auto [least, most] = std::minmax_element(
-        disks.begin(), disks.end(),
-        [](const SurfaceDisk& a, const SurfaceDisk& b) { return a.radius < b.radius; });
-    set.min_distance = 2 * most->radius;
-    if (least->radius == most->radius) {
-        SampleParams params;
-        params.face_mask = mesh.face_mask;
-        set.rho = packing_density(effective_area(mesh.prepared, params), set.min_distance,
-                                  static_cast<double>(set.samples));
+    const std::span<const SurfaceDisk> disks = samples.disks;
+    const ClassDistances& classes = samples.classes;
+    SetAnalysis set =
+        measure_disks(mesh, disks, classes, probes_for(probes, disks.size()), seed, progress);
+    for (std::uint32_t number = 0; number < classes.count; ++number) {
+        std::vector<SurfaceDisk> own;
+        std::ranges::copy_if(disks, std::back_inserter(own),
+                             [&](const SurfaceDisk& disk) { return disk.kind == number + 1; });
+        SetAnalysis& one = set.classes.emplace_back();
+        if (!own.empty()) {
+            one = measure_disks(mesh, own, {}, set.found.probes, seed, progress);
+        }
+        one.min_distance = classes.of(number, number);
+        one.found.probes = set.found.probes;
+        one.found.uncovered = set.found.rooms[number].uncovered;
+        one.found.largest_gap = set.found.rooms[number].largest_gap;
     }
-    std::vector<std::uint32_t> faces;
-    faces.reserve(set.samples);
-    for (const SurfaceDisk& disk : disks) {
-        faces.push_back(disk.face);
-    }
-    set.bare_components = parts_without(mesh.prepared, faces, mesh.face_mask).count;
-    progress.begin_stage("measuring distances");
-    set.found = analysis::measure(mesh.prepared, mesh.face_mask, disks,
-                                  probes_for(probes, set.samples), seed, [&](double part) {
-                                      check_interrupted();
-                                      progress.update(part, grouped(set.samples) + " samples");
-                                  });
     progress.clear();
     return set;
 }

@@ -22,9 +22,9 @@ void add_probes_option(Command command, std::string& probes);
 /// many samples. Throws UserError(usage).
 std::uint32_t probes_for(const std::string& probes, std::size_t samples);
 
-/// Measures samples with these disks, not none, on the faces of `mesh` that its mask keeps. Random
-/// places are drawn by `seed`. The path is left to the caller. Throws UserError.
-SetAnalysis analyze_disks(const MeshInput& mesh, std::span<const SurfaceDisk> disks,
+/// Measures samples, not none, on the faces of `mesh` that its mask keeps, and those of each class.
+/// Random places are drawn by `seed`. The path is left to the caller. Throws UserError.
+SetAnalysis analyze_disks(const MeshInput& mesh, const SampleDisks& samples,
                           const std::string& probes, std::uint64_t seed, ProgressLine& progress);
 
 } // namespace geodisk::tools

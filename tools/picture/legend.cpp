@@ -44,6 +44,18 @@ std::string distance_text(const LegendFacts& facts, bool is_short) {
            (low == high ? low : low + " to " + high);
 }
 
+std::string class_text(const LegendClass& one, std::size_t number, bool is_short) {
+    const std::string distance = "D = " + rounded(one.min_distance, 4);
+    return is_short ? std::to_string(number) + ": " + distance
+                    : "class " + std::to_string(number) + ": " +
+                          counted(one.samples, "sample", "samples") + ", " + distance;
+}
+
+/// Returns true if the samples of a class have its colour.
+bool shows_classes(Style style) {
+    return style != Style::distance && style != Style::density;
+}
+
 std::string length_text(double length, bool is_short) {
     const std::string number = short_number(length);
     return is_short ? number : number + (length == 1 ? " unit" : " units");
@@ -78,6 +90,13 @@ double round_below(double limit) {
         }
     }
     return power;
+}
+
+vec3 class_color(std::size_t number) {
+    constexpr vec3 kColors[] = {
+#include "class_colors.h"
+    };
+    return kColors[number % std::size(kColors)];
 }
 
 vec3 scale_color(double part) {
@@ -118,6 +137,9 @@ Legend::Legend(const LegendFacts& facts, std::uint32_t width, std::uint32_t heig
 }
 
 double Legend::bar_width(Kind kind) const {
+    if (kind == Kind::class_entry) {
+        return kBarHeight * em_;
+    }
     return (kind == Kind::length ? (is_short_ ? 4 : 9) : is_short_ ? 6 : 14) * em_;
 }
 
@@ -129,16 +151,25 @@ bool Legend::lay_out(const LegendFacts& facts, double em, bool is_short, std::ui
     const auto add = [&](Kind kind, std::string text) {
         const double words = text_width(text, em);
         const double bar = kind == Kind::text ? 0 : bar_width(kind);
-        const double space = bar > 0 && words > 0 ? em : 0;
+        const double space = bar == 0 || words == 0 ? 0 : kind == Kind::class_entry ? em / 2 : em;
         items_.push_back({kind, std::move(text), bar + space + words});
     };
     add(Kind::text, counted(facts.samples, "sample", "samples"));
-    add(Kind::text, distance_text(facts, is_short));
+    for (std::size_t number = 0; number < facts.classes.size(); ++number) {
+        add(shows_classes(facts.style) ? Kind::class_entry : Kind::text,
+            class_text(facts.classes[number], number, is_short));
+        items_.back().number = number;
+    }
+    if (facts.classes.empty()) {
+        add(Kind::text, distance_text(facts, is_short));
+    }
     if (facts.has_lengths) {
         add(Kind::length, "");
     }
     if (facts.style == Style::distance) {
-        add(Kind::distance, is_short ? "" : "to the nearest sample; orange: room for one");
+        add(Kind::distance, is_short                ? ""
+                            : facts.classes.empty() ? "to the nearest sample; orange: room for one"
+                                                    : "to the nearest sample, D of its class");
     } else if (facts.style == Style::density) {
         add(Kind::density, is_short ? "" : "samples per unit of area");
     }
@@ -164,6 +195,15 @@ bool Legend::lay_out(const LegendFacts& facts, double em, bool is_short, std::ui
     }
     height_ = static_cast<std::uint32_t>(std::ceil(y));
     return fits && y <= most;
+}
+
+void Legend::draw_class(Strip& strip, const Item& item) const {
+    const double left = std::round(strip.left + item.x), size = std::round(bar_width(item.kind));
+    // The square stands on the line of the text.
+    const double line = strip.bar_top(item) + (kBarHeight + kBelowBar) * em_ + ascent(em_);
+    fill(strip.pixels, left, std::round(line - size), left + size, std::round(line),
+         class_color(item.number));
+    draw_text(strip.pixels, left + size + em_ / 2, line, item.text, em_, strip.ink);
 }
 
 void Legend::draw_length(Strip& strip, const Item& item, double pixels_per_unit) const {
@@ -215,6 +255,9 @@ void Legend::draw(Pixels& pixels, const Background& background, std::uint32_t x,
         switch (item.kind) {
         case Kind::text:
             strip.label(item, 0, item.text, strip.left + item.x);
+            break;
+        case Kind::class_entry:
+            draw_class(strip, item);
             break;
         case Kind::length:
             draw_length(strip, item, scale.pixels_per_unit);

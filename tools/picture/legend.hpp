@@ -1,6 +1,7 @@
 // What a picture says of itself, in a strip below it.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -9,6 +10,12 @@
 
 namespace geodisk::tools::picture {
 
+/// A class of samples in a legend.
+struct LegendClass {
+    std::uint64_t samples = 0;
+    double min_distance = 0; ///< Of two samples of the class, in mesh units.
+};
+
 /// What a legend shows.
 struct LegendFacts {
     std::uint64_t samples = 0;
@@ -16,10 +23,15 @@ struct LegendFacts {
     double smallest_distance = 0, largest_distance = 0;
     Style style = Style::disks; ///< Has a colour bar if its colours are a scale.
     bool has_lengths = true;    ///< The picture shows lengths of the mesh, so a bar can be one.
+    /// Classes, which have an entry each in place of the minimum distances; none without classes.
+    std::vector<LegendClass> classes{};
 };
 
 /// Returns the largest of 1, 2 and 5 times a power of ten that is at most `limit` > 0.
 double round_below(double limit);
+
+/// Returns the colour of a class, sRGB from 0 to 1.
+glm::vec3 class_color(std::size_t number);
 
 /// Returns the colour of the scale at `part`, 0 (dark) to 1 (light), as sRGB from 0 to 1.
 glm::vec3 scale_color(double part);
@@ -43,17 +55,19 @@ class Legend {
               const Scale& scale) const;
 
   private:
-    enum class Kind { text, length, distance, density };
+    enum class Kind { text, class_entry, length, distance, density };
     struct Item {
         Kind kind;
         std::string text; ///< Of a colour bar, the words beside it.
         double width;
-        double x = 0, y = 0; ///< Where it begins; y is the upper end of a bar.
+        std::size_t number = 0; ///< Class of an entry.
+        double x = 0, y = 0;    ///< Where it begins; y is the upper end of a bar.
     };
     struct Strip;
 
     bool lay_out(const LegendFacts& facts, double em, bool is_short, std::uint32_t width,
                  double most);
+    void draw_class(Strip& strip, const Item& item) const;
     void draw_length(Strip& strip, const Item& item, double pixels_per_unit) const;
     void draw_colors(Strip& strip, const Item& item, double densest) const;
     double bar_width(Kind kind) const;

@@ -207,6 +207,14 @@ LegendFacts legend_facts(const Content& content, Style style) {
         facts.smallest_distance = 2 * content.table.unit * static_cast<double>(smallest.radius);
         facts.largest_distance = 2 * content.table.unit * static_cast<double>(largest.radius);
     }
+    for (const SampleRec& sample : content.samples) {
+        if (sample.kind > 0) {
+            facts.classes.resize(std::max<std::size_t>(facts.classes.size(), sample.kind));
+            LegendClass& own = facts.classes[sample.kind - 1];
+            ++own.samples;
+            own.min_distance = 2 * content.table.unit * static_cast<double>(sample.radius);
+        }
+    }
     return facts;
 }
 

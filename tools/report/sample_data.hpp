@@ -14,10 +14,11 @@ namespace geodisk::tools::report {
 ///   sample_faces
 ///   sample_weights    two each, of the face's second and third corner
 ///   sample_radii      in mesh units, or one for all where they are the same
+///   sample_kinds      1 + class, or one 0 for all without classes
 ///   sample_neighbors  the nearest other sample; the sample itself where there is none in reach
 ///   sample_distances  its geodesic distance in mesh units; 0 where there is none
-/// `neighbors` are those of the samples, in sums of two radii.
-std::vector<PageArray> sample_arrays(std::span<const SurfaceDisk> samples,
+/// `neighbors` are those of the samples, in distances that they must keep.
+std::vector<PageArray> sample_arrays(const SampleDisks& samples,
                                      std::span<const analysis::Neighbor> neighbors);
 
 } // namespace geodisk::tools::report

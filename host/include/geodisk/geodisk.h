@@ -530,7 +530,8 @@ enum {
     GEODISK_POSITION = 2,    /* Coordinates, as many as the mesh or box has. */
     GEODISK_NORMAL = 3,      /* 3 numbers: unit normal of the triangle; 0 if it has no area. Needs
                               * a mesh in three dimensions. */
-    GEODISK_RADIUS = 4,      /* 1 number: half of the minimum distance, unless radii vary. */
+    GEODISK_RADIUS = 4,      /* 1 number: half of the minimum distance, or of that of its
+                              * class, unless radii vary. */
     GEODISK_PART = 5,        /* 1 integer: index of the sample's surface. GEODISK_FACE is an index
                               * into that surface. */
     GEODISK_CLASS = 6        /* 1 integer: class, if samples have classes. */

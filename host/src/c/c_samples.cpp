@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "c/c_call.hpp"
+#include "engine/domain/classes.hpp"
 #include "engine/domain/domain_impl.hpp"
 
 namespace geodisk::c {
@@ -61,8 +62,12 @@ class Places {
 
     Row radius(std::size_t i) const {
         const SampleParams& params = domain_.parts[part(i)].params;
-        const double factor =
-            params.radii != nullptr ? params.radii->factor_at(face(i), set_.samples[i].weights) : 1;
+        double factor = 1;
+        if (params.radii != nullptr) {
+            factor = params.radii->factor_at(face(i), set_.samples[i].weights);
+        } else if (!set_.classes.empty()) {
+            factor = params.class_factors[(std::size_t{class_count(params)} + 1) * set_.classes[i]];
+        }
         return {factor * params.min_distance / 2};
     }
 

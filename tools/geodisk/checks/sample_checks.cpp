@@ -8,6 +8,7 @@
 #include "files/fingerprint.hpp"
 #include "files/sample_columns.hpp"
 #include "geodisk/checks/run_warnings.hpp"
+#include "geodisk/checks/sample_classes.hpp"
 #include "geodisk/checks/spacing.hpp"
 #include "program/exact_text.hpp"
 #include "program/failure.hpp"
@@ -194,31 +195,49 @@ bool fits_digest(const SampleFile& samples) {
     return digest == nullptr || !samples.has_faces || trimmed(*digest) == digest_of(samples.rows);
 }
 
-std::vector<SurfaceDisk> sample_disks(const std::string& samples_path, const SampleFile& samples,
-                                      const MeshInput& mesh,
-                                      const std::optional<Length>& min_distance,
-                                      std::vector<MeshWarning>& warnings, ProgressLine& progress) {
-    const bool has_own = !min_distance && has_radii(samples.rows);
-    double radius = 0;
+SampleDisks sample_disks(const std::string& samples_path, const SampleFile& samples,
+                         const MeshInput& mesh, const std::optional<Length>& min_distance,
+                         std::vector<MeshWarning>& warnings, ProgressLine& progress) {
     if (min_distance) {
-        radius = distance_on_mesh(*min_distance, mesh.prepared.statistics()) / 2;
-    } else if (!has_own && !samples.rows.empty()) {
-        radius = (samples.header.find("min_distance") != nullptr
-                      ? header_distance(samples_path, samples.header)
-                      : closest_distance(samples_path, samples, mesh, warnings, progress)) /
-                 2;
+        return disks_of(samples.rows,
+                        distance_on_mesh(*min_distance, mesh.prepared.statistics()) / 2);
     }
-    return disks_of(samples.rows, has_own ? 0 : radius);
+    const ClassTable classes = classes_in_header(samples_path, samples);
+    if (classes.count > 1) {
+        check_classes(samples_path, samples, classes.count);
+        return disks_of(samples.rows, classes, samples.extra_values(kClassColumn),
+                        classes.distances.empty() ? header_distance(samples_path, samples.header)
+                                                  : classes.largest());
+    }
+    if (has_radii(samples.rows) || samples.rows.empty()) {
+        return disks_of(samples.rows, 0);
+    }
+    return disks_of(samples.rows,
+                    (samples.header.find("min_distance") != nullptr
+                         ? header_distance(samples_path, samples.header)
+                         : closest_distance(samples_path, samples, mesh, warnings, progress)) /
+                        2);
 }
 
-std::vector<SurfaceDisk> disks_of(std::span<const SampleRow> rows, double radius) {
-    std::vector<SurfaceDisk> disks;
-    disks.reserve(rows.size());
+SampleDisks disks_of(std::span<const SampleRow> rows, double radius) {
+    SampleDisks all;
+    all.disks.reserve(rows.size());
     for (const SampleRow& row : rows) {
-        disks.push_back({row.face, static_cast<double>(row.bary[1]),
-                         static_cast<double>(row.bary[2]), radius > 0 ? radius : row.radius});
+        all.disks.push_back({row.face, static_cast<double>(row.bary[1]),
+                             static_cast<double>(row.bary[2]), radius > 0 ? radius : row.radius});
     }
-    return disks;
+    return all;
+}
+
+SampleDisks disks_of(std::span<const SampleRow> rows, const ClassTable& table,
+                     std::span<const std::uint32_t> classes, double min_distance) {
+    SampleDisks all = disks_of(rows, has_radii(rows) ? 0 : min_distance / 2);
+    all.classes = table.in_mesh_units(min_distance);
+    for (std::size_t i = 0; i < rows.size() && all.classes.count > 0; ++i) {
+        all.disks[i].radius = table.radius(classes[i], min_distance);
+        all.disks[i].kind = 1 + classes[i];
+    }
+    return all;
 }
 
 void check_same_distance(const std::string& samples_path, double min_distance,

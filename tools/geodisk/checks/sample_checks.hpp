@@ -9,6 +9,7 @@
 
 #include "files/sample_file.hpp"
 #include "geodisk/inputs/mesh_input.hpp"
+#include "geodisk/options/class_options.hpp"
 #include "geodisk/outputs/progress.hpp"
 #include "geometry/surface_disk.hpp"
 
@@ -54,17 +55,21 @@ inline constexpr const char* kOtherRows = "samples of the run are missing, other
 /// Returns true unless the rows differ from those that the digest in the header is of.
 bool fits_digest(const SampleFile& samples);
 
-/// The disk of each sample. Its radius is half of `min_distance` if that is given, else its own,
-/// else half of the header's distance, else half the distance of the closest pair, which is a
-/// warning. Throws UserError if no distance follows from that either, and as header_distance() and
-/// distance_on_mesh().
-std::vector<SurfaceDisk> sample_disks(const std::string& samples_path, const SampleFile& samples,
-                                      const MeshInput& mesh,
-                                      const std::optional<Length>& min_distance,
-                                      std::vector<MeshWarning>& warnings, ProgressLine& progress);
+/// The disk of each sample. Its radius is half of `min_distance` if that is given, else that of its
+/// class, else its own, else half of the header's distance, else half the distance of the closest
+/// pair, which is a warning. Throws UserError if no distance follows from that either, for samples
+/// without the classes of their header, and as header_distance() and distance_on_mesh().
+SampleDisks sample_disks(const std::string& samples_path, const SampleFile& samples,
+                         const MeshInput& mesh, const std::optional<Length>& min_distance,
+                         std::vector<MeshWarning>& warnings, ProgressLine& progress);
 
 /// The disk of each row, of this radius in mesh units, or of the row's own where that is 0.
-std::vector<SurfaceDisk> disks_of(std::span<const SampleRow> rows, double radius);
+SampleDisks disks_of(std::span<const SampleRow> rows, double radius);
+
+/// The disk of each row: of the radius of its class, or without several classes of its own, else of
+/// half of `min_distance`. That is the largest distance, in mesh units.
+SampleDisks disks_of(std::span<const SampleRow> rows, const ClassTable& table,
+                     std::span<const std::uint32_t> classes, double min_distance);
 
 /// Throws UserError(bad_input) if samples have another distance than those of the first file, both
 /// in mesh units: what is told of all is told in minimum distances.

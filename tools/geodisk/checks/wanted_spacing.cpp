@@ -5,6 +5,7 @@
 
 #include "files/sample_columns.hpp"
 #include "geodisk/checks/sample_checks.hpp"
+#include "geodisk/checks/sample_classes.hpp"
 #include "program/arguments.hpp"
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
@@ -27,31 +28,15 @@ ClassTable classes_of(const VerifyOptions& options, const SampleFile& samples) {
     if (!options.classes.empty()) {
         return parse_classes(options.classes);
     }
-    const std::string* const entry = samples.header.find("classes");
-    if (entry == nullptr || !options.min_distance.empty()) {
-        return {};
-    }
-    if (names_class_file(*entry)) {
-        fail_input(options.samples, "its header has the classes " + in_quotes(*entry) +
-                                        ", which are none; give --classes");
-    }
-    return parse_classes(*entry);
+    return options.min_distance.empty() ? classes_in_header(options.samples, samples)
+                                        : ClassTable{};
 }
 
-/// Checks that every sample has one of the classes.
-void check_classes(const std::string& path, const SampleFile& samples, std::size_t count) {
-    const auto values = samples.extra_values(kClassColumn);
-    if (values.size() != samples.rows.size()) {
-        fail_input(path, "has no column class, so its classes cannot be verified; give "
-                         "--min-distance to check one distance for all");
-    }
-    for (std::size_t i = 0; i < values.size(); ++i) {
-        if (values[i] >= count) {
-            fail_input(path, "sample " + std::to_string(i) + ": its class is " +
-                                 std::to_string(values[i]) + ", but there are " +
-                                 std::to_string(count) + ", numbered from 0");
-        }
-    }
+constexpr double kSame = 1e-6; // Radii that other programs rounded.
+
+/// Returns true if a row has a radius other than the right one.
+bool is_wrong(const SampleRow& row, double radius) {
+    return row.radius > 0 && !(std::abs(row.radius - radius) <= kSame * radius);
 }
 
 } // namespace
@@ -65,6 +50,11 @@ WantedSpacing wanted_spacing(const VerifyOptions& options, const SampleFile& sam
         spacing.min_distance = spacing.classes.distances.empty()
                                    ? distance_of(options, samples, mesh)
                                    : spacing.classes.largest() / mesh.distance_part;
+        const auto classes = samples.extra_values(kClassColumn);
+        for (std::size_t i = 0; i < samples.rows.size(); ++i) {
+            spacing.radii.push_back(spacing.classes.radius(classes[i], spacing.min_distance));
+            spacing.wrong += is_wrong(samples.rows[i], spacing.radii.back());
+        }
         return spacing;
     }
     spacing.radii_vary = mesh.radii || (has_radii(samples.rows) && options.min_distance.empty());
@@ -76,14 +66,11 @@ WantedSpacing wanted_spacing(const VerifyOptions& options, const SampleFile& sam
     if (mesh.radii || !spacing.radii_vary) {
         spacing.min_distance = distance_of(options, samples, mesh);
     }
-    constexpr double kSame = 1e-6; // Of radii that other programs rounded.
     for (const SampleRow& row : samples.rows) {
         const double radius = mesh.radii ? mesh.radius(row.face, row.bary, spacing.min_distance)
                               : spacing.radii_vary ? row.radius
                                                    : spacing.min_distance / 2;
-        if (mesh.radii && row.radius > 0 && !(std::abs(row.radius - radius) <= kSame * radius)) {
-            ++spacing.wrong;
-        }
+        spacing.wrong += mesh.radii && is_wrong(row, radius);
         spacing.radii.push_back(radius);
     }
     return spacing;

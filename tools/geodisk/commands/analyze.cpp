@@ -109,7 +109,7 @@ SetAnalysis analyze_set(const AnalyzeOptions& options, const std::string& path,
                              options.mask.names() + " left out, first sample " +
                              std::to_string(masked.front()));
     }
-    const std::vector<SurfaceDisk> disks =
+    const SampleDisks disks =
         sample_disks(path, samples, mesh, options.distance.parsed(), warnings, progress);
 
     SetAnalysis set =

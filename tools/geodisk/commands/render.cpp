@@ -46,7 +46,7 @@ void render_samples(const RenderOptions& options) {
         read_samples_exactly_on(options.samples, options.mesh.mesh, mesh, &additions,
                                 options.tolerance, warnings, progress);
     std::vector<SurfaceDisk> disks =
-        sample_disks(options.samples, samples, mesh, distance, warnings, progress);
+        sample_disks(options.samples, samples, mesh, distance, warnings, progress).disks;
     const PictureSubject subject{
         options.samples,
         mesh_lines("mesh", options.mesh.mesh, options.mesh.additions(), mesh),

@@ -73,21 +73,21 @@ void run_report(const ReportOptions& options) {
         return sample_mesh(job, mesh, device, progress);
     }();
     print_warnings(result.warnings);
-    const std::vector<SurfaceDisk> disks =
-        disks_of(result.rows, has_radii(result.rows) ? 0 : result.params.min_distance / 2);
+    const SampleDisks samples =
+        disks_of(result.rows, job.classes, result.classes, result.params.min_distance);
     Stopwatch watch;
-    page.set = analyze_disks(mesh, disks, options.probes, 0, progress);
+    page.set = analyze_disks(mesh, samples, options.probes, 0, progress);
     page.measure_seconds = watch.seconds();
     if (!options.harmonics.empty()) {
-        page.spectrum = spectrum_of(job, mesh, disks, options.harmonics, progress);
+        page.spectrum = spectrum_of(job, mesh, samples.disks, options.harmonics, progress);
     }
     watch = Stopwatch();
-    page.content = make_page_content(mesh, disks, page.set.found.neighbors, up, progress);
+    page.content = make_page_content(mesh, samples, page.set.found.neighbors, up, progress);
     page.disk_seconds = watch.seconds();
     page.all_seconds = all.seconds();
 
-    const SampleReport samples(job, mesh, result);
-    const PageReport told(samples, page);
+    const SampleReport report(job, mesh, result);
+    const PageReport told(report, page);
     write_outputs(job.out, "the page", progress, told, [&](AtomicFile& file) {
         report::write_page(file, {told.facts(), page.content.arrays});
     });

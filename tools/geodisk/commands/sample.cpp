@@ -36,7 +36,7 @@ void draw_samples(const SampleJob& job, const MeshInput& mesh, SampleResult& res
     params.legend = job.legend;
     result.picture = draw_surface(
         device.context(), params, mesh.prepared, scene,
-        disks_of(result.rows, has_radii(result.rows) ? 0 : result.params.min_distance / 2),
+        disks_of(result.rows, job.classes, result.classes, result.params.min_distance).disks,
         progress);
     check_validation(device.context());
 }

@@ -80,9 +80,13 @@ SurfaceSets read_sets(const SpectrumOptions& options, const MeshInput& mesh,
             fail_input(path, "has no samples");
         }
         PlacedSamples& places = result.sets.emplace_back();
-        for (const SurfaceDisk& disk :
-             sample_disks(path, file, mesh, options.distance.parsed(), warnings, progress)) {
-            const double min_distance = 2 * disk.radius;
+        const SampleDisks samples =
+            sample_disks(path, file, mesh, options.distance.parsed(), warnings, progress);
+        for (const SurfaceDisk& disk : samples.disks) {
+            // All classes together have the largest distance for a unit.
+            const double min_distance = samples.classes.count > 0
+                                            ? std::ranges::max(samples.classes.distances)
+                                            : 2 * disk.radius;
             if (result.min_distance == 0) {
                 result.min_distance = min_distance;
             }

@@ -118,6 +118,26 @@ double ClassTable::factor(std::size_t a, std::size_t b) const {
     return a == b ? 1 : 1 / std::sqrt(static_cast<double>(count));
 }
 
+bool ClassTable::has_radii() const {
+    for (std::size_t a = 0; a < count; ++a) {
+        if (factor(a, a) != 1) {
+            return true;
+        }
+    }
+    return false;
+}
+
+ClassDistances ClassTable::in_mesh_units(double min_distance) const {
+    ClassDistances all;
+    all.count = count > 1 ? count : 0;
+    for (std::size_t a = 0; a < all.count; ++a) {
+        for (std::size_t b = 0; b < all.count; ++b) {
+            all.distances.push_back(distance(a, b, min_distance));
+        }
+    }
+    return all;
+}
+
 std::vector<float> ClassTable::factors() const {
     std::vector<float> factors;
     for (std::size_t a = 0; a < count && count > 1; ++a) {

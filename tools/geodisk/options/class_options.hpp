@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "files/files_in_use.hpp"
+#include "geometry/surface_disk.hpp"
 
 namespace geodisk::tools {
 
@@ -24,6 +25,19 @@ struct ClassTable {
     double largest() const;
     /// Returns the distance of samples of two classes as a part of the largest.
     double factor(std::size_t a, std::size_t b) const;
+    /// Returns the distance of samples of two classes in mesh units, `min_distance` being the
+    /// largest one.
+    double distance(std::size_t a, std::size_t b, double min_distance) const {
+        return factor(a, b) * min_distance;
+    }
+    /// Returns the radius of samples of a class: half of their distance from each other.
+    double radius(std::size_t a, double min_distance) const {
+        return distance(a, a, min_distance) / 2;
+    }
+    /// Returns true if some class has another radius than half of the largest distance.
+    bool has_radii() const;
+    /// Returns all distances in mesh units; none for a single class, which is like none.
+    ClassDistances in_mesh_units(double min_distance) const;
     /// Returns SampleParams::class_factors: empty for a single class.
     std::vector<float> factors() const;
     /// Returns what parse_classes() reads the table from.

@@ -59,20 +59,12 @@ Json json_of_histogram(const analysis::Histogram& histogram, const char* name) {
                ? Json(nullptr)
                : Json{{"bin_width", histogram.width}, {name, histogram.counts}};
 }
-} // namespace
 
-bool are_alike(const std::vector<SetAnalysis>& sets) {
-    const auto [least, most] = std::minmax_element(
-        sets.begin(), sets.end(),
-        [](const SetAnalysis& a, const SetAnalysis& b) { return a.min_distance < b.min_distance; });
-    return sets.empty() || most->min_distance <= (1 + kAlike) * least->min_distance;
-}
-
-Json set_json(const SetAnalysis& set) {
+/// Returns what was found, of all classes together or of one.
+Json numbers_json(const SetAnalysis& set) {
     const analysis::SurfaceStatistics& found = set.found;
     const bool has_nearest = found.lonely < set.samples;
-    return {{"samples_file", set.path},
-            {"samples", set.samples},
+    return {{"samples", set.samples},
             {"min_distance", set.min_distance},
             {"rho", json_of(set.rho)},
             {"reach", found.reach},
@@ -88,24 +80,53 @@ Json set_json(const SetAnalysis& set) {
             {"pair_correlation", json_of_histogram(found.pair_correlation, "g")}};
 }
 
+void add_row(const std::string& name, const SetAnalysis& set, Table& table) {
+    const auto [peak, at] = peak_of(set.found.pair_correlation);
+    const bool has_pairs = !set.found.pair_correlation.counts.empty();
+    table.add(
+        {name, grouped(set.samples), set.rho ? fixed(*set.rho, 3) : "",
+         set.found.lonely == set.samples ? "" : fixed(set.found.smallest, 5),
+         set.found.lonely == set.samples ? "" : fixed(set.found.mean_nearest, 3),
+         fixed(100 * set.found.uncovered, 2) + " %",
+         (set.found.largest_gap < set.found.reach ? "" : ">= ") + fixed(set.found.largest_gap, 3),
+         has_pairs ? fixed(peak, 2) : "", has_pairs ? fixed(at, 3) : "",
+         grouped(set.bare_components)});
+}
+
+} // namespace
+
+bool are_alike(const std::vector<SetAnalysis>& sets) {
+    const auto [least, most] = std::minmax_element(
+        sets.begin(), sets.end(),
+        [](const SetAnalysis& a, const SetAnalysis& b) { return a.min_distance < b.min_distance; });
+    return sets.empty() || most->min_distance <= (1 + kAlike) * least->min_distance;
+}
+
+Json set_json(const SetAnalysis& set) {
+    Json json{{"samples_file", set.path}};
+    json.update(numbers_json(set));
+    Json& classes = json["classes"] = Json::array();
+    for (const SetAnalysis& one : set.classes) {
+        classes.push_back(numbers_json(one));
+    }
+    return json;
+}
+
 std::string report_text(const Analysis& analysis) {
     std::ostringstream out;
     out << mesh_lines("mesh", analysis.mesh_options.mesh, analysis.additions, analysis.mesh);
     Table table({"samples of", "number", "rho", "smallest", "mean\nnearest", "room\nfor more",
                  "largest\ngap", "pairs\npeak", "at", "bare\nparts"});
+    bool has_classes = false;
     for (const SetAnalysis& set : analysis.sets) {
-        const auto [peak, at] = peak_of(set.found.pair_correlation);
-        const bool has_pairs = !set.found.pair_correlation.counts.empty();
-        table.add({one_line(set.path), grouped(set.samples), set.rho ? fixed(*set.rho, 3) : "",
-                   set.found.lonely == set.samples ? "" : fixed(set.found.smallest, 5),
-                   set.found.lonely == set.samples ? "" : fixed(set.found.mean_nearest, 3),
-                   fixed(100 * set.found.uncovered, 2) + " %",
-                   (set.found.largest_gap < set.found.reach ? "" : ">= ") +
-                       fixed(set.found.largest_gap, 3),
-                   has_pairs ? fixed(peak, 2) : "", has_pairs ? fixed(at, 3) : "",
-                   grouped(set.bare_components)});
+        add_row(one_line(set.path), set, table);
+        for (std::size_t number = 0; number < set.classes.size(); ++number) {
+            add_row("  class " + std::to_string(number), set.classes[number], table);
+        }
+        has_classes |= !set.classes.empty();
     }
-    out << table.text() << "distances are along the surface, in minimum distances\n";
+    out << table.text() << "distances are along the surface, in minimum distances"
+        << (has_classes ? ", those of the classes\n" : "\n");
     if (analysis.sets.size() > 1 && are_alike(analysis.sets)) {
         const auto line = [&](const char* name, int decimals, const Summary& of) {
             out << padded(name, 14) << fixed(of.mean, decimals) << " on average, deviating by "

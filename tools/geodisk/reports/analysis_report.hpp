@@ -19,10 +19,12 @@ namespace geodisk::tools {
 struct SetAnalysis {
     std::string path;
     std::size_t samples = 0;
-    double min_distance = 0;   ///< Twice the largest radius.
+    double min_distance = 0;   ///< Twice the largest radius, or the largest distance of classes.
     std::optional<double> rho; ///< Where radii do not vary.
     std::uint64_t bare_components = 0;
     analysis::SurfaceStatistics found;
+    /// Each class alone, but for its room, which other classes take too. Without classes: none.
+    std::vector<SetAnalysis> classes{};
 };
 
 /// Whether all sets have about the same minimum distance, so that means over them say something.

@@ -5,6 +5,7 @@
 
 #include "geodisk/commit.hpp"
 #include "geodisk/reports/json.hpp"
+#include "picture/legend.hpp"
 #include "program/human_text.hpp"
 
 namespace geodisk::tools {
@@ -31,7 +32,11 @@ Json view_json(const PageResult& result) {
               {"windows", content.windows},
               {"up", vector_json(picture::direction_of(content.up))},
               {"from", from},
-              {"light", vector_json(picture::kLight)}};
+              {"light", vector_json(picture::kLight)},
+              {"class_colors", Json::array()}};
+    for (std::size_t number = 0; number < result.set.classes.size(); ++number) {
+        json["class_colors"].push_back(vector_json(picture::class_color(number)));
+    }
     if (const auto& disks = content.disks) {
         json["disks"] = {{"unit", disks->unit},
                          {"cells_per_unit", disks->cells_per_unit},
@@ -80,7 +85,8 @@ std::string PageReport::summary(double write_seconds) const {
     out << samples_.summary(stages(write_seconds));
     if (found.lonely < result_.set.samples) {
         out << "nearest       " << fixed(found.smallest, 5) << " at least, "
-            << fixed(found.mean_nearest, 3) << " on average, in minimum distances\n";
+            << fixed(found.mean_nearest, 3) << " on average, in minimum distances"
+            << (result_.set.classes.empty() ? "\n" : " of classes\n");
     }
     out << "room for more " << fixed(100 * found.uncovered, 2) << " % of the area\n";
     for (const std::string& sentence : result_.content.left_out) {

@@ -209,7 +209,9 @@ std::string fault_text(const SampleCheck& check) {
     }
     add(check.intrusions.size(), "sample is", "samples are",
         " within the radius of a point to avoid");
-    add(spacing.wrong, "radius is", "radii are", " not what the density options give");
+    add(spacing.wrong, "radius is", "radii are",
+        spacing.classes.is_given() ? " not that of the class"
+                                   : " not what the density options give");
     add(check.wrong_features.size(), "sample has", "samples have",
         " a wrong mark in the column feature");
     add(check.masked.size(), "sample is", "samples are",

@@ -47,9 +47,10 @@ struct WindowRec {
     float left_x; float left_y; float right_x; float right_y;
 };
 
-// A sample: its radius in units of length, and a number for its colour.
+// A sample: its radius in units of length, a number for its colour, and its kind: 1 + its class, or 0
+// without classes.
 struct SampleRec {
-    float radius; uint color;
+    float radius; uint color; uint kind;
 };
 
 // A sample in a box of three dimensions, in the scene.
@@ -68,7 +69,7 @@ struct PushRec {
 
 #ifdef __cplusplus
 static_assert(sizeof(CornerRec) == 24 && sizeof(FaceRec) == 32 && sizeof(WindowRec) == 32 &&
-              sizeof(SampleRec) == 8 && sizeof(BallRec) == 20 && sizeof(PushRec) == 96);
+              sizeof(SampleRec) == 12 && sizeof(BallRec) == 20 && sizeof(PushRec) == 96);
 }
 #endif
 #endif

@@ -30,6 +30,7 @@ FaceRec face_at(uint index) { return faces[index]; }
 uint cell_start(uint cell) { return starts[cell]; }
 WindowRec window_at(uint index) { return windows[index]; }
 float radius_of(uint index) { return samples[index].radius; }
+uint kind_of(uint index) { return samples[index].kind; }
 bool is_shown(uint index) { return true; }
 #include "nearest.glsl"
 
@@ -41,17 +42,22 @@ vec3 surface_color(Nearest nearest, float density) {
         if (!has_sample || q >= 1.0) {
             return kBare;
         }
-        return nearest.second < 1.0 ? kOverlap : disk_color(q);
+        return nearest.overlaps ? kOverlap : disk_color(q, kind_of(nearest.sample_index));
     }
     if (kDraw == kDrawPoints) {
-        return has_sample && q < high ? kMark : kBare;
+        if (!has_sample || q >= high) {
+            return kBare;
+        }
+        const uint kind = kind_of(nearest.sample_index);
+        return kind == 0u ? kMark : class_color(kind);
     }
     if (kDraw == kDrawVoronoi) {
         if (!has_sample) {
             return kBare;
         }
         const float border = nearest.second - q;
-        return q < 0.12 || border < 0.05 ? kMark : cell_color(samples[nearest.sample_index].color);
+        const SampleRec own = samples[nearest.sample_index];
+        return q < 0.12 || border < 0.05 ? kMark : cell_color(own.color, own.kind);
     }
     if (kDraw == kDrawDistance) {
         return has_sample ? distance_color(q) : kOverlap;

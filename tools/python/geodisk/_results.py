@@ -66,6 +66,7 @@ def samples_of(
             np.zeros(report["samples"], np.uint32) if numbers is None else numbers[:, 0]
         )
         box["class_distances"] = classes.exact_factors * report["min_distance"]
+        columns["radius"] = None  # That of the class, exactly.
     if made.level_ends:
         counts = np.diff(made.level_ends, prepend=0)
         columns["level"] = np.repeat(np.arange(len(counts), dtype=np.uint32), counts)

@@ -107,7 +107,8 @@ class Samples:
     barycentric : ndarray of float64, shape (n, 3) or None
         Weights of the triangles' corners. They sum to 1.
     radius : ndarray of float64, shape (n,)
-        Half the minimum distance, or the radius of each sample if radii vary.
+        Half the minimum distance, or the radius of each sample if radii vary. With classes, half the
+        distance of two samples of its class.
     order : ndarray of int64, shape (n,)
         Positions in dart order.
     min_distance : float
@@ -222,7 +223,7 @@ class Samples:
         keep("min_distance", distance)
         radii = real(math.nan if self.radius is None else self.radius, "radius")
         if radii.shape in ((), (n,)) and np.isnan(radii).all():
-            keep("radius", np.full(n, distance / 2))
+            keep("radius", self._radii_of_classes(n))
         else:
             keep("radius", _table(self.radius, "radius", (n,)))
             if (self.radius < 0).any():
@@ -252,6 +253,14 @@ class Samples:
             if self.points is None or self.points.shape[1] != len(sides):
                 raise e.invalid(f"extents are {len(sides)} sides, not one for each coordinate")
             keep("extents", sides)
+
+    def _radii_of_classes(self, n: int) -> NDArray[np.float64]:
+        """Half the distance of each sample's class, or half the minimum distance without classes."""
+        classes, table = self.columns.get("class"), self.class_distances
+        if classes is None or table is None or (n > 0 and classes.max() >= len(table)):
+            return np.full(n, self.min_distance / 2)
+        own = np.diag(np.asarray(table, np.float64)) / 2
+        return np.ascontiguousarray(own[classes], np.float64)
 
     @property
     def classes(self) -> NDArray[np.uint32] | None:

@@ -140,6 +140,7 @@ def transfer(
         normals=there.normals if dimension == 3 else None,
         radius=np.full(len(samples), distance / 2),
         min_distance=distance,
+        class_distances=None,  # Those of the other pose.
         report={"options": ["transfer"]},
         _surface=target,
         _job=None,

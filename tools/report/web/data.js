@@ -32,13 +32,20 @@ const samples = {
   faces: arrayOf("sample_faces"),
   weights: arrayOf("sample_weights"),
   radii: arrayOf("sample_radii"),
+  kinds: arrayOf("sample_kinds"),
   neighbors: arrayOf("sample_neighbors"),
   distances: arrayOf("sample_distances"),
   radius(i) { return this.radii[this.radii.length > 1 ? i : 0]; },
-  /** To the nearest other one, in sums of their radii; null where there is none in reach. */
+  /** 1 + class; 0 without classes. */
+  kind(i) { return this.kinds[this.kinds.length > 1 ? i : 0]; },
+  /** What two samples must be apart. */
+  leastDistance(i, j) {
+    return this.kind(i) > 0 ? facts.classes.distances[this.kind(i) - 1][this.kind(j) - 1] : this.radius(i) + this.radius(j);
+  },
+  /** To the nearest other one, in distances that they must keep; null where there is none in reach. */
   relativeDistance(i) {
     const other = this.neighbors[i];
-    return other === i ? null : this.distances[i] / (this.radius(i) + this.radius(other));
+    return other === i ? null : this.distances[i] / this.leastDistance(i, other);
   },
 };
 

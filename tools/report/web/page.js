@@ -6,7 +6,8 @@ const byId = id => document.getElementById(id);
 
 const analysis = facts.analysis, meshFacts = facts.mesh;
 /** What distances of samples are told in. */
-const unit = facts.sample_radii ? "sums of radii" : "D";
+const classes = analysis.classes;
+const unit = classes.length > 0 ? "distances of classes" : facts.sample_radii ? "sums of radii" : "D";
 const meshName = meshFacts.path.replace(/^.*[/\\](?=.)/, "");
 
 function fillFigures() {
@@ -14,12 +15,13 @@ function fillFigures() {
   byId("title").textContent = meshName;
   const radii = facts.sample_radii;
   byId("subtitle").textContent = `${counted(samples.count, "sample", "samples")}, no two closer than ` +
-    (radii ? `their radii together, of ${rounded(radii.least, 4)} to ${rounded(radii.most, 4)} each, `
+    (classes.length > 0 ? `the distances of their classes, ${rounded(facts.min_distance, 6)} at most, `
+      : radii ? `their radii together, of ${rounded(radii.least, 4)} to ${rounded(radii.most, 4)} each, `
       : `${rounded(facts.min_distance, 6)} `) +
     (facts.metric === "geodesic" ? "along the surface" : `by the metric ${facts.metric}`);
   const cards = [
     [grouped(samples.count), "samples"],
-    [rounded(facts.min_distance, 5), radii ? "largest minimum distance, in mesh units" : "minimum distance D, in mesh units"],
+    [rounded(facts.min_distance, 5), radii || classes.length > 0 ? "largest minimum distance, in mesh units" : "minimum distance D, in mesh units"],
     [rounded(facts.rho, 4), "packing density ρ"],
     [analysis.smallest === null ? "–" : analysis.smallest.toFixed(5), `smallest distance, in ${unit}`],
     [analysis.mean_nearest === null ? "–" : analysis.mean_nearest.toFixed(3), `nearest on average, in ${unit}`],
@@ -33,7 +35,7 @@ function fillFigures() {
   }
   fillTable(byId("sample-figures"), [
     ["Samples", grouped(samples.count)],
-    ["Minimum distance D", radii ? null : rounded(facts.min_distance, 8)],
+    ["Minimum distance D", radii || classes.length > 0 ? null : rounded(facts.min_distance, 8)],
     ["Radius of a disk", radii ? `${rounded(radii.least, 6)} to ${rounded(radii.most, 6)}` : rounded(facts.radius, 8)],
     ["Smallest distance", analysis.smallest === null ? null : `${analysis.smallest.toFixed(6)} ${unit}`],
     ["Distance of the nearest, on average", analysis.mean_nearest === null ? null : `${analysis.mean_nearest.toFixed(4)} ${unit}`],
@@ -43,6 +45,7 @@ function fillFigures() {
     ["Largest gap", `${analysis.largest_gap < analysis.reach ? "" : "at least "}${analysis.largest_gap.toFixed(3)} ${unit}`],
     ["Looked at", `${grouped(analysis.probes)} random places`],
   ]);
+  fillClasses();
   fillTable(byId("surface-figures"), [
     ["Mesh", meshFacts.path],
     ["Triangles", grouped(meshFacts.triangles)],
@@ -79,6 +82,35 @@ function fillFigures() {
   }
 }
 
+/** A legend beside the view, and the figures of each class. */
+function fillClasses() {
+  if (classes.length === 0) {
+    return;
+  }
+  byId("coloring").options[0].textContent = "by class";
+  byId("class-section").hidden = byId("class-legend").hidden = false;
+  const row = byId("class-figures").insertRow();
+  for (const name of ["", "Samples", "Distance", "ρ", "Smallest", "Nearest, mean", "Room for more", "Largest gap"]) {
+    row.append(element("th", name));
+  }
+  classes.forEach((one, number) => {
+    const swatch = element("span", undefined, "swatch");
+    swatch.style.background = `rgb(${facts.view.class_colors[number].map(part => Math.round(255 * part)).join(" ")})`;
+    const entry = element("li", `class ${number}: ${counted(one.samples, "sample", "samples")}, D = ${rounded(one.min_distance, 4)}`);
+    entry.prepend(swatch);
+    byId("class-legend").append(entry);
+    const figures = byId("class-figures").insertRow();
+    figures.append(element("th", `Class ${number}`));
+    for (const text of [
+      grouped(one.samples), rounded(one.min_distance, 6), one.rho === null ? "–" : rounded(one.rho, 4),
+      one.smallest === null ? "–" : one.smallest.toFixed(5), one.mean_nearest === null ? "–" : one.mean_nearest.toFixed(3),
+      `${rounded(100 * one.uncovered, 3)} %`, one.largest_gap.toFixed(3),
+    ]) {
+      figures.insertCell().textContent = text;
+    }
+  });
+}
+
 function fillCharts() {
   byId("nearest-chart").append(analysis.nearest
     ? histogramChart("Histogram of nearest distances", analysis.nearest.bin_width, analysis.nearest.counts,
@@ -90,7 +122,7 @@ function fillCharts() {
       pairs.g.map((_, i) => (i + 0.5) * pairs.bin_width), pairs.g, 1, "geodesic distance, in D", "g"));
   } else {
     byId("pairs").querySelector("figcaption").textContent =
-      "There is no pair correlation where radii vary, as there samples are not equally dense.";
+      "There is no pair correlation where radii or classes vary, as there samples are not equally dense.";
   }
   const stages = Object.entries(facts.seconds);
   const names = {
@@ -140,6 +172,7 @@ function describe(view) {
   const entries = [
     ["Sample", String(sample)],
     [meshFacts.polygons === null ? "Face" : "Triangle", String(samples.faces[sample])],
+    ["Class", samples.kind(sample) > 0 ? String(samples.kind(sample) - 1) : null],
     ["Radius", rounded(samples.radius(sample), 6)],
     ["Nearest", relative === null ? `none within ${analysis.reach} ${unit}` : `sample ${other}`],
     ["Its distance", relative === null ? null : rounded(samples.distances[sample], 6)],

@@ -10,12 +10,15 @@ uniform int marked;
 
 in vec3 position;
 in vec3 normal;
+in float kind;
 
 flat out uint number;
 flat out int is_marked;
+flat out uint own_kind;
 
 void main() {
     number = uint(gl_VertexID);
+    own_kind = uint(kind);
     is_marked = gl_VertexID == marked ? 1 : 0;
     vec4 at = modelViewMatrix * vec4(position, 1);
     float own_pixel = pixel * -at.z;

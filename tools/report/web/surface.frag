@@ -10,7 +10,7 @@ precision highp sampler2D;
 uniform sampler2D faces;   // Two texels each: longest, apex_x, apex_y, base; columns, rows, first_cell.
 uniform sampler2D cells;   // Where the windows of each cell begin.
 uniform sampler2D windows; // Two texels each: x, y, sigma, sample; the normals left and right.
-uniform sampler2D samples; // Radius in units, and a part from 0 to 1 for its colour.
+uniform sampler2D samples; // Radius in units, a part from 0 to 1 for its colour, and its kind.
 uniform float cells_per_unit;
 uniform float seam;
 uniform vec3 light;    // Where it comes from, in the frame of the eye.
@@ -64,6 +64,9 @@ vec4 sample_at(uint index) {
 float radius_of(uint index) {
     return sample_at(index).x;
 }
+uint kind_of(uint index) {
+    return uint(sample_at(index).z);
+}
 bool is_shown(uint index) {
     return int(index) < shown;
 }
@@ -73,7 +76,7 @@ bool is_shown(uint index) {
 vec3 color_in_disk(float q, uint index) {
     float seen = shows_samples ? q : max(q, kDot);
     if (!by_part) {
-        return disk_color(seen);
+        return disk_color(seen, kind_of(index));
     }
     vec3 own = scale_color(sample_at(index).y);
     return seen < kDot ? kMark : seen > kRim ? 0.55 * own : own;
@@ -95,10 +98,6 @@ vec4 number_color(uint number) {
     return vec4(vec3(bytes) / 255.0, 1);
 }
 
-vec3 to_srgb(vec3 c) {
-    return mix(12.92 * c, 1.055 * pow(c, vec3(1.0 / 2.4)) - 0.055, step(0.0031308, c));
-}
-
 void main() {
     vec3 to_eye = normalize(-place);
     // A surface may be seen from either side.
@@ -113,7 +112,7 @@ void main() {
     // Of a pixel, in units.
     float width = 0.5 * (length(dFdx(in_face)) + length(dFdy(in_face)));
     vec3 change = fwidth(weights);
-    Nearest nearest = Nearest(1e30, 1e30, ~0u);
+    Nearest nearest = kNoNearest;
     if (has_disks && shows_disks) {
         float density;
         nearest = look_up(face_index, in_face, density);
@@ -129,8 +128,8 @@ void main() {
     vec3 matte = kBare;
     if (is_in_disk) {
         uint index = nearest.sample_index;
-        matte = nearest.second < 1.0 ? kOverlap
-                                     : mean_in_disk(nearest.first, width / radius_of(index), index);
+        matte = nearest.overlaps ? kOverlap
+                                 : mean_in_disk(nearest.first, width / radius_of(index), index);
         if (int(index) == marked) {
             matte = mix(matte, kChosen, 0.85);
         }

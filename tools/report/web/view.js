@@ -106,6 +106,7 @@ class View {
     this.parts = new Float32Array(4 * samples.count);
     for (let i = 0; i < samples.count; ++i) {
       this.parts[4 * i] = samples.radius(i) / scale.unit;
+      this.parts[4 * i + 2] = samples.kind(i);
     }
     this.uniforms = {
       faces: { value: disks ? dataTexture(disks.faces, 4) : none },
@@ -166,12 +167,14 @@ class View {
     this.spacing = Math.sqrt(area / samples.count);
     this.uniforms.spacing.value = this.spacing;
     const geometry = new THREE.BufferGeometry();
-    const normals = new Float32Array(3 * samples.count);
+    const normals = new Float32Array(3 * samples.count), kinds = new Float32Array(samples.count);
     for (let i = 0; i < samples.count; ++i) {
+      kinds[i] = samples.kind(i);
       crossOfFace(places, 9 * samples.faces[i]).normalize().toArray(normals, 3 * i);
     }
     geometry.setAttribute("position", new THREE.BufferAttribute(at, 3));
     geometry.setAttribute("normal", new THREE.BufferAttribute(normals, 3));
+    geometry.setAttribute("kind", new THREE.BufferAttribute(kinds, 1));
     return geometry;
   }
 

@@ -1,0 +1,38 @@
+#include "geodisk/checks/sample_classes.hpp"
+
+#include <cstddef>
+
+#include "files/sample_columns.hpp"
+#include "program/failure.hpp"
+#include "program/human_text.hpp"
+
+namespace geodisk::tools {
+
+ClassTable classes_in_header(const std::string& path, const SampleFile& samples) {
+    const std::string* const entry = samples.header.find(key_of_column(kClassColumn));
+    if (entry == nullptr) {
+        return {};
+    }
+    if (names_class_file(*entry)) {
+        fail_input(path, "its header has the classes " + in_quotes(*entry) +
+                             ", which are none; give --min-distance");
+    }
+    return parse_classes(*entry);
+}
+
+void check_classes(const std::string& path, const SampleFile& samples, std::size_t count) {
+    const auto values = samples.extra_values(kClassColumn);
+    if (values.size() != samples.rows.size()) {
+        fail_input(path, "has no column class, so the classes of its samples are not known; give "
+                         "--min-distance to use one distance for all");
+    }
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        if (values[i] >= count) {
+            fail_input(path, "sample " + std::to_string(i) + ": its class is " +
+                                 std::to_string(values[i]) + ", but there are " +
+                                 std::to_string(count) + ", numbered from 0");
+        }
+    }
+}
+
+} // namespace geodisk::tools

@@ -1,0 +1,18 @@
+// Classes of samples that were read from a file.
+#pragma once
+
+#include <string>
+
+#include "files/sample_file.hpp"
+#include "geodisk/options/class_options.hpp"
+
+namespace geodisk::tools {
+
+/// Returns the classes that the header of the file `path` has; none without. Throws
+/// UserError(bad_input) if they are none.
+ClassTable classes_in_header(const std::string& path, const SampleFile& samples);
+
+/// Throws UserError(bad_input) unless each sample has one of `count` classes.
+void check_classes(const std::string& path, const SampleFile& samples, std::size_t count);
+
+} // namespace geodisk::tools
