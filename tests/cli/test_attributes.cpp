@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "cli/command.hpp"
+#include "cli/json_file.hpp"
 #include "unit/png_bytes.hpp"
 
 namespace geodisk::test {
@@ -217,6 +218,44 @@ TEST_CASE("attributes that a float does not hold are refused by glTF, and double
     }
     CHECK(bytes_of(folder / "a.usda").find("1e+300") != std::string::npos);
     CHECK(run(folder, sampled("small.ply", "b.glb")).status == 0);
+}
+
+TEST_CASE("scenes are turned as pictures guess, as an option says, or as glTF is") {
+    const TemporaryFolder folder;
+    REQUIRE(run(folder, {"shapes", "terrain:10", "-o", "t.ply"}).status == 0);
+    const auto made = [&](const Arguments& more) {
+        return run(folder, joined({"sample", "t.ply", "-d", "20%"}, more));
+    };
+    const Outcome guessed = made({"-o", "a.usda", "--json", "a.json"});
+    INFO(guessed.out, guessed.err);
+    REQUIRE(guessed.status == 0);
+    CHECK(contains(guessed.out, "scene         z up, a guess, --up sets it; a unit is 1 m\n"));
+    CHECK(contains(bytes_of(folder / "a.usda"), "upAxis = \"Z\""));
+    CHECK(json_in(folder, "a.json")["scene"]["up"] == "z");
+    const Outcome set = made({"-o", "b.usda", "--up", "y", "--units", "cm"});
+    CHECK(contains(set.out, "scene         y up, as --up says; a unit is 0.01 m\n"));
+    CHECK(contains(bytes_of(folder / "b.usda"), "upAxis = \"Y\""));
+    CHECK(contains(bytes_of(folder / "b.usda"), "metersPerUnit = 0.01\n"));
+    const Outcome turned = made({"-o", "c.gltf"});
+    CHECK(contains(turned.out, "z up, a guess, --up sets it; turned, as the format has another"));
+    CHECK(contains(bytes_of(folder / "c.gltf"), "\"rotation\""));
+    REQUIRE(run(folder,
+                {"batch", "t.ply", "-d", "20%", "-o", "out", "--format", "usda", "--units", "ft"})
+                .status == 0);
+    CHECK(contains(bytes_of(folder / "out/t.usda"), "metersPerUnit = 0.3048\n"));
+    REQUIRE(made({"-o", "d.ply"}).status == 0);
+    CHECK(contains(run(folder, {"transfer", "d.ply", "t.ply", "t.ply", "-o", "d.usda"}).out,
+                   "scene         z up, a guess"));
+    REQUIRE(run(folder, {"cells", "t.ply", "d.ply", "-o", "e.usda", "--up", "x"}).status == 0);
+    CHECK(contains(bytes_of(folder / "e.usda"), "rotateY"));
+    REQUIRE(run(folder, {"box", "--dim", "3", "-n", "9", "-o", "f.usda", "--up", "z"}).status == 0);
+    CHECK(contains(bytes_of(folder / "f.usda"), "upAxis = \"Z\""));
+    check_fails(folder, 2, "--units is for samples in",
+                {"sample", "builtin:cube", "-d", "1", "-o", "g.ply", "--units", "m"});
+    check_fails(folder, 2, "--up is for samples in",
+                {"sample", "builtin:cube", "-d", "1", "-o", "g.ply", "--up", "z"});
+    check_fails(folder, 2, "is neither mm, cm, m",
+                {"sample", "builtin:cube", "-d", "1", "-o", "g.usda", "--units", "league"});
 }
 
 } // namespace geodisk::test

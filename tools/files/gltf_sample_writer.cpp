@@ -2,6 +2,8 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
+#include <numeric>
 #include <ostream>
 #include <streambuf>
 #include <vector>
@@ -316,6 +318,29 @@ void add_class(tinygltf::Model& model, std::span<const SampleRow> rows, const Sa
     add_nodes(model, own_rows, header, target, own_layout, &own);
 }
 
+/// Returns the nodes of a scene where y points up and lengths are in metres: `nodes`, or one that
+/// turns and scales these.
+std::vector<int> place_in_scene(tinygltf::Model& model, std::vector<int> nodes,
+                                const SampleTarget& target) {
+    const double scale = target.metres_per_unit;
+    if (nodes.empty() || (target.up == Up::y && scale == 1)) {
+        return nodes;
+    }
+    constexpr double kHalf = std::numbers::sqrt2 / 2; // Of a quarter turn.
+    tinygltf::Node root;
+    root.name = "Samples";
+    root.children = std::move(nodes);
+    if (target.up != Up::y) {
+        root.rotation = target.up == Up::z ? std::vector{-kHalf, 0.0, 0.0, kHalf}
+                                           : std::vector{0.0, 0.0, kHalf, kHalf};
+    }
+    if (scale != 1) {
+        root.scale = {scale, scale, scale};
+    }
+    model.nodes.push_back(std::move(root));
+    return {static_cast<int>(model.nodes.size() - 1)};
+}
+
 /// tinygltf throws at text that is not UTF-8, which json_text() replaces.
 tinygltf::Value extras_of(const SampleHeader& header) {
     tinygltf::Value::Object extras;
@@ -351,9 +376,9 @@ void write_gltf(AtomicFile& file, const SampleHeader& header, std::span<const Sa
     if (model.nodes.empty() && !rows.empty()) { // No accessor may be empty.
         add_nodes(model, rows, header, target, layout, nullptr);
     }
-    for (std::size_t i = 0; i < model.nodes.size(); ++i) {
-        model.scenes[0].nodes.push_back(static_cast<int>(i));
-    }
+    std::vector<int> nodes(model.nodes.size());
+    std::iota(nodes.begin(), nodes.end(), 0);
+    model.scenes[0].nodes = place_in_scene(model, std::move(nodes), target);
     const bool is_binary = target.format == SampleFormat::glb;
     FileBuffer buffer(file);
     std::ostream out(&buffer);

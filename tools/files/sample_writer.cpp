@@ -112,9 +112,7 @@ std::optional<std::string> precision_note(const SampleTarget& target,
 std::optional<std::string> rounding_note(const SampleTarget& target,
                                          std::span<const SampleRow> rows, std::uint32_t dimension,
                                          double min_distance) {
-    const bool has_floats =
-        target.format == SampleFormat::pcd || target.format == SampleFormat::gltf ||
-        target.format == SampleFormat::glb || target.format == SampleFormat::usda;
+    const bool has_floats = target.format == SampleFormat::pcd || is_scene(target.format);
     double largest = 0;
     for (const SampleRow& row : rows) {
         for (const double coordinate : std::span(row.position).first(dimension)) {

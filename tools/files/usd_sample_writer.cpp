@@ -44,6 +44,21 @@ std::string float_text(double value) {
     return exact_text(static_cast<float>(value));
 }
 
+/// Returns how positions are turned, as no axis but Y and Z points up in USD, and moved.
+std::string transforms(const SampleTarget& target, const std::array<double, 3>& origin) {
+    std::string text, order;
+    if (target.up == Up::x) {
+        text += "    float xformOp:rotateY = -90\n";
+        order += "\"xformOp:rotateY\"";
+    }
+    if (origin != std::array<double, 3>{}) {
+        text += "    double3 xformOp:translate = (" + exact_text(origin[0]) + ", " +
+                exact_text(origin[1]) + ", " + exact_text(origin[2]) + ")\n";
+        order += std::string(order.empty() ? "" : ", ") + "\"xformOp:translate\"";
+    }
+    return order.empty() ? "" : text + "    uniform token[] xformOpOrder = [" + order + "]\n";
+}
+
 /// Writes the properties of a PointInstancer, one array after the other.
 class Properties {
   public:
@@ -206,13 +221,10 @@ void write_usd(AtomicFile& file, const SampleHeader& header, std::span<const Sam
     check_float_range(target, rows, origin);
     file.write("#usda 1.0\n(\n    customLayerData = {\n        string geodisk = " +
                quoted(json_text(header)) +
-               "\n    }\n    defaultPrim = \"Samples\"\n    metersPerUnit = 1\n"
-               "    upAxis = \"Y\"\n)\n\ndef PointInstancer \"Samples\"\n{\n");
-    if (origin != std::array<double, 3>{}) {
-        file.write("    double3 xformOp:translate = (" + exact_text(origin[0]) + ", " +
-                   exact_text(origin[1]) + ", " + exact_text(origin[2]) +
-                   ")\n    uniform token[] xformOpOrder = [\"xformOp:translate\"]\n");
-    }
+               "\n    }\n    defaultPrim = \"Samples\"\n    metersPerUnit = " +
+               exact_text(target.metres_per_unit) + "\n    upAxis = \"" +
+               (target.up == Up::y ? "Y" : "Z") + "\"\n)\n\ndef PointInstancer \"Samples\"\n{\n" +
+               transforms(target, origin));
     Properties properties(file, rows.size());
     properties.add("point3f[] positions", 3, [&](std::size_t i, std::size_t k) {
         return static_cast<float>(rows[i].position[k] - origin[k]);

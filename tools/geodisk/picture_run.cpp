@@ -68,11 +68,7 @@ class RenderReport {
     }
 
   private:
-    const char* up_name() const {
-        return drawn_.picture.up == picture::Up::x   ? "x"
-               : drawn_.picture.up == picture::Up::y ? "y"
-                                                     : "z";
-    }
+    std::string up_name() const { return {small_letter(drawn_.picture.up)}; }
 
     const RenderOptions& options_;
     const PictureSubject& subject_;

@@ -271,6 +271,7 @@ SampleResult sample_mesh(const SampleJob& job, const MeshInput& mesh, RunDevice&
         result.levels = levels_of(job.method, mesh, params);
     }
     result.avoided = given.points_to_avoid;
+    result.scene = scene_frame(job.out, job.mesh, mesh);
     std::vector<std::uint32_t> faces;
     for (const SampleRow& row : result.rows) {
         faces.push_back(row.face);
@@ -302,8 +303,8 @@ void write_sample_file(AtomicFile& file, const SampleJob& job, const MeshInput& 
     if (result.farthest && takes_column(job.out, kCoverColumn)) {
         fields.push_back(result.farthest->cover());
     }
-    write_samples(file, job.out.target(), report.header(), result.rows, mesh.dimension(),
-                  {numbers, fields});
+    write_samples(file, target_in(job.out, result.scene), report.header(), result.rows,
+                  mesh.dimension(), {numbers, fields});
 }
 
 DryRun try_sampling(const SampleJob& job, const MeshInput& mesh, RunDevice& device,

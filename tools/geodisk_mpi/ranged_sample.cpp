@@ -42,7 +42,8 @@ bool takes_ranges(const SampleJob& job) {
     const bool is_plain = job.mesh.additions().empty() && job.out.record.entries().empty() &&
                           job.mesh.texture.empty() && !job.constraints.is_given();
     const bool has_more = job.features || job.method.has_levels || job.method.is_farthest ||
-                          !job.picture.empty() || !job.columns.empty();
+                          !job.picture.empty() || !job.columns.empty() ||
+                          (!job.out.output.empty() && is_scene(job.out.target().format));
     return is_plain && !has_more && has_ranged_fields(job) &&
            lower_extension(job.mesh.mesh) == ".ply";
 }

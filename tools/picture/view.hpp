@@ -8,12 +8,12 @@
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 
+#include "geometry/up.hpp"
 #include "picture/scene.hpp"
 
 namespace geodisk::tools::picture {
 
-/// The axis that points up in the picture.
-enum class Up { x, y, z };
+using tools::Up;
 
 /// A direction to look from, in degrees.
 struct View {

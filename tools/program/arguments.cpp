@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 #include <string_view>
+#include <utility>
 
 #include "program/exact_text.hpp"
 #include "program/failure.hpp"
@@ -72,6 +73,21 @@ std::uint64_t parse_seed(const std::string& option, const std::string& text) {
         fail(option, text, "is not a whole number of 0 to 2^64 - 1, decimal or with 0x");
     }
     return seed;
+}
+
+double parse_units(const std::string& option, const std::string& text) {
+    constexpr std::pair<std::string_view, double> kUnits[] = {
+        {"mm", 0.001}, {"cm", 0.01}, {"m", 1}, {"km", 1000}, {"in", 0.0254}, {"ft", 0.3048}};
+    for (const auto& [name, metres] : kUnits) {
+        if (text == name) {
+            return metres;
+        }
+    }
+    const std::optional<double> value = parse_real(trimmed(text));
+    if (!value || !(*value > 0) || !std::isfinite(*value)) {
+        fail(option, text, "is neither mm, cm, m, km, in or ft, nor a positive number of metres");
+    }
+    return *value;
 }
 
 std::uint64_t parse_bytes(const std::string& option, const std::string& text) {

@@ -29,6 +29,9 @@ double parse_ratio(const std::string& option, const std::string& text, double lo
 /// All of 64 bits, decimal or hexadecimal with 0x.
 std::uint64_t parse_seed(const std::string& option, const std::string& text);
 
+/// Metres per unit of length: a number, or "mm", "cm", "m", "km", "in" or "ft".
+double parse_units(const std::string& option, const std::string& text);
+
 /// Bytes, with K, M or G for powers of 1024.
 std::uint64_t parse_bytes(const std::string& option, const std::string& text);
 

@@ -13,6 +13,7 @@
 #include "geodisk/outputs/outputs.hpp"
 #include "geodisk/reports/box_report.hpp"
 #include "geometry/set_warnings.hpp"
+#include "picture/view.hpp"
 #include "program/command.hpp"
 
 namespace geodisk::tools {
@@ -36,6 +37,7 @@ std::vector<SampleRow> to_rows(const std::vector<double>& points, std::size_t di
 void run_box(const BoxOptions& options) {
     check_output_or_dry_run(options.out);
     BoxJob job = parse_job(options);
+    job.out.check_scene(false);
     const auto dimension = static_cast<std::uint32_t>(job.box.extents.size());
     check_outputs(job.out, "the samples", {});
     if (!job.out.output.empty()) {
@@ -66,7 +68,9 @@ void run_box(const BoxOptions& options) {
     }
     const BoxReport report(job, rows.size(), done);
     write_outputs(job.out, "the samples", progress, report, [&](AtomicFile& file) {
-        write_box_samples(file, job.out.target(), report.header(), rows, dimension);
+        SampleTarget target = job.out.target();
+        target.up = job.out.up.empty() ? Up::y : picture::parse_up("--up", job.out.up);
+        write_box_samples(file, target, report.header(), rows, dimension);
     });
 }
 

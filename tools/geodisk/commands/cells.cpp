@@ -15,6 +15,7 @@
 #include "geodisk/options/run_options.hpp"
 #include "geodisk/options/tolerance_option.hpp"
 #include "geodisk/outputs/outputs.hpp"
+#include "geodisk/outputs/scene_frame.hpp"
 #include "geodisk/reports/cell_report.hpp"
 #include "program/command.hpp"
 #include "program/exact_text.hpp"
@@ -49,6 +50,7 @@ void check_files(const CellOptions& options) {
     }
     const std::vector<std::string> columns{"area"};
     check_columns(options.out.target(), columns);
+    options.out.check_scene(false);
 }
 
 void check_dual_dimension(const CellOptions& options, std::uint32_t dimension) {
@@ -113,12 +115,18 @@ void run_cells_command(const CellOptions& options) {
                                write_dual(dual, dual_format(options.dual), dual_mesh(result, mesh));
                            }});
     }
-    const CellReport report{options.mesh, mesh, warnings, result, options.out.output, options.dual};
+    const CellReport report{options.mesh,
+                            mesh,
+                            warnings,
+                            result,
+                            options.out.output,
+                            options.dual,
+                            scene_frame(options.out, options.mesh, mesh)};
     write_outputs(
         options.out, "the samples", progress, report,
         [&](AtomicFile& samples) {
-            write_samples(samples, options.out.target(), header, file.rows, mesh.dimension(),
-                          {file.extra, fields});
+            write_samples(samples, target_in(options.out, report.scene), header, file.rows,
+                          mesh.dimension(), {file.extra, fields});
         },
         further);
 }

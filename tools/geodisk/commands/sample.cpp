@@ -34,6 +34,9 @@ void draw_samples(const SampleJob& job, const MeshInput& mesh, SampleResult& res
     const picture::Scene scene = make_scene(job.mesh, mesh);
     picture::PictureParams params;
     params.legend = job.legend;
+    if (!job.out.up.empty()) {
+        params.up = picture::parse_up("--up", job.out.up);
+    }
     result.picture = draw_surface(
         device.context(), params, mesh.prepared, scene,
         disks_of(result.rows, job.classes, result.classes, result.params.min_distance).disks,

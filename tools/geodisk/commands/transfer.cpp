@@ -25,6 +25,7 @@
 #include "geodisk/options/tolerance_option.hpp"
 #include "geodisk/outputs/outputs.hpp"
 #include "geodisk/outputs/progress.hpp"
+#include "geodisk/outputs/scene_frame.hpp"
 #include "geodisk/records.hpp"
 #include "geodisk/reports/farthest_report.hpp"
 #include "geodisk/reports/json.hpp"
@@ -60,6 +61,7 @@ struct Transfer {
     SampleFile samples{};
     std::optional<ClosePair> closest{};
     std::optional<FarthestRun> farthest{}; ///< If the samples are in its order.
+    std::optional<SceneFrame> scene{};
 };
 
 /// The mesh to move samples to, with what they get of it.
@@ -76,6 +78,7 @@ void check_files(const TransferOptions& options) {
     target_mesh(options).add_files(read, "a mesh");
     check_outputs(options.out, "the output", read);
     options.out.record.check(options.out.target());
+    options.out.check_scene(false);
 }
 
 bool holds_samples(const std::string& path) {
@@ -173,6 +176,7 @@ std::string report_text(const TransferOptions& options, const Transfer& done) {
              {"output", options.out.output},
              {"samples", done.samples.rows.size()},
              {"farthest", done.farthest ? farthest_json(*done.farthest) : Json(nullptr)},
+             {"scene", scene_json(done.scene)},
              {"smallest", pair_json(done.closest)}});
 }
 
@@ -185,7 +189,8 @@ std::string summary_text(const TransferOptions& options, const Transfer& done) {
         out << farthest_line(*done.farthest);
     }
     out << "smallest      " << closest_text(done.closest) << '\n'
-        << "file          " << one_line(options.out.output) << '\n';
+        << "file          " << one_line(options.out.output) << '\n'
+        << scene_line(done.scene);
     return out.str();
 }
 
@@ -237,9 +242,10 @@ void run_transfer(const TransferOptions& options) {
     if (done.farthest && takes_column(options.out, kCoverColumn)) {
         fields.push_back(done.farthest->cover());
     }
+    done.scene = scene_frame(options.out, options.to, to);
     AtomicFile file(options.out.output);
-    write_samples(file, options.out.target(), transferred_header(options, done), samples.rows,
-                  to.dimension(), {samples.extra, fields});
+    write_samples(file, target_in(options.out, done.scene), transferred_header(options, done),
+                  samples.rows, to.dimension(), {samples.extra, fields});
     file.sync();
     publish(options.out, {&file}, report_text(options, done), summary_text(options, done));
 }

@@ -21,6 +21,7 @@ void add_line_options(Command command, LineOptions& line) {
     add_subject_options(command, line.sample);
     add_text_options(command, line.sample.out);
     add_columns_options(command, line.sample.out);
+    add_scene_options(command, line.sample.out);
 }
 
 void parse_words(const std::vector<std::string>& words, LineOptions& line) {
@@ -124,6 +125,7 @@ void add_batch_options(Command command, BatchOptions& options) {
     add_json_option(command, options.sample.out);
     add_text_options(command, options.sample.out);
     add_columns_options(command, options.sample.out);
+    add_scene_options(command, options.sample.out);
     add_quiet_option(command, options.sample.out);
 }
 

@@ -10,7 +10,20 @@ namespace geodisk::tools {
 SampleTarget OutputOptions::target() const {
     SampleTarget result = sample_target(output, format, ascii);
     result.has_header = !no_header;
+    result.metres_per_unit = units.empty() ? 1 : parse_units("--units", units);
     return result;
+}
+
+void OutputOptions::check_scene(bool has_picture) const {
+    if (output.empty() || (up.empty() && units.empty()) || is_scene(target().format)) {
+        return;
+    }
+    if (!units.empty()) {
+        fail_usage("--units is for samples in *.usda, *.gltf and *.glb");
+    }
+    if (!has_picture) {
+        fail_usage("--up is for samples in *.usda, *.gltf and *.glb, and for pictures");
+    }
 }
 
 void add_output_argument(Command command, OutputOptions& options, const std::string& summary) {
@@ -54,6 +67,18 @@ void add_columns_options(Command command, OutputOptions& options) {
     add_record_options(command, options.record);
 }
 
+void add_scene_options(Command command, OutputOptions& options) {
+    command
+        .add_option("--up", options.up, "AXIS",
+                    "Axis that points up in *.usda, *.gltf and *.glb, and in a\n"
+                    "picture: x, y or z (default: guess from the mesh; y for a mesh\n"
+                    "of glTF). glTF is turned, as y points up there")
+        .offers({"x", "y", "z"});
+    command.add_option("--units", options.units, "UNIT",
+                       "Unit of the mesh in *.usda, *.gltf and *.glb: mm, cm, m, km,\n"
+                       "in, ft or so many metres (default m)");
+}
+
 void add_output_options(Command command, OutputOptions& options) {
     add_json_option(command, options);
     command
@@ -61,6 +86,7 @@ void add_output_options(Command command, OutputOptions& options) {
                     "Write ply, csv, npz, pcd, glb, gltf, usda, obj or xyz,\n"
                     "ignoring the extension of OUT")
         .offers(sample_formats());
+    add_scene_options(command, options);
     add_text_options(command, options);
     add_quiet_option(command, options);
 }

@@ -20,12 +20,18 @@ struct OutputOptions {
     std::string json;    ///< The report for programs; "-" is standard output. Or "".
     std::string format;  ///< Of the samples; "" for that of their extension.
     std::string columns; ///< Names of part_columns() with commas, or "".
+    std::string up;      ///< Axis that points up in a scene: "x", "y", "z", or "" to guess it.
+    std::string units;   ///< Unit of lengths in a scene, or "".
     RecordOptions record;
     bool ascii = false, quiet = false, is_dry_run = false;
     bool no_header = false; ///< Write samples without comments.
 
-    /// Where and how to write the samples. Throws UserError(usage).
+    /// Where and how to write the samples, with the unit of a scene, but not with the axis that
+    /// points up. Throws UserError(usage).
     SampleTarget target() const;
+    /// Throws UserError(usage) for --up and --units where nothing has them: samples in other
+    /// formats without a picture.
+    void check_scene(bool has_picture) const;
 
     /// Whether to print the results for people.
     bool has_summary() const { return !quiet && !is_standard_output(json); }
@@ -57,7 +63,10 @@ void add_text_options(Command command, OutputOptions& options);
 /// Adds --columns, --attributes, --normals and --frames.
 void add_columns_options(Command command, OutputOptions& options);
 
-/// Adds --json, --format, --ascii, --no-header and --quiet.
+/// Adds --up and --units.
+void add_scene_options(Command command, OutputOptions& options);
+
+/// Adds --json, --format, --up, --units, --ascii, --no-header and --quiet.
 void add_output_options(Command command, OutputOptions& options);
 
 /// Which device to work on, as given on the command line.

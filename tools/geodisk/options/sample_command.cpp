@@ -91,6 +91,8 @@ std::string sample_command(const SampleOptions& options) {
     list.add_flag("--dense", options.method.is_dense);
     list.add_flag("--maximal", options.method.is_maximal);
     list.add("--seed", options.run.seed, usual.run.seed);
+    list.add("--up", options.out.up);
+    list.add("--units", options.out.units);
     list.add_flag("--ascii", options.out.ascii);
     list.add("--columns", options.out.columns);
     list.add("--attributes", options.out.record.attributes);

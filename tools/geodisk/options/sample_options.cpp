@@ -177,6 +177,7 @@ SampleJob parse_job(const SampleOptions& options) {
     if (!job.out.output.empty() && !job.out.record.entries().empty()) {
         job.out.record.check(job.out.target());
     }
+    job.out.check_scene(!options.picture.empty());
     job.run = options.run;
     job.metric = parse_metric(options.metric);
     job.picture = options.picture;

@@ -84,6 +84,7 @@ std::string CellReport::json(double write_seconds) const {
                   {"dual", dual_json(*this)},
                   {"disks", cells.report.disks},
                   {"windows", cells.report.windows},
+                  {"scene", scene_json(scene)},
                   {"output", output}};
     Json run = run_json(result.done, seconds_of(*this, write_seconds));
     run.erase("guard"); // Of samples.
@@ -105,7 +106,8 @@ std::string CellReport::summary(double write_seconds) const {
     if (!dual.empty()) {
         out << dual_lines(*this);
     }
-    out << run_text(result.done, seconds_of(*this, write_seconds), output, "finding cells");
+    out << run_text(result.done, seconds_of(*this, write_seconds), output, "finding cells")
+        << scene_line(scene);
     return out.str();
 }
 

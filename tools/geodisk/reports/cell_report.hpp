@@ -1,11 +1,13 @@
 // What `cells` reports: to people and to programs.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "geodisk/cell_run.hpp"
 #include "geodisk/options/mesh_options.hpp"
+#include "geodisk/outputs/scene_frame.hpp"
 
 namespace geodisk::tools {
 
@@ -17,6 +19,7 @@ struct CellReport {
     const CellResult& result;
     const std::string& output;
     const std::string& dual; ///< File of the dual graph, or "".
+    std::optional<SceneFrame> scene;
 
     std::string json(double write_seconds) const;
     std::string summary(double write_seconds) const;

@@ -302,6 +302,7 @@ Json SampleReport::document(const SecondsByStage& after) const {
     if (result_.picture) {
         document["picture"] = job_.picture;
     }
+    document["scene"] = scene_json(result_.scene);
     if (radii_.do_vary()) {
         document["sample_radii"] = {{"least", radii_.least}, {"most", radii_.most}};
     }
@@ -358,7 +359,7 @@ std::string SampleReport::summary(const SecondsByStage& after) const {
     if (result_.farthest) {
         out << farthest_line(*result_.farthest);
     }
-    out << run_text(result_.done, seconds(after), job_.out.output);
+    out << run_text(result_.done, seconds(after), job_.out.output) << scene_line(result_.scene);
     if (result_.picture) {
         out << "picture       " << one_line(job_.picture) << '\n';
     }

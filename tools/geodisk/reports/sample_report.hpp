@@ -15,6 +15,7 @@
 #include "geodisk/farthest_run.hpp"
 #include "geodisk/inputs/mesh_input.hpp"
 #include "geodisk/options/sample_options.hpp"
+#include "geodisk/outputs/scene_frame.hpp"
 #include "geodisk/picture_run.hpp"
 #include "geodisk/reports/json_type.hpp"
 #include "geodisk/reports/run_report.hpp"
@@ -47,6 +48,7 @@ struct SampleResult {
     BareParts bare;
     std::vector<MeshWarning> warnings;
     std::optional<DrawnPicture> picture;
+    std::optional<SceneFrame> scene; ///< Of the samples, in formats that hold one.
 
     std::size_t count() const { return all ? all->count : rows.size(); }
     std::string digest() const;
