@@ -19,12 +19,12 @@
 namespace geodisk::test {
 namespace {
 
-struct Release {
+struct ReleaseSearch {
     void operator()(geodisk_neighbours* neighbours) const {
         geodisk_neighbours_release(neighbours);
     }
 };
-using Lists = std::unique_ptr<geodisk_neighbours, Release>;
+using Lists = std::unique_ptr<geodisk_neighbours, ReleaseSearch>;
 
 geodisk_neighbour_params params_within(double within) {
     geodisk_neighbour_params params{};

@@ -27,7 +27,7 @@ Placed placed_set(const SampleSet& set) {
     return result;
 }
 
-const TestMesh& knot() {
+const TestMesh& sampled_knot() {
     static const TestMesh kMesh = builtin("torus-knot", 8);
     return kMesh;
 }
@@ -35,12 +35,12 @@ const TestMesh& knot() {
 } // namespace
 
 TEST_CASE("a surface has the samples that it has in C++") {
-    const PreparedMesh prepared_mesh = prepared(knot());
+    const PreparedMesh prepared_mesh = prepared(sampled_knot());
     const double distance = distance_for_count(prepared_mesh, {}, 500);
     const SampleSet set =
         expected(expect(Domain::surface(prepared_mesh, {.min_distance = distance, .seed = 3})));
 
-    const auto mesh = mesh_of(knot());
+    const auto mesh = mesh_of(sampled_knot());
     double same_distance = 0;
     REQUIRE(geodisk_distance_for_count(mesh.get(), nullptr, nullptr, 500, &same_distance,
                                        nullptr) == GEODISK_OK);
@@ -56,8 +56,8 @@ TEST_CASE("a surface has the samples that it has in C++") {
             double sum = 0;
             for (std::size_t corner = 0; corner < 3; ++corner) {
                 const std::size_t vertex =
-                    knot().triangles[std::size_t{3} * set.samples[i].face + corner];
-                sum += double{set.samples[i].weights[corner]} * knot().positions[3 * vertex + axis];
+                    sampled_knot().triangles[std::size_t{3} * set.samples[i].face + corner];
+                sum += double{set.samples[i].weights[corner]} * sampled_knot().positions[3 * vertex + axis];
             }
             REQUIRE(points[3 * i + axis] == sum);
         }
@@ -95,7 +95,7 @@ TEST_CASE("a surface has the samples that it has in C++") {
 }
 
 TEST_CASE("samples have classes") {
-    const auto mesh = mesh_of(knot());
+    const auto mesh = mesh_of(sampled_knot());
     std::vector<float> factors{1, 0.5f, 0.5f, 0.8f};
     auto params = sized<geodisk_surface_params>();
     params.min_distance = 0.5;
@@ -177,7 +177,7 @@ TEST_CASE("features are sampled before the faces") {
 }
 
 TEST_CASE("samples that are given come first, and are told") {
-    const auto mesh = mesh_of(knot());
+    const auto mesh = mesh_of(sampled_knot());
     const auto whole = sample(shared_sampler(), surface_of(mesh.get(), 0.2, 3).get());
     const Placed all = placed(whole.get());
     REQUIRE(all.faces.size() > 20);
@@ -230,7 +230,7 @@ TEST_CASE("samples that are given come first, and are told") {
 }
 
 TEST_CASE("a maximal set is reported") {
-    const auto mesh = mesh_of(knot());
+    const auto mesh = mesh_of(sampled_knot());
     auto params = sized<geodisk_surface_params>();
     params.min_distance = 0.3;
     params.is_maximal = 1;
@@ -287,14 +287,14 @@ TEST_CASE("floats, short indices and strides are the mesh that they say") {
 }
 
 TEST_CASE("radii vary, keys move candidates, and parts have samples of their own") {
-    const auto mesh = mesh_of(knot());
+    const auto mesh = mesh_of(sampled_knot());
     auto info = sized<geodisk_mesh_info>();
     REQUIRE(geodisk_mesh_describe(mesh.get(), &info, nullptr) == GEODISK_OK);
-    CHECK(info.faces == knot().triangles.size() / 3);
+    CHECK(info.faces == sampled_knot().triangles.size() / 3);
     CHECK(info.dimension == 3);
     CHECK(info.components == 1);
 
-    std::vector<float> factors(knot().positions.size() / 3);
+    std::vector<float> factors(sampled_knot().positions.size() / 3);
     for (std::size_t i = 0; i < factors.size(); ++i) {
         factors[i] = 0.5f + 0.5f * static_cast<float>(i) / static_cast<float>(factors.size());
     }
@@ -315,7 +315,7 @@ TEST_CASE("radii vary, keys move candidates, and parts have samples of their own
         return geodisk_domain_surface(mesh.get(), &params, made, error);
     });
 
-    const PreparedMesh prepared_mesh = prepared(knot());
+    const PreparedMesh prepared_mesh = prepared(sampled_knot());
     const RadiusField field = expect(
         RadiusField::prepare(prepared_mesh, std::vector<double>(factors.begin(), factors.end())));
     const SampleParams same{
@@ -386,9 +386,9 @@ TEST_CASE("radii vary, keys move candidates, and parts have samples of their own
 }
 
 TEST_CASE("other metrics and boxes") {
-    const auto mesh = mesh_of(knot());
-    const PreparedMesh prepared_mesh = prepared(knot());
-    const MeshView view{knot().positions, knot().triangles};
+    const auto mesh = mesh_of(sampled_knot());
+    const PreparedMesh prepared_mesh = prepared(sampled_knot());
+    const MeshView view{sampled_knot().positions, sampled_knot().triangles};
     for (const auto& [metric, same] : {std::pair{GEODISK_EUCLIDEAN, Metric::euclidean},
                                        std::pair{GEODISK_APPROXIMATE, Metric::approximate}}) {
         auto params = sized<geodisk_surface_params>();
@@ -496,7 +496,7 @@ TEST_CASE("meshes of lengths, welded and saved ones") {
 }
 
 TEST_CASE("a search finds the distance of a count") {
-    const auto mesh = mesh_of(knot());
+    const auto mesh = mesh_of(sampled_knot());
     const auto search = owned<geodisk_count_search>([](auto** made, geodisk_error* error) {
         return geodisk_count_search_create(200, made, error);
     });
@@ -516,7 +516,7 @@ TEST_CASE("a search finds the distance of a count") {
 }
 
 TEST_CASE("an exact search finds a distance with enough samples") {
-    const auto mesh = mesh_of(knot());
+    const auto mesh = mesh_of(sampled_knot());
     const auto search = owned<geodisk_count_search>([](auto** made, geodisk_error* error) {
         return geodisk_count_search_create_exact(200, made, error);
     });
@@ -544,7 +544,7 @@ TEST_CASE("an exact search finds a distance with enough samples") {
 }
 
 TEST_CASE("levels have distances and seeds of their own") {
-    const auto mesh = mesh_of(knot());
+    const auto mesh = mesh_of(sampled_knot());
     auto params = sized<geodisk_surface_params>();
     params.min_distance = 0.3;
     params.seed = 5;

@@ -11,15 +11,15 @@
 namespace geodisk::test {
 namespace {
 
-constexpr const char* kMesh = "builtin:icosphere:3";
+constexpr const char* kAnalyzedMesh = "builtin:icosphere:3";
 
 void make_set(const TemporaryFolder& folder, const std::string& file, const Arguments& more) {
-    REQUIRE(run(folder, joined({"sample", kMesh, "-o", file}, more)).status == 0);
+    REQUIRE(run(folder, joined({"sample", kAnalyzedMesh, "-o", file}, more)).status == 0);
 }
 
 nlohmann::json analysis(const TemporaryFolder& folder, const Arguments& arguments) {
     const Outcome outcome =
-        run(folder, joined(joined({"analyze", kMesh}, arguments), {"--json", "-"}));
+        run(folder, joined(joined({"analyze", kAnalyzedMesh}, arguments), {"--json", "-"}));
     INFO(outcome.err);
     REQUIRE(outcome.status == 0);
     return nlohmann::json::parse(outcome.out);
@@ -32,7 +32,7 @@ TEST_CASE("a set is what dart throwing gives") {
     make_set(folder, "a.ply", {"-d", "0.1"});
     const auto set = analysis(folder, {"a.ply"})["sets"][0];
     const auto verified =
-        nlohmann::json::parse(run(folder, {"verify", kMesh, "a.ply", "--json", "-"}).out);
+        nlohmann::json::parse(run(folder, {"verify", kAnalyzedMesh, "a.ply", "--json", "-"}).out);
     CHECK(set["smallest"].get<double>() ==
           doctest::Approx(verified["smallest_ratio"].get<double>()).epsilon(1e-9));
     CHECK(set["rho"].get<double>() == doctest::Approx(verified["rho"].get<double>()));
@@ -81,7 +81,7 @@ TEST_CASE("several sets tell whether they are even") {
     const auto mixed = analysis(folder, {"0.csv", "other.csv"});
     CHECK(mixed["evenness"].is_null());
     CHECK(mixed["number"].is_null());
-    const Outcome text = run(folder, {"analyze", kMesh, "0.csv", "other.csv"});
+    const Outcome text = run(folder, {"analyze", kAnalyzedMesh, "0.csv", "other.csv"});
     CHECK(contains(text.out, "0.csv"));
     CHECK(contains(text.out, "other.csv"));
     CHECK_FALSE(contains(text.out, "on average"));
@@ -98,23 +98,23 @@ TEST_CASE("with a mask, only the faces that take samples count") {
     CHECK(whole["rho"].get<double>() < 0.6);
     CHECK(whole["uncovered"].get<double>() > 0.4);
     check_fails(folder, 3, "on faces that --mask left out, first sample",
-                {"analyze", kMesh, "half.ply", "--mask", "z>0.5"});
-    check_fails(folder, 2, "--only", {"analyze", kMesh, "half.ply", "--only", "part:x"});
+                {"analyze", kAnalyzedMesh, "half.ply", "--mask", "z>0.5"});
+    check_fails(folder, 2, "--only", {"analyze", kAnalyzedMesh, "half.ply", "--only", "part:x"});
 }
 
 TEST_CASE("what cannot be analyzed is told") {
     const TemporaryFolder folder;
     make_set(folder, "a.ply", {"-n", "50"});
-    check_fails(folder, 2, "SAMPLES", {"analyze", kMesh});
-    check_fails(folder, 2, "--probes", {"analyze", kMesh, "a.ply", "--probes", "0"});
-    check_fails(folder, 2, "--probes", {"analyze", kMesh, "a.ply", "--probes", "1e8"});
-    check_fails(folder, 2, "--seed", {"analyze", kMesh, "a.ply", "--seed", "x"});
-    check_fails(folder, 2, "--radius", {"analyze", kMesh, "a.ply", "-r", "-1"});
-    check_fails(folder, 2, "would replace", {"analyze", kMesh, "a.ply", "--json", "a.ply"});
+    check_fails(folder, 2, "SAMPLES", {"analyze", kAnalyzedMesh});
+    check_fails(folder, 2, "--probes", {"analyze", kAnalyzedMesh, "a.ply", "--probes", "0"});
+    check_fails(folder, 2, "--probes", {"analyze", kAnalyzedMesh, "a.ply", "--probes", "1e8"});
+    check_fails(folder, 2, "--seed", {"analyze", kAnalyzedMesh, "a.ply", "--seed", "x"});
+    check_fails(folder, 2, "--radius", {"analyze", kAnalyzedMesh, "a.ply", "-r", "-1"});
+    check_fails(folder, 2, "would replace", {"analyze", kAnalyzedMesh, "a.ply", "--json", "a.ply"});
     check_fails(folder, 3, "another mesh", {"analyze", "builtin:icosphere:4", "a.ply"});
-    check_fails(folder, 3, "b.ply", {"analyze", kMesh, "a.ply", "b.ply"});
+    check_fails(folder, 3, "b.ply", {"analyze", kAnalyzedMesh, "a.ply", "b.ply"});
     folder.write("none.csv", "# min_distance: 0.1\nface_index,bary_u,bary_v,bary_w,x,y,z\n");
-    check_fails(folder, 3, "no samples", {"analyze", kMesh, "none.csv"});
+    check_fails(folder, 3, "no samples", {"analyze", kAnalyzedMesh, "none.csv"});
 }
 
 } // namespace geodisk::test

@@ -22,16 +22,16 @@ namespace {
 
 using Json = nlohmann::json;
 
-void write(const TemporaryFolder& folder, const char* name, const std::string& text) {
+void write_mesh_file(const TemporaryFolder& folder, const char* name, const std::string& text) {
     std::ofstream(folder / name) << text;
 }
 
 /// Two triangles: the unit square, in the left half of the texture.
-const char* const kSquare = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"
+const char* const kBakedSquare = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"
                             "vt 0 0\nvt 0.5 0\nvt 0.5 1\nvt 0 1\nf 1/1 2/2 3/3 4/4\n";
 const char* const kEnds = "x,y,z\n0,0.5,0\n1,0.5,0\n";
 
-void check_refused(const TemporaryFolder& folder, int status, const std::string& message,
+void check_bake_refused(const TemporaryFolder& folder, int status, const std::string& message,
                    Arguments arguments) {
     arguments.insert(arguments.begin(), "bake");
     check_fails(folder, status, message, arguments);
@@ -41,8 +41,8 @@ void check_refused(const TemporaryFolder& folder, int status, const std::string&
 
 TEST_CASE("bake: pictures show cells and distances") {
     const TemporaryFolder folder;
-    write(folder, "square.obj", kSquare);
-    write(folder, "ends.csv", kEnds);
+    write_mesh_file(folder, "square.obj", kBakedSquare);
+    write_mesh_file(folder, "ends.csv", kEnds);
     const Outcome outcome = run(folder, {"bake", "square.obj", "ends.csv", "-o", "cells.png",
                                          "--size", "64x32", "--json", "map.json"});
     INFO(outcome.err);
@@ -79,7 +79,7 @@ TEST_CASE("bake: pictures show cells and distances") {
 
 TEST_CASE("bake: cells that touch have different colours") {
     const TemporaryFolder folder;
-    write(folder, "square.obj", kSquare);
+    write_mesh_file(folder, "square.obj", kBakedSquare);
     std::mt19937 random(11);
     std::uniform_real_distribution<double> anywhere(0, 1);
     std::vector<std::array<double, 2>> points(150);
@@ -88,7 +88,7 @@ TEST_CASE("bake: cells that touch have different colours") {
         x = anywhere(random), y = anywhere(random);
         table += std::to_string(x) + "," + std::to_string(y) + ",0\n";
     }
-    write(folder, "points.csv", table);
+    write_mesh_file(folder, "points.csv", table);
     REQUIRE(run(folder,
                 {"bake", "square.obj", "points.csv", "-o", "cells.png", "--size", "512x256", "-q"})
                 .status == 0);
@@ -132,8 +132,8 @@ TEST_CASE("bake: cells that touch have different colours") {
 
 TEST_CASE("bake: overlaps and repeats are reported") {
     const TemporaryFolder folder;
-    write(folder, "ends.csv", kEnds);
-    write(folder, "twice.obj",
+    write_mesh_file(folder, "ends.csv", kEnds);
+    write_mesh_file(folder, "twice.obj",
           "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 2 0\nvt 2 1\nvt 0 1\n"
           "f 1/1 2/2 3/3 4/4\n");
     const Outcome outcome = run(folder, {"bake", "twice.obj", "ends.csv", "-o", "map.npz", "--size",
@@ -155,29 +155,29 @@ TEST_CASE("bake: overlaps and repeats are reported") {
 
 TEST_CASE("bake: what cannot be made leaves no file") {
     const TemporaryFolder folder;
-    write(folder, "square.obj", kSquare);
-    write(folder, "ends.csv", kEnds);
-    write(folder, "none.csv", "x,y,z\n");
-    write(folder, "corner.csv", "x,y,z,face_index,bary_u,bary_v,bary_w\n0,0,0,0,1,0,0\n");
-    write(folder, "bare.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
-    write(folder, "tiny.obj",
+    write_mesh_file(folder, "square.obj", kBakedSquare);
+    write_mesh_file(folder, "ends.csv", kEnds);
+    write_mesh_file(folder, "none.csv", "x,y,z\n");
+    write_mesh_file(folder, "corner.csv", "x,y,z,face_index,bary_u,bary_v,bary_w\n0,0,0,0,1,0,0\n");
+    write_mesh_file(folder, "bare.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    write_mesh_file(folder, "tiny.obj",
           "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1e-5 0\nvt 0 1e-5\nf 1/1 2/2 3/3\n");
-    write(folder, "far.obj",
+    write_mesh_file(folder, "far.obj",
           "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1e9 0\nvt 0 1\nf 1/1 2/2 3/3\n");
-    check_refused(folder, 3, "has no texture coordinates",
+    check_bake_refused(folder, 3, "has no texture coordinates",
                   {"bare.obj", "ends.csv", "-o", "no.npz"});
-    check_refused(folder, 3, "has no texture coordinates",
+    check_bake_refused(folder, 3, "has no texture coordinates",
                   {"builtin:cube:2", "ends.csv", "-o", "no.npz"});
-    check_refused(folder, 3, "no face covers", {"tiny.obj", "corner.csv", "-o", "no.npz"});
-    check_refused(folder, 3, "too far from 0", {"far.obj", "corner.csv", "-o", "no.npz"});
-    check_refused(folder, 3, "none.csv", {"square.obj", "none.csv", "-o", "no.npz"});
-    check_refused(folder, 2, "maps are written as .npz or .png",
+    check_bake_refused(folder, 3, "no face covers", {"tiny.obj", "corner.csv", "-o", "no.npz"});
+    check_bake_refused(folder, 3, "too far from 0", {"far.obj", "corner.csv", "-o", "no.npz"});
+    check_bake_refused(folder, 3, "none.csv", {"square.obj", "none.csv", "-o", "no.npz"});
+    check_bake_refused(folder, 2, "maps are written as .npz or .png",
                   {"square.obj", "ends.csv", "-o", "no.tif"});
     for (const char* const size : {"0", "20000", "16x", "x16", "16x16x16", "many"}) {
-        check_refused(folder, 2, "--size",
+        check_bake_refused(folder, 2, "--size",
                       {"square.obj", "ends.csv", "-o", "no.npz", "--size", size});
     }
-    check_refused(folder, 2, "--style",
+    check_bake_refused(folder, 2, "--style",
                   {"square.obj", "ends.csv", "-o", "no.png", "--style", "disks"});
 }
 

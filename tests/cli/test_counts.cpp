@@ -15,10 +15,10 @@
 namespace geodisk::test {
 namespace {
 
-constexpr const char* kMesh = "builtin:torus-knot:8";
+constexpr const char* kCountsMesh = "builtin:torus-knot:8";
 
 void sample(const TemporaryFolder& folder, const char* file, const Arguments& options) {
-    Arguments arguments{"sample", kMesh, "-o", file, "--json", "report.json"};
+    Arguments arguments{"sample", kCountsMesh, "-o", file, "--json", "report.json"};
     arguments.insert(arguments.end(), options.begin(), options.end());
     const Outcome outcome = run(folder, arguments);
     INFO(outcome.err);
@@ -60,7 +60,7 @@ TEST_CASE("an exact count keeps the first samples of a run with at most 1 % more
             REQUIRE(exact.rows[i].face == all.rows[i].face);
             REQUIRE(exact.rows[i].bary[1] == all.rows[i].bary[1]);
         }
-        arguments = {"verify", kMesh, "exact.ply"};
+        arguments = {"verify", kCountsMesh, "exact.ply"};
         arguments.insert(arguments.end(), options.begin(), options.end());
         CHECK(run(folder, arguments).status == 0);
     }
@@ -74,7 +74,7 @@ TEST_CASE("existing samples count towards an exact count") {
     CHECK(all.rows.size() == 150);
     CHECK(all.extra_values("given")[99] == 1);
     CHECK(all.extra_values("given")[100] == 0);
-    CHECK(run(folder, {"verify", kMesh, "b.ply"}).status == 0);
+    CHECK(run(folder, {"verify", kCountsMesh, "b.ply"}).status == 0);
 }
 
 TEST_CASE("boxes have exact counts") {
@@ -102,7 +102,7 @@ TEST_CASE("exact counts that cannot be are refused without a file") {
         {{"--exact", "-n", "10", "--method", "darts", "-d", "1"}, "--exact is for --method pool"},
     };
     for (const Case& wrong : cases) {
-        Arguments arguments{"sample", kMesh, "-o", "a.ply"};
+        Arguments arguments{"sample", kCountsMesh, "-o", "a.ply"};
         arguments.insert(arguments.end(), wrong.options.begin(), wrong.options.end());
         const Outcome outcome = run(folder, arguments);
         CAPTURE(outcome.err);
@@ -112,11 +112,11 @@ TEST_CASE("exact counts that cannot be are refused without a file") {
     // Nothing fits beside a point to avoid that reaches everywhere.
     sample(folder, "one.csv", {"--count", "1"});
     const Outcome full = run(
-        folder, {"sample", kMesh, "-o", "a.ply", "-n", "5", "--exact", "--avoid", "one.csv:1000"});
+        folder, {"sample", kCountsMesh, "-o", "a.ply", "-n", "5", "--exact", "--avoid", "one.csv:1000"});
     CHECK(full.status == 2);
     CHECK(contains(full.err, "--avoid: the points leave no room for samples; lower their radii"));
     const Outcome none =
-        run(folder, {"sample", kMesh, "-o", "a.ply", "-n", "50", "--avoid", "one.csv:1000"});
+        run(folder, {"sample", kCountsMesh, "-o", "a.ply", "-n", "50", "--avoid", "one.csv:1000"});
     CHECK(none.status == 2);
     CHECK(contains(none.err, "--avoid: the points leave no room for samples; lower their radii"));
     CHECK(!std::filesystem::exists(folder / "a.ply"));
@@ -141,7 +141,7 @@ TEST_CASE("a progressive order has levels that are spaced, each by its distance"
             CHECK(column[end - 1] == level);
             CHECK((end == column.size() || column[end] == level + 1));
         }
-        arguments = {"verify", kMesh, "a.ply", "--json", "verify.json"};
+        arguments = {"verify", kCountsMesh, "a.ply", "--json", "verify.json"};
         arguments.insert(arguments.end(), options.begin(), options.end());
         CHECK(run(folder, arguments).status == 0);
         const Json verified = json_in(folder, "verify.json")["levels"];
@@ -169,14 +169,14 @@ TEST_CASE("a progressive order has counts, existing samples and levels of one's 
     CHECK(report_in(folder)["samples"] == 300);
     CHECK(report_in(folder)["levels"].size() == 3);
     CHECK(report_in(folder)["levels"][2]["samples"] == 300);
-    CHECK(run(folder, {"verify", kMesh, "a.csv"}).status == 0);
+    CHECK(run(folder, {"verify", kCountsMesh, "a.csv"}).status == 0);
     sample(folder, "b.csv",
            {"-n", "600", "--order", "progressive", "--level-factor", "1.5", "--existing", "a.csv"});
     const tools::SampleFile more = tools::read_samples(folder / "b.csv");
     CHECK(more.extra_values("given")[299] == 1);
     CHECK(more.extra_values("given")[300] == 0);
     CHECK(more.extra_values("level")[299] == 0);
-    CHECK(run(folder, {"verify", kMesh, "b.csv"}).status == 0);
+    CHECK(run(folder, {"verify", kCountsMesh, "b.csv"}).status == 0);
     // One level is dart order.
     sample(folder, "one.csv", {"-n", "50", "--order", "progressive", "--levels", "1"});
     sample(folder, "dart.csv", {"-n", "50"});
@@ -194,7 +194,7 @@ TEST_CASE("verify finds levels that are not spaced, and files that contradict th
         REQUIRE(at != std::string::npos);
         changed.replace(at, old_text.size(), new_text);
         std::ofstream(folder / "b.csv") << changed;
-        return run(folder, {"verify", kMesh, "b.csv"});
+        return run(folder, {"verify", kCountsMesh, "b.csv"});
     };
     const Outcome close = verify("level_distances: 2 1 0.5", "level_distances: 2 1.4 0.5");
     CHECK(close.status == 1);
@@ -204,7 +204,7 @@ TEST_CASE("verify finds levels that are not spaced, and files that contradict th
     CHECK(contains(verify("level_distances: 2 1 0.5", "level_distances: 1 2 0.5").err,
                    "not positive numbers that fall"));
     CHECK(contains(verify(",level", ",lewel").err, "it has no column level"));
-    CHECK(run(folder, {"verify", kMesh, "a.csv"}).status == 0);
+    CHECK(run(folder, {"verify", kCountsMesh, "a.csv"}).status == 0);
     // A prefix of whole lines is a set of its own.
     const Outcome less =
         verify("# samples: " + std::to_string(tools::read_samples(folder / "a.csv").rows.size()),
@@ -236,7 +236,7 @@ TEST_CASE("orders that cannot be are refused without a file") {
         {{"--order", "progressive", "--dry-run"}, "--dry-run tries one run"},
     };
     for (const Case& wrong : cases) {
-        Arguments arguments{"sample", kMesh, "-d", "0.5"};
+        Arguments arguments{"sample", kCountsMesh, "-d", "0.5"};
         if (wrong.options.back() != "--dry-run") {
             arguments.insert(arguments.end(), {"-o", "a.ply"});
         }

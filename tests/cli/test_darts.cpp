@@ -17,14 +17,14 @@ namespace {
 using Arguments = std::vector<std::string>;
 using Json = nlohmann::json;
 
-Arguments sample(const Arguments& options) {
+Arguments sample_darts(const Arguments& options) {
     Arguments arguments{"sample", "builtin:cube", "-o", "a.ply"};
     arguments.insert(arguments.end(), options.begin(), options.end());
     return arguments;
 }
 
 Arguments darts(const Arguments& options) {
-    Arguments arguments = sample({"--method", "darts"});
+    Arguments arguments = sample_darts({"--method", "darts"});
     arguments.insert(arguments.end(), options.begin(), options.end());
     return arguments;
 }
@@ -73,7 +73,7 @@ TEST_CASE("darts stop at their number, and are a pool if they are as many") {
     const TemporaryFolder folder;
     // The first stage of either expects five darts per sample.
     const Throw pool =
-        thrown(folder, sample({"-d", "0.2", "--method", "psdp", "--pool-ratio", "5"}));
+        thrown(folder, sample_darts({"-d", "0.2", "--method", "psdp", "--pool-ratio", "5"}));
     CHECK(pool.report["method"] == "pool");
     CHECK(pool.report["stopped_by"] == "pool");
     CHECK(pool.report["throws"].is_null());
@@ -133,14 +133,14 @@ TEST_CASE("darts that run out before the count are told, or an error where none 
 TEST_CASE("methods take their own options") {
     const TemporaryFolder folder;
     check_fails(folder, 2, "'dart' is neither pool nor darts",
-                sample({"-d", "1", "--method", "dart"}));
+                sample_darts({"-d", "1", "--method", "dart"}));
     check_fails(folder, 2, "needs a number to stop at", darts({"-d", "1"}));
     check_fails(folder, 2, "no distance given", darts({"--count", "9"}));
     check_fails(folder, 2, "no distance given", darts({"--throws", "9"}));
     check_fails(folder, 2, "contradict", darts({"-d", "1", "-r", "1", "--throws", "9"}));
     check_fails(folder, 2, "--pool-ratio is for --method pool",
                 darts({"-d", "1", "--throws", "9", "--pool-ratio", "20"}));
-    check_fails(folder, 2, "--darts is for --method darts", sample({"-d", "1", "--darts", "9"}));
+    check_fails(folder, 2, "--darts is for --method darts", sample_darts({"-d", "1", "--darts", "9"}));
     for (const char* const value : {"0", "-1", "1.5", "many", "4294967296", "1e300"}) {
         check_fails(folder, 2, "--darts", darts({"-d", "1", "--throws", value}));
         check_fails(folder, 2, "--count", darts({"-d", "1", "--count", value}));

@@ -18,7 +18,7 @@ namespace {
 
 constexpr const char* kFarthestMesh = "builtin:torus-knot:8";
 
-Json sample(const TemporaryFolder& folder, const char* file, const Arguments& options) {
+Json sample_farthest(const TemporaryFolder& folder, const char* file, const Arguments& options) {
     Arguments arguments{"sample", kFarthestMesh, "-n", "300", "-o", file, "--json", "report.json"};
     arguments.insert(arguments.end(), options.begin(), options.end());
     const Outcome outcome = run(folder, arguments);
@@ -49,9 +49,9 @@ std::vector<double> column_in(const TemporaryFolder& folder, const char* file, c
 
 TEST_CASE("samples in farthest-point order are those of dart order, with their cover") {
     const TemporaryFolder folder;
-    sample(folder, "dart.csv", {});
-    const Json report = sample(folder, "far.csv", {"--order", "farthest", "--classes", "2"});
-    sample(folder, "classes.csv", {"--classes", "2"});
+    sample_farthest(folder, "dart.csv", {});
+    const Json report = sample_farthest(folder, "far.csv", {"--order", "farthest", "--classes", "2"});
+    sample_farthest(folder, "classes.csv", {"--classes", "2"});
     const std::vector<Place> before = places_in(folder, "classes.csv");
     const std::vector<Place> after = places_in(folder, "far.csv");
     CHECK(std::is_permutation(before.begin(), before.end(), after.begin(), after.end()));
@@ -72,8 +72,8 @@ TEST_CASE("samples in farthest-point order are those of dart order, with their c
 
 TEST_CASE("the first samples of the order are kept, and are as far apart as their cover") {
     const TemporaryFolder folder;
-    sample(folder, "all.ply", {"--order", "farthest"});
-    const Json report = sample(folder, "few.ply", {"--order", "farthest", "--keep", "40"});
+    sample_farthest(folder, "all.ply", {"--order", "farthest"});
+    const Json report = sample_farthest(folder, "few.ply", {"--order", "farthest", "--keep", "40"});
     const std::vector<Place> all = places_in(folder, "all.ply");
     const std::vector<Place> few = places_in(folder, "few.ply");
     CHECK(few == std::vector(all.begin(), all.begin() + 40));
@@ -95,8 +95,8 @@ TEST_CASE("the first samples of the order are kept, and are as far apart as thei
 
 TEST_CASE("transfer puts samples of a file in the same order") {
     const TemporaryFolder folder;
-    sample(folder, "dart.ply", {});
-    sample(folder, "far.ply", {"--order", "farthest"});
+    sample_farthest(folder, "dart.ply", {});
+    sample_farthest(folder, "far.ply", {"--order", "farthest"});
     const Outcome outcome =
         run(folder, {"transfer", "dart.ply", kFarthestMesh, kFarthestMesh, "-o", "few.glb", "--order", "farthest",
                      "--keep", "30", "--json", "report.json"});
@@ -114,7 +114,7 @@ TEST_CASE("transfer puts samples of a file in the same order") {
 
 TEST_CASE("columns that a format lacks are left out with a warning") {
     const TemporaryFolder folder;
-    sample(folder, "dart.ply", {});
+    sample_farthest(folder, "dart.ply", {});
     const auto warns = [&](const std::string& column, const std::string& output, Arguments all) {
         all.insert(all.end(), {"-o", output, "-q"});
         const Outcome outcome = run(folder, all);
@@ -135,7 +135,7 @@ TEST_CASE("columns that a format lacks are left out with a warning") {
 
 TEST_CASE("what farthest-point order does not go with is refused") {
     const TemporaryFolder folder;
-    sample(folder, "a.csv", {});
+    sample_farthest(folder, "a.csv", {});
     struct Case {
         Arguments options;
         const char* message;

@@ -18,9 +18,9 @@
 namespace geodisk::test {
 namespace {
 
-constexpr const char* kMesh = "builtin:torus-knot:8";
+constexpr const char* kRenderedMesh = "builtin:torus-knot:8";
 
-void make_samples(const TemporaryFolder& folder, const std::string& mesh = kMesh) {
+void make_samples(const TemporaryFolder& folder, const std::string& mesh = kRenderedMesh) {
     REQUIRE(run(folder, {"sample", mesh, "-o", "a.ply", "-n", "400"}).status == 0);
 }
 
@@ -55,24 +55,24 @@ double count_if(const PngImage& image, const Is& is) {
 TEST_CASE("a mesh is sampled and drawn at once") {
     const TemporaryFolder folder;
     make_samples(folder);
-    const Outcome outcome = run(folder, {"sample", kMesh, "-n", "400", "-o", "b.ply", "--picture",
+    const Outcome outcome = run(folder, {"sample", kRenderedMesh, "-n", "400", "-o", "b.ply", "--picture",
                                          "b.png", "--json", "b.json", "-q", "--validate"});
     INFO(outcome.err);
     REQUIRE(outcome.status == 0);
     CHECK(bytes_of(folder / "b.ply") == bytes_of(folder / "a.ply"));
     CHECK(nlohmann::json::parse(bytes_of(folder / "b.json"))["picture"] == "b.png");
-    REQUIRE(run(folder, {"render", kMesh, "a.ply", "-o", "a.png"}).status == 0);
+    REQUIRE(run(folder, {"render", kRenderedMesh, "a.ply", "-o", "a.png"}).status == 0);
     CHECK(bytes_of(folder / "b.png") == bytes_of(folder / "a.png"));
 
-    const Arguments good = {"sample", kMesh, "-n", "400", "-o", "c.ply", "--picture"};
+    const Arguments good = {"sample", kRenderedMesh, "-n", "400", "-o", "c.ply", "--picture"};
     REQUIRE(run(folder, joined(good, {"c.png", "--legend"})).status == 0);
-    REQUIRE(run(folder, {"render", kMesh, "a.ply", "-o", "a.png", "--legend"}).status == 0);
+    REQUIRE(run(folder, {"render", kRenderedMesh, "a.ply", "-o", "a.png", "--legend"}).status == 0);
     CHECK(bytes_of(folder / "c.png") == bytes_of(folder / "a.png"));
     CHECK(bytes_of(folder / "c.png") != bytes_of(folder / "b.png"));
     check_fails(folder, 2, "--picture FILE",
-                {"sample", kMesh, "-n", "400", "-o", "c.ply", "--legend"});
+                {"sample", kRenderedMesh, "-n", "400", "-o", "c.ply", "--legend"});
     check_fails(folder, 2, "--legend does not fit into a view of 40 x 40 pixels",
-                {"render", kMesh, "a.ply", "-o", "small.png", "--size", "40x40", "--legend"});
+                {"render", kRenderedMesh, "a.ply", "-o", "small.png", "--size", "40x40", "--legend"});
     CHECK_FALSE(std::filesystem::exists(folder / "small.png"));
     check_fails(folder, 2, "*.png", joined(good, {"c.jpg"}));
     check_fails(folder, 2, "the picture would replace the samples", joined(good, {"c.ply"}));
@@ -129,7 +129,7 @@ TEST_CASE("the style is disks where these are wide enough to tell apart, else po
     const TemporaryFolder folder;
     make_samples(folder);
     const auto check = [&](const char* size, const char* style) {
-        const Arguments drawn = {kMesh, "a.ply", "--size", size};
+        const Arguments drawn = {kRenderedMesh, "a.ply", "--size", size};
         const PngImage chosen = picture(folder, joined(drawn, {"--json", "p.json"}));
         CHECK(nlohmann::json::parse(bytes_of(folder / "p.json"))["style"] == style);
         CHECK(chosen.pixels == picture(folder, joined(drawn, {"--style", style})).pixels);
@@ -144,7 +144,7 @@ TEST_CASE("each style draws another picture, and each run the same") {
     std::set<std::string> files;
     for (const std::string style : {"disks", "points", "voronoi", "distance", "density"}) {
         CAPTURE(style);
-        const Arguments drawn = {kMesh, "a.ply", "--style", style, "--size", "160x120"};
+        const Arguments drawn = {kRenderedMesh, "a.ply", "--style", style, "--size", "160x120"};
         const PngImage image = picture(folder, drawn);
         CHECK(image.width == 160);
         CHECK(image.height == 120);
@@ -159,7 +159,7 @@ TEST_CASE("several views make a sheet, and the report tells of it") {
     const TemporaryFolder folder;
     make_samples(folder);
     const Outcome outcome =
-        run(folder, {"render", kMesh, "a.ply", "-o", "p.png", "--size", "300x100", "--view", "auto",
+        run(folder, {"render", kRenderedMesh, "a.ply", "-o", "p.png", "--size", "300x100", "--view", "auto",
                      "--view", "top", "--view", "-20,35", "--up", "z", "--json", "-"});
     INFO(outcome.err);
     REQUIRE(outcome.status == 0);
@@ -171,7 +171,7 @@ TEST_CASE("several views make a sheet, and the report tells of it") {
     CHECK(report["width"] == 300);
     CHECK(report["samples"].get<int>() > 300);
     CHECK(report["windows"].get<int>() > 300);
-    CHECK(report["mesh"]["path"] == kMesh);
+    CHECK(report["mesh"]["path"] == kRenderedMesh);
     const PngImage image = read_png(folder / "p.png");
     for (std::size_t pane = 0; pane < 3; ++pane) { // Each shows something.
         std::size_t drawn = 0;
@@ -218,7 +218,7 @@ TEST_CASE("samples in space are balls in a frame") {
     check_fails(folder, 2, "is for surfaces",
                 {"render", "a.csv", "-o", "q.png", "--style", "voronoi"});
     make_samples(folder);
-    check_fails(folder, 2, "--cut", {"render", kMesh, "a.ply", "-o", "q.png", "--cut"});
+    check_fails(folder, 2, "--cut", {"render", kRenderedMesh, "a.ply", "-o", "q.png", "--cut"});
 }
 
 TEST_CASE("radii that vary are those of the file") {
@@ -236,10 +236,10 @@ TEST_CASE("radii that vary are those of the file") {
 
 TEST_CASE("samples without a distance are drawn by that of the closest pair") {
     TemporaryFolder folder;
-    REQUIRE(run(folder, {"sample", kMesh, "-n", "30", "-o", "a.ply"}).status == 0);
+    REQUIRE(run(folder, {"sample", kRenderedMesh, "-n", "30", "-o", "a.ply"}).status == 0);
     tools::write_samples(folder / "bare.csv", {}, tools::read_samples(folder / "a.ply").rows,
                          false);
-    const Outcome bare = run(folder, {"render", kMesh, "bare.csv", "-o", "p.png"});
+    const Outcome bare = run(folder, {"render", kRenderedMesh, "bare.csv", "-o", "p.png"});
     CHECK(bare.status == 0);
     CHECK(bare.err.find("closest pair") != std::string::npos);
     CHECK(std::filesystem::exists(folder / "p.png"));
@@ -248,11 +248,11 @@ TEST_CASE("samples without a distance are drawn by that of the closest pair") {
 TEST_CASE("what cannot be drawn is told, and leaves no picture") {
     const TemporaryFolder folder;
     make_samples(folder);
-    const Arguments good = {"render", kMesh, "a.ply", "-o", "p.png", "--size", "100x100"};
-    check_fails(folder, 2, "*.png", {"render", kMesh, "a.ply", "-o", "p.jpg"});
-    check_fails(folder, 2, "SAMPLES is required", {"render", kMesh, "-o", "p.png"});
+    const Arguments good = {"render", kRenderedMesh, "a.ply", "-o", "p.png", "--size", "100x100"};
+    check_fails(folder, 2, "*.png", {"render", kRenderedMesh, "a.ply", "-o", "p.jpg"});
+    check_fails(folder, 2, "SAMPLES is required", {"render", kRenderedMesh, "-o", "p.png"});
     for (const std::string size : {"100", "100x", "x100", "8x100", "100x20000", "1e3x100"}) {
-        check_fails(folder, 2, "--size", {"render", kMesh, "a.ply", "-o", "p.png", "--size", size});
+        check_fails(folder, 2, "--size", {"render", kRenderedMesh, "a.ply", "-o", "p.png", "--size", size});
     }
     check_fails(folder, 2, "--style", joined(good, {"--style", "dots"}));
     check_fails(folder, 2, "--view", joined(good, {"--view", "sideways"}));
@@ -261,14 +261,14 @@ TEST_CASE("what cannot be drawn is told, and leaves no picture") {
     check_fails(folder, 2, "--radius", joined(good, {"--radius", "0"}));
     check_fails(folder, 2, "contradict each other", joined(good, {"-d", "0.1", "-r", "0.1"}));
     check_fails(folder, 2, "would replace",
-                {"render", kMesh, "a.ply", "-o", "p.png", "--json", "p.png"});
+                {"render", kRenderedMesh, "a.ply", "-o", "p.png", "--json", "p.png"});
     check_fails(folder, 5, "nowhere", joined(good, {"--device", "nowhere"}));
     // Samples of another mesh, and none.
     check_fails(folder, 3, "sample", {"render", "builtin:cube", "a.ply", "-o", "p.png"});
     check_fails(folder, 3, "another mesh",
                 {"render", "builtin:torus-knot:9", "a.ply", "-o", "p.png"});
     folder.write("none.csv", "# min_distance: 0.1\nface_index,bary_u,bary_v,bary_w,x,y,z\n");
-    check_fails(folder, 3, "no samples", {"render", kMesh, "none.csv", "-o", "p.png"});
+    check_fails(folder, 3, "no samples", {"render", kRenderedMesh, "none.csv", "-o", "p.png"});
     // Boxes of other dimensions, and what is no box.
     REQUIRE(run(folder, {"box", "--dim", "4", "-n", "30", "-o", "box.csv"}).status == 0);
     check_fails(folder, 3, "4 dimensions", {"render", "box.csv", "-o", "p.png"});

@@ -24,7 +24,7 @@ Arguments transfer(const std::string& from, const std::string& to, const Argumen
     return arguments;
 }
 
-void make_samples(const TemporaryFolder& folder, const std::string& mesh,
+void make_source_samples(const TemporaryFolder& folder, const std::string& mesh,
                   const std::string& count = "300") {
     const Outcome made = run(folder, {"sample", mesh, "-o", "a.ply", "-n", count});
     INFO(made.err);
@@ -102,7 +102,7 @@ tools::SampleRow place(std::uint32_t face, float u, float v) {
 TEST_CASE("samples carried over to their own mesh stay as they are") {
     const TemporaryFolder folder;
     const std::string mesh = "builtin:torus-knot:8";
-    make_samples(folder, mesh);
+    make_source_samples(folder, mesh);
     check_transfer(folder, mesh, mesh);
     const tools::SampleFile before = tools::read_samples(folder / "a.ply");
     const tools::SampleFile after = tools::read_samples(folder / "b.ply");
@@ -115,7 +115,7 @@ TEST_CASE("samples carried over to their own mesh stay as they are") {
 
 TEST_CASE("a sheet unfolded keeps its distances") {
     const TemporaryFolder folder;
-    make_samples(folder, "builtin:folded-sheet:6");
+    make_source_samples(folder, "builtin:folded-sheet:6");
     const Json stays = check_transfer(folder, "builtin:folded-sheet:6", "builtin:folded-sheet:6");
     const Json flat = check_transfer(folder, "builtin:folded-sheet:6", "builtin:unfolded-sheet:6");
     CHECK(distance_in(flat) == doctest::Approx(distance_in(stays)).epsilon(1e-9));
@@ -128,7 +128,7 @@ TEST_CASE("a sheet unfolded keeps its distances") {
 TEST_CASE("distances follow the scale, however far it is from the first") {
     const TemporaryFolder folder;
     folder.write("a.obj", square("1"));
-    make_samples(folder, "a.obj", "50");
+    make_source_samples(folder, "a.obj", "50");
     const double here = distance_in(check_transfer(folder, "a.obj", "a.obj"));
     for (const auto& [side, scale] : {std::pair{"1000000", 1e6}, std::pair{"0.0001", 1e-4}}) {
         folder.write("b.obj", square(side, "7"));
@@ -172,7 +172,7 @@ TEST_CASE("samples that no path joins have no smallest distance") {
 TEST_CASE("other coordinates, edge lengths and lifts make the second mesh") {
     const TemporaryFolder folder;
     folder.write("a.obj", square("1"));
-    make_samples(folder, "a.obj", "50");
+    make_source_samples(folder, "a.obj", "50");
     const double flat = distance_in(check_transfer(folder, "a.obj", "a.obj"));
     folder.write("in4d.txt", "0 0 0 0\n3 0 0 0\n3 3 0 0\n0 3 0 0\n");
     folder.write("lengths.txt", "1 2 2\n2 3 2\n3 4 2\n4 1 2\n1 3 2.8284271247461903\n");
@@ -197,7 +197,7 @@ TEST_CASE("meshes of other faces and samples of other meshes are refused") {
     const TemporaryFolder folder;
     folder.write("a.obj", square("1"));
     folder.write("turned.obj", square("1", "0", "f 1 2 3\nf 3 4 1\n"));
-    make_samples(folder, "a.obj", "50");
+    make_source_samples(folder, "a.obj", "50");
     check_fails(folder, 3,
                 "turned.obj: face 1 has the corners 2 3 0, but 0 2 3 in a.obj (all counted from 0)",
                 transfer("a.obj", "turned.obj"));
@@ -207,9 +207,9 @@ TEST_CASE("meshes of other faces and samples of other meshes are refused") {
     check_fails(folder, 3, "a.ply: sample 0 is ", transfer("other.obj", "a.obj"));
     check_fails(folder, 3, "on other.obj; are these samples of another mesh?",
                 transfer("other.obj", "a.obj"));
-    make_samples(folder, "builtin:cube:2", "50");
+    make_source_samples(folder, "builtin:cube:2", "50");
     check_fails(folder, 3, "is out of range, a.obj has 2 triangles", transfer("a.obj", "a.obj"));
-    make_samples(folder, "builtin:veronese:2", "50");
+    make_source_samples(folder, "builtin:veronese:2", "50");
     check_fails(folder, 3, "its samples have 4 coordinates, the vertices of a.obj have 3",
                 transfer("a.obj", "a.obj"));
 }
@@ -246,7 +246,7 @@ TEST_CASE("a file without samples is carried over, with a warning") {
 TEST_CASE("wrong usage of transfer is explained") {
     const TemporaryFolder folder;
     folder.write("a.obj", square("1"));
-    make_samples(folder, "a.obj", "9");
+    make_source_samples(folder, "a.obj", "9");
     check_fails(folder, 2, "MESH_B is required", {"transfer", "a.ply", "a.obj", "-o", "b.ply"});
     check_fails(folder, 2, "--output is required", {"transfer", "a.ply", "a.obj", "a.obj"});
     check_fails(folder, 2, "a.ply: the output would replace the samples read",
@@ -272,7 +272,7 @@ TEST_CASE("a scanned animal changes its pose") {
     const std::string first = rests->string();
     const std::string second = data_file("meshes/spot_pose_b_6k.obj")->string();
     const TemporaryFolder folder;
-    make_samples(folder, first, "1000");
+    make_source_samples(folder, first, "1000");
     const Json stays = check_transfer(folder, first, first);
     const Json moved = check_transfer(folder, first, second);
     CHECK(distance_in(moved) < distance_in(stays)); // No pose is without compression.

@@ -12,10 +12,10 @@
 namespace geodisk::test {
 namespace {
 
-constexpr const char* kMesh = "builtin:torus-knot:8";
+constexpr const char* kVerifiedMesh = "builtin:torus-knot:8";
 
 tools::SampleFile make_samples(const TemporaryFolder& folder) {
-    const Outcome made = run(folder, {"sample", kMesh, "-o", "a.ply", "-n", "400"});
+    const Outcome made = run(folder, {"sample", kVerifiedMesh, "-o", "a.ply", "-n", "400"});
     REQUIRE(made.status == 0);
     tools::SampleFile samples = tools::read_samples(folder / "a.ply");
     REQUIRE(samples.rows.size() > 300);
@@ -31,8 +31,8 @@ void write_back(const TemporaryFolder& folder, const tools::SampleFile& samples)
 TEST_CASE("samples pass, in every format with faces") {
     const TemporaryFolder folder;
     for (const std::string output : {"a.ply", "a.csv", "a.npz", "a.pcd"}) {
-        REQUIRE(run(folder, {"sample", kMesh, "-o", output, "-n", "400"}).status == 0);
-        const Outcome outcome = run(folder, {"verify", kMesh, output});
+        REQUIRE(run(folder, {"sample", kVerifiedMesh, "-o", output, "-n", "400"}).status == 0);
+        const Outcome outcome = run(folder, {"verify", kVerifiedMesh, output});
         INFO(outcome.out, outcome.err);
         CHECK(outcome.status == 0);
         CHECK(outcome.err.empty());
@@ -40,9 +40,9 @@ TEST_CASE("samples pass, in every format with faces") {
         CHECK(contains(outcome.out, "smallest      "));
         CHECK(contains(outcome.out, "rho           0.7"));
         CHECK_FALSE(contains(outcome.out, "\r"));
-        CHECK(run(folder, {"verify", kMesh, output, "-q"}).out.empty());
+        CHECK(run(folder, {"verify", kVerifiedMesh, output, "-q"}).out.empty());
     }
-    REQUIRE(run(folder, {"sample", kMesh, "-o", "a.xyz", "-n", "9"}).status == 0);
+    REQUIRE(run(folder, {"sample", kVerifiedMesh, "-o", "a.xyz", "-n", "9"}).status == 0);
 }
 
 TEST_CASE("meshes of every kind pass") {
@@ -62,7 +62,7 @@ TEST_CASE("a sample moved onto another one is found") {
     tools::SampleFile samples = make_samples(folder);
     samples.rows[7] = samples.rows[42];
     write_back(folder, samples);
-    const Outcome outcome = run(folder, {"verify", kMesh, "b.csv"});
+    const Outcome outcome = run(folder, {"verify", kVerifiedMesh, "b.csv"});
     CHECK(outcome.status == 1);
     CHECK(contains(outcome.err, "geodisk: b.csv: 1 pair of samples is closer than "));
     CHECK(contains(outcome.out, "violations    1\n"));
@@ -73,7 +73,7 @@ TEST_CASE("a sample moved onto another one is found") {
 TEST_CASE("a larger distance is violated by many pairs, each counted once") {
     const TemporaryFolder folder;
     const std::size_t n = make_samples(folder).rows.size();
-    const Outcome outcome = run(folder, {"verify", kMesh, "a.ply", "--min-distance", "1000"});
+    const Outcome outcome = run(folder, {"verify", kVerifiedMesh, "a.ply", "--min-distance", "1000"});
     CHECK(outcome.status == 1);
     std::string plain = outcome.out;
     std::erase(plain, ',');
@@ -86,7 +86,7 @@ TEST_CASE("a distance beyond all proportion to the mesh finds the same closest p
     nlohmann::json smallest;
     for (const char* const distance : {"1000", "1e12", "1e300"}) {
         const Outcome outcome =
-            run(folder, {"verify", kMesh, "a.ply", "-d", distance, "--json", "-"});
+            run(folder, {"verify", kVerifiedMesh, "a.ply", "-d", distance, "--json", "-"});
         CHECK(outcome.status == 1);
         nlohmann::json found = nlohmann::json::parse(outcome.out).at("smallest");
         CHECK(found.at("distance").get<double>() < 10);
@@ -104,7 +104,7 @@ TEST_CASE("the report has pairs and samples, whatever the exit status") {
         return nlohmann::json::parse(outcome.out.empty() ? bytes_of(folder / "c.json")
                                                          : outcome.out);
     };
-    const auto good = report(0, {"verify", kMesh, "a.ply", "--json", "-"});
+    const auto good = report(0, {"verify", kVerifiedMesh, "a.ply", "--json", "-"});
     CHECK(good["samples"] == samples.rows.size());
     CHECK(good["violations"]["pairs"] == 0);
     CHECK(good["violations"]["samples"] == 0);
@@ -116,7 +116,7 @@ TEST_CASE("the report has pairs and samples, whatever the exit status") {
         samples.rows[row] = samples.rows[42];
     }
     write_back(folder, samples);
-    const auto bad = report(1, {"verify", kMesh, "b.csv", "--json", "c.json", "-q"});
+    const auto bad = report(1, {"verify", kVerifiedMesh, "b.csv", "--json", "c.json", "-q"});
     CHECK(bad["violations"]["pairs"] == 3);
     CHECK(bad["violations"]["samples"] == 3);
     CHECK(bad["violations"]["complete"] == true);
@@ -126,19 +126,19 @@ TEST_CASE("the report has pairs and samples, whatever the exit status") {
     CHECK(bad["smallest"]["distance"] == 0);
     CHECK(bad["smallest"]["samples"] == nlohmann::json({7, 9}));
 
-    const auto far = report(0, {"verify", kMesh, "a.ply", "-d", "1e-6", "--json", "-"});
+    const auto far = report(0, {"verify", kVerifiedMesh, "a.ply", "-d", "1e-6", "--json", "-"});
     CHECK(far["smallest"].is_null());
     check_fails(folder, 2, "a.ply: the report would replace the samples",
-                {"verify", kMesh, "a.ply", "--json", "a.ply"});
-    check_fails(folder, 4, "none", {"verify", kMesh, "a.ply", "--json", "none/c.json"});
-    check_fails(folder, 3, "no such file", {"verify", kMesh, "d.ply", "--json", "d.json"});
+                {"verify", kVerifiedMesh, "a.ply", "--json", "a.ply"});
+    check_fails(folder, 4, "none", {"verify", kVerifiedMesh, "a.ply", "--json", "none/c.json"});
+    check_fails(folder, 3, "no such file", {"verify", kVerifiedMesh, "d.ply", "--json", "d.json"});
 }
 
 TEST_CASE("a distance that nobody comes near is bounded") {
     const TemporaryFolder folder;
     make_samples(folder);
     for (const char* const distance : {"1e-3", "1e-12", "1e-300"}) {
-        const Outcome outcome = run(folder, {"verify", kMesh, "a.ply", "-d", distance});
+        const Outcome outcome = run(folder, {"verify", kVerifiedMesh, "a.ply", "-d", distance});
         INFO(outcome.out, outcome.err);
         CHECK(outcome.status == 0);
         CHECK(contains(outcome.out, "smallest      > "));
@@ -150,7 +150,7 @@ TEST_CASE("positions off the mesh are found") {
     tools::SampleFile samples = make_samples(folder);
     samples.rows[3].position[1] += 0.01;
     write_back(folder, samples);
-    const Outcome outcome = run(folder, {"verify", kMesh, "b.csv"});
+    const Outcome outcome = run(folder, {"verify", kVerifiedMesh, "b.csv"});
     CHECK(outcome.status == 1);
     CHECK(contains(outcome.err, "1 position does not agree with face and weights"));
     CHECK(contains(outcome.out, "sample 3: "));
@@ -164,16 +164,16 @@ TEST_CASE("rows that are not on the mesh at all are malformed") {
     tools::SampleFile bad = good;
     bad.rows[5].face = 100000;
     write_back(folder, bad);
-    check_fails(folder, 3, "b.csv: sample 5: ", {"verify", kMesh, "b.csv"});
+    check_fails(folder, 3, "b.csv: sample 5: ", {"verify", kVerifiedMesh, "b.csv"});
     bad = good;
     bad.rows[6].bary[1] += 0.5f;
     write_back(folder, bad);
-    check_fails(folder, 3, "weights", {"verify", kMesh, "b.csv"});
+    check_fails(folder, 3, "weights", {"verify", kVerifiedMesh, "b.csv"});
     folder.write("c.csv", "x,y,z,face_index\n1,2,3,0\n");
-    check_fails(folder, 3, "no column bary_u", {"verify", kMesh, "c.csv"});
-    check_fails(folder, 3, "no such file", {"verify", kMesh, "none.csv"});
+    check_fails(folder, 3, "no column bary_u", {"verify", kVerifiedMesh, "c.csv"});
+    check_fails(folder, 3, "no such file", {"verify", kVerifiedMesh, "none.csv"});
     folder.write("c.txt", "");
-    check_fails(folder, 3, "has no header row", {"verify", kMesh, "c.txt"});
+    check_fails(folder, 3, "has no header row", {"verify", kVerifiedMesh, "c.txt"});
 }
 
 TEST_CASE("points of other programs are put on the nearest face") {
@@ -217,10 +217,10 @@ TEST_CASE("the distance comes from the option or the header") {
     tools::SampleFile samples = make_samples(folder);
     samples.header.entries.clear();
     write_back(folder, samples);
-    CHECK(run(folder, {"verify", kMesh, "b.csv", "--min-distance", "0.1%"}).status == 0);
+    CHECK(run(folder, {"verify", kVerifiedMesh, "b.csv", "--min-distance", "0.1%"}).status == 0);
     samples.header.entries = {{"min_distance", "wide"}};
     write_back(folder, samples);
-    check_fails(folder, 3, "'wide'", {"verify", kMesh, "b.csv"});
+    check_fails(folder, 3, "'wide'", {"verify", kVerifiedMesh, "b.csv"});
 }
 
 TEST_CASE("without a distance the closest pair is told, and that none was checked") {
@@ -283,7 +283,7 @@ TEST_CASE("without a distance other commands take that of the closest pair") {
 TEST_CASE("no samples are no violation") {
     const TemporaryFolder folder;
     write_back(folder, {});
-    const Outcome outcome = run(folder, {"verify", kMesh, "b.csv", "-d", "1"});
+    const Outcome outcome = run(folder, {"verify", kVerifiedMesh, "b.csv", "-d", "1"});
     CHECK(outcome.status == 0);
     CHECK(contains(outcome.out, "samples       0 in b.csv\n"));
     CHECK(contains(outcome.err, "warning: b.csv: has no samples\n"));

@@ -21,7 +21,7 @@ namespace {
 
 constexpr const char* kHexDigits = "0123456789abcdef";
 
-bool contains(const std::string& text, const std::string& part) {
+bool names(const std::string& text, const std::string& part) {
     return text.find(part) != std::string::npos;
 }
 
@@ -33,7 +33,7 @@ std::string in_capitals(std::string text) {
 }
 
 /// On the device that a context takes by itself.
-Context create_context() {
+Context create_plain_context() {
     Result<Context> context = Context::create();
     REQUIRE(context);
     return std::move(context).value();
@@ -74,7 +74,7 @@ VkResult submit_and_wait(const Context& context) {
 } // namespace
 
 TEST_CASE("a context is chosen by a part of the name") {
-    const Context taken = create_context();
+    const Context taken = create_plain_context();
     const std::string& name = taken.report().name;
     for (const std::string& part : {name, name.substr(0, 4), in_capitals(name)}) {
         CAPTURE(part);
@@ -98,7 +98,7 @@ TEST_CASE("lavapipe is found by its device's name and known for what it does") {
         return;
     }
     const DeviceReport& report = context->report();
-    CHECK(contains(report.name, "llvmpipe"));
+    CHECK(names(report.name, "llvmpipe"));
     if (std::getenv("GEODISK_TEST_AS_GPU") == nullptr) { // tests/support/weak_driver.cpp
         CHECK(report.type == VK_PHYSICAL_DEVICE_TYPE_CPU);
     }
@@ -127,9 +127,9 @@ TEST_CASE("a name that matches no device is answered with the list of devices") 
         const Result<Context> context = Context::create(on_device(name));
         REQUIRE_FALSE(context);
         CHECK(context.error().status == Status::no_device);
-        CHECK(contains(context.error().message, name));
+        CHECK(names(context.error().message, name));
         for (const DeviceReport& report : *list) {
-            CHECK(contains(context.error().message, report.name));
+            CHECK(names(context.error().message, report.name));
         }
     }
 }
@@ -147,17 +147,17 @@ TEST_CASE("two contexts are independent of each other") {
 }
 
 TEST_CASE("a context keeps its handles when moved") {
-    Context created = create_context();
+    Context created = create_plain_context();
     const VkDevice device = created.device().device;
     Context moved = std::move(created);
     CHECK(moved.device().device == device);
-    moved = create_context();
+    moved = create_plain_context();
     CHECK(moved.device().device != VK_NULL_HANDLE);
     CHECK(submit_and_wait(moved) == VK_SUCCESS);
 }
 
 TEST_CASE("the lock of the queue excludes other threads") {
-    const Context context = create_context();
+    const Context context = create_plain_context();
     int counter = 0;
     const auto work = [&] {
         const QueueRef queue = context.queue();
@@ -203,8 +203,8 @@ TEST_CASE("an explicit choice of an unusable device is refused with every reason
         const Result<std::size_t> chosen = select_device(reports, name);
         REQUIRE_FALSE(chosen);
         CHECK(chosen.error().status == Status::device_lacks);
-        CHECK(contains(chosen.error().message, "first reason"));
-        CHECK(contains(chosen.error().message, "second reason"));
+        CHECK(names(chosen.error().message, "first reason"));
+        CHECK(names(chosen.error().message, "second reason"));
     }
 }
 
@@ -230,8 +230,8 @@ TEST_CASE("a missing loader is reported with a hint") {
     const Result<Loader> loader = Loader::open("no-such-vulkan-loader");
     REQUIRE_FALSE(loader);
     CHECK(loader.error().status == Status::no_device);
-    CHECK(contains(loader.error().message, "no-such-vulkan-loader"));
-    CHECK(contains(loader.error().message, "install"));
+    CHECK(names(loader.error().message, "no-such-vulkan-loader"));
+    CHECK(names(loader.error().message, "install"));
 }
 
 #if defined(__linux__)
@@ -264,7 +264,7 @@ TEST_CASE("a queue that draws is given or refused") {
         const Result<Context> context = ContextAccess::create(driver.loader(), options);
         REQUIRE_FALSE(context);
         CHECK(context.error().status == Status::device_lacks);
-        CHECK(contains(context.error().message, "no queue family for graphics and compute"));
+        CHECK(names(context.error().message, "no queue family for graphics and compute"));
         CHECK(driver.live_instances() == 0);
         CHECK(ContextAccess::create(driver.loader(), {})); // To sample it will do.
     }
@@ -291,8 +291,8 @@ TEST_CASE("a machine without a working driver is reported with a hint") {
     const Result<Context> context = ContextAccess::create(driver.loader(), {});
     REQUIRE_FALSE(context);
     CHECK(context.error().status == Status::no_device);
-    CHECK((contains(context.error().message, "install") ||
-           contains(context.error().message, "update")));
+    CHECK((names(context.error().message, "install") ||
+           names(context.error().message, "update")));
     const auto list = ContextAccess::list(driver.loader());
     REQUIRE_FALSE(list);
     CHECK(list.error().status == Status::no_device);
@@ -343,7 +343,7 @@ TEST_CASE("kernels are reported on where the driver can, else refused by name") 
     const Result<Context> context = Context::create(options);
     if (!context) {
         CHECK(context.error().status == Status::device_lacks);
-        CHECK(contains(context.error().message, "VK_KHR_pipeline_executable_properties"));
+        CHECK(names(context.error().message, "VK_KHR_pipeline_executable_properties"));
         return;
     }
     const Result<Sampler> sampler = Sampler::create(context->device());
@@ -354,17 +354,17 @@ TEST_CASE("kernels are reported on where the driver can, else refused by name") 
 }
 
 TEST_CASE("kernels are not reported on unless statistics are on") {
-    const Context context = create_context();
+    const Context context = create_plain_context();
     const Result<Sampler> sampler = Sampler::create(context.device());
     REQUIRE(sampler);
     const auto reports = sampler->report_kernels();
     REQUIRE_FALSE(reports);
     CHECK(reports.error().status == Status::invalid_argument);
-    CHECK(contains(reports.error().message, "pipeline_statistics"));
+    CHECK(names(reports.error().message, "pipeline_statistics"));
 }
 
 TEST_CASE("the list of devices holds the one that a context takes") {
-    const Context context = create_context();
+    const Context context = create_plain_context();
     const auto list = list_devices();
     REQUIRE(list);
     CHECK(std::any_of(list->begin(), list->end(), [&](const DeviceReport& report) {

@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::uint64_t kStage = std::uint64_t{1} << gpu::kPriorityBits;
 
-std::vector<gpu::SampleRec> samples_of(const DeviceRun& run) {
+std::vector<gpu::SampleRec> samples_at_end(const DeviceRun& run) {
     return run.read<gpu::SampleRec>(BufferRole::samples, run.control().ready);
 }
 
@@ -54,14 +54,14 @@ std::vector<gpu::SampleRec> stop_at(DeviceRun& run, const std::vector<std::uint6
     run.job().set_end_order(kAllOrders);
     const Advice last = run.follow_all();
     CHECK(last.next == Next::complete);
-    const std::vector<gpu::SampleRec> all = samples_of(run);
+    const std::vector<gpu::SampleRec> all = samples_at_end(run);
     CHECK(is_prefix(before, all));
     return all;
 }
 
 void check_stops(DeviceRun& run) {
     REQUIRE(run.follow_all().next == Next::complete);
-    const std::vector<gpu::SampleRec> whole = samples_of(run);
+    const std::vector<gpu::SampleRec> whole = samples_at_end(run);
     REQUIRE(whole.size() > 10);
     const std::vector<std::vector<std::uint64_t>> sequences = {
         {0},

@@ -25,7 +25,7 @@ using tools::ExitCode;
 using tools::UserError;
 
 /// All calls that return a result.
-constexpr const char* kFallible[] = {"vkCreateCommandPool",
+constexpr const char* kFallibleInPictures[] = {"vkCreateCommandPool",
                                      "vkAllocateCommandBuffers",
                                      "vkCreateFence",
                                      "vkCreateBuffer",
@@ -95,7 +95,7 @@ TEST_CASE("no call that fails while drawing leaks or goes unnamed") {
     Easel easel;
     const std::vector<std::uint8_t> expected = easel.draw();
     CHECK(easel.spy.alive() == "");
-    for (const char* const function : kFallible) {
+    for (const char* const function : kFallibleInPictures) {
         CAPTURE(function);
         std::uint32_t number = 0;
         for (;; ++number) {

@@ -69,7 +69,7 @@ Points points_in(const Records& samples) {
     return points;
 }
 
-const TestMesh& knot() {
+const TestMesh& settled_knot() {
     static const TestMesh kMesh = builtin("torus-knot", 8);
     return kMesh;
 }
@@ -85,8 +85,8 @@ Records sparse_samples(const PreparedMesh& mesh, double count) {
 
 TEST_SUITE("settled") {
     TEST_CASE("the first samples of a run, settled, give the rest of it") {
-        const PreparedMesh mesh = prepared(knot());
-        const RadiusField radii = radius_field(mesh, wavy_factors(knot(), 0.3));
+        const PreparedMesh mesh = prepared(settled_knot());
+        const RadiusField radii = radius_field(mesh, wavy_factors(settled_knot(), 0.3));
         for (const RadiusField* const field : {static_cast<const RadiusField*>(nullptr), &radii}) {
             SampleParams params = params_for(mesh, 100, 1, field);
             RunPlan plan;
@@ -113,15 +113,15 @@ TEST_SUITE("settled") {
         REQUIRE(all.size() == whole.size());
         CHECK(std::equal(all.begin(), all.end(), whole.begin(), same));
 
-        const PreparedMesh mesh = prepared(knot());
+        const PreparedMesh mesh = prepared(settled_knot());
         DeviceRun in_space(expect(Domain::surface_in_space(
-                               knot().view(), mesh, params_for(mesh, 100), Metric::euclidean)),
+                               settled_knot().view(), mesh, params_for(mesh, 100), Metric::euclidean)),
                            plan);
         check_prefixes(in_space);
     }
 
     TEST_CASE("samples of another run come first, and none is too close to them") {
-        const PreparedMesh mesh = prepared(knot());
+        const PreparedMesh mesh = prepared(settled_knot());
         const SampleParams params = params_for(mesh, 150);
         const Records given = sparse_samples(mesh, 40);
         REQUIRE(given.size() > 20);
@@ -137,7 +137,7 @@ TEST_SUITE("settled") {
         for (std::size_t i = given.size(); i < all.size(); ++i) {
             added.push_back({all[i].face, all[i].weight1, all[i].weight2});
         }
-        GeodesicQuery<double> query(prepared(knot()), params.min_distance, added,
+        GeodesicQuery<double> query(prepared(settled_knot()), params.min_distance, added,
                                     tight_tolerances());
         std::size_t close = 0;
         for (const gpu::SampleRec& sample : given) {
@@ -150,7 +150,7 @@ TEST_SUITE("settled") {
     }
 
     TEST_CASE("settled samples count, and ask for room and for a guard that is wide enough") {
-        const PreparedMesh mesh = prepared(knot());
+        const PreparedMesh mesh = prepared(settled_knot());
         SampleParams params = params_for(mesh, 150);
         const Records given = sparse_samples(mesh, 40);
         const auto count = static_cast<std::uint32_t>(given.size());
@@ -188,7 +188,7 @@ TEST_SUITE("settled") {
     }
 
     TEST_CASE("samples settled in place of many given ones have disks of their own") {
-        const PreparedMesh mesh = prepared(knot());
+        const PreparedMesh mesh = prepared(settled_knot());
         SampleParams params = params_for(mesh, 60);
         const Records few = sparse_samples(mesh, 20);
         DeviceRun plain(mesh, params);
@@ -204,7 +204,7 @@ TEST_SUITE("settled") {
     }
 
     TEST_CASE("settled samples that cannot be are refused, by their number") {
-        const PreparedMesh mesh = prepared(knot());
+        const PreparedMesh mesh = prepared(settled_knot());
         DeviceRun run(mesh, params_for(mesh, 100));
         const auto refused = [&](const gpu::SampleRec& wrong, const char* text) {
             const Records given = {{0, 3, 0.25f, 0.5f}, wrong};

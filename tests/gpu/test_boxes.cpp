@@ -100,7 +100,7 @@ DiskTotals totals_of(const gpu::ControlRec& control) {
 }
 
 /// The twin's side of a run.
-struct Twin {
+struct BoxTwin {
     BoxParams box;
     ref::BoxCandidates candidates;
     ref::BoxPool<float> pool;
@@ -109,7 +109,7 @@ struct Twin {
     DiskTotals totals;
 
     /// `capacity` candidates have room on the device.
-    Twin(const BoxParams& of, std::uint32_t capacity)
+    BoxTwin(const BoxParams& of, std::uint32_t capacity)
         : box(of), candidates(ref::draw_in_box(of)),
           pool(ref::BoxLattice(of), candidates.points, kBoxGuard, capacity), detector(pool),
           states(candidates.words.size(), ref::kIdle) {}
@@ -159,7 +159,7 @@ struct Twin {
 };
 
 /// The ranks of all places, by words and coordinates.
-std::vector<std::uint32_t> compare_pool(const DeviceRun& run, const Twin& twin) {
+std::vector<std::uint32_t> compare_pool(const DeviceRun& run, const BoxTwin& twin) {
     const std::uint32_t count = run.control().drawn;
     REQUIRE(count == twin.states.size());
     std::map<std::pair<std::uint32_t, ref::BoxPoint>, std::uint32_t> ranks;
@@ -194,7 +194,7 @@ std::vector<std::uint32_t> compare_pool(const DeviceRun& run, const Twin& twin) 
 }
 
 /// Compares the batch that was decided last, which began at the order `first`.
-void compare_batch(const DeviceRun& run, Twin& twin, const std::vector<std::uint32_t>& by_place,
+void compare_batch(const DeviceRun& run, BoxTwin& twin, const std::vector<std::uint32_t>& by_place,
                    std::uint32_t first) {
     const gpu::ControlRec control = run.control();
     const auto batch = twin.idle_between(first, control.first_order);
@@ -240,7 +240,7 @@ void step_through(const BoxParams& box, const SamplerOptions& options, std::uint
     plan.sample_capacity = 4096;
     plan.stages = ref::stages_in(box).pool_stages();
     DeviceRun run(box, plan, options);
-    Twin twin(box, run.constants().capacity);
+    BoxTwin twin(box, run.constants().capacity);
     run.begin();
     const auto by_place = compare_pool(run, twin);
     for (std::uint32_t first = 0; decide_batch(run); first = run.control().first_order) {
@@ -264,11 +264,11 @@ void step_through(const BoxParams& box, const SamplerOptions& options, std::uint
 }
 
 /// As a CPU runs the kernels, as far as this device can.
-SamplerOptions on_cpu() {
+SamplerOptions box_on_cpu() {
     const DeviceReport& report = shared_context().report();
     return {{0, 0, 1, 0, reads_of(report).back()}, roundings_of(report).back()};
 }
-const SamplerOptions kOnGpu{{0, 64, 32, 0, Reads::storage}, Rounding::emulated};
+const SamplerOptions kBoxOnGpu{{0, 64, 32, 0, Reads::storage}, Rounding::emulated};
 
 } // namespace
 
@@ -276,26 +276,26 @@ TEST_SUITE("boxes") {
     TEST_CASE("step by step in one to six dimensions") {
         for (std::size_t n = 1; n <= 6; ++n) {
             CAPTURE(n);
-            step_through(unit_box(n, n < 5 ? 300 : 120, n % 2 == 0), on_cpu(), 64);
-            step_through(unit_box(n, n < 5 ? 300 : 120, n % 2 == 1), kOnGpu, 32);
+            step_through(unit_box(n, n < 5 ? 300 : 120, n % 2 == 0), box_on_cpu(), 64);
+            step_through(unit_box(n, n < 5 ? 300 : 120, n % 2 == 1), kBoxOnGpu, 32);
         }
     }
 
     TEST_CASE("step by step where cells are fewer than a disk reaches, or share heads") {
         for (const bool is_periodic : {false, true}) {
             CAPTURE(is_periodic);
-            step_through(box_of({1, 0.2, 3}, 200, is_periodic), on_cpu(), 32);
+            step_through(box_of({1, 0.2, 3}, 200, is_periodic), box_on_cpu(), 32);
             BoxParams shared = unit_box(6, 1000, is_periodic);
             shared.pool_ratio = 2; // A table that cannot hold all cells.
-            step_through(shared, on_cpu(), 64);
+            step_through(shared, box_on_cpu(), 64);
         }
         // A side shorter than a step.
-        step_through(box_of({1, 1e-11, 7}, 200, false), on_cpu(), 32);
+        step_through(box_of({1, 1e-11, 7}, 200, false), box_on_cpu(), 32);
         // One, two, three and four cells around.
         for (const double distance : {1.0, 0.9, 0.6, 0.45}) {
             BoxParams box = unit_box(2, 10, true);
             box.min_distance = distance;
-            step_through(box, kOnGpu, 8);
+            step_through(box, kBoxOnGpu, 8);
         }
     }
 

@@ -22,7 +22,7 @@ namespace {
 
 using Triangle = std::array<std::uint32_t, 3>;
 
-Runner& shared_runner() {
+Runner& cells_runner() {
     static Runner runner =
         expect(Runner::create(shared_context().device(), shared_context().queue()));
     return runner;
@@ -44,7 +44,7 @@ std::vector<Sample> samples_at(const std::vector<Point>& points) {
 
 /// Finds the cells, and checks what holds of all.
 SurfaceCells cells_of(const PreparedMesh& mesh, std::span<const Sample> samples) {
-    const SurfaceCells cells = expect(find_cells(shared_runner(), mesh, samples));
+    const SurfaceCells cells = expect(find_cells(cells_runner(), mesh, samples));
     const double area = mesh.statistics().area;
     const double sum = std::accumulate(cells.areas.begin(), cells.areas.end(), 0.0);
     CHECK(cells.areas.size() == samples.size());
@@ -98,7 +98,7 @@ void check_same(const SurfaceCells& a, const SurfaceCells& b) {
 void check_nearest(const PreparedMesh& mesh, std::uint32_t count, std::uint32_t points_per_sample) {
     const std::vector<Point> samples = random_points(mesh, 4, count);
     const std::vector<Point> points = random_points(mesh, 12, points_per_sample * count);
-    const auto found = expect(NearestSamples::create(shared_runner(), mesh, samples_at(samples)));
+    const auto found = expect(NearestSamples::create(cells_runner(), mesh, samples_at(samples)));
     const auto nearest = expect(found.of(samples_at(points)));
     const double scale = std::sqrt(mesh.statistics().area / count);
     const auto distances = twin_distances(mesh, samples, points, 2.5 * scale);
@@ -415,7 +415,7 @@ TEST_SUITE("cells") {
         const PreparedMesh mesh = prepared(pair);
         const std::vector<Sample> corners = vertices_of(solid);
         const std::vector<Sample> samples{corners[4], corners[0], corners[4], corners[1]};
-        Runner& runner = shared_runner();
+        Runner& runner = cells_runner();
         const auto found = expect(NearestSamples::create(runner, mesh, samples));
         // Vertex 2 is as far from all of them, face 8 is one of the other solid.
         const auto nearest = expect(
@@ -467,7 +467,7 @@ TEST_SUITE("cells") {
     TEST_CASE("that cannot be found are refused") {
         const PreparedMesh cube = prepared(builtin("cube", 2));
         std::vector<Sample> samples = samples_at(random_points(cube, 1, 100));
-        Runner& runner = shared_runner();
+        Runner& runner = cells_runner();
         CHECK(find_cells(runner, cube, {}).error().message == "there is no sample");
         CellParams few;
         few.most_records = 10;

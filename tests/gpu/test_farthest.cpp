@@ -23,7 +23,7 @@ namespace {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 // Part of the size of the mesh that a distance may be off.
-constexpr double kPrecision = 1e-6;
+constexpr double kFarthestPrecision = 1e-6;
 
 std::vector<Sample> samples_on(const PreparedMesh& mesh, std::uint64_t seed, std::uint32_t count) {
     std::vector<Sample> samples;
@@ -35,7 +35,7 @@ std::vector<Sample> samples_on(const PreparedMesh& mesh, std::uint64_t seed, std
     return samples;
 }
 
-Runner& shared_runner() {
+Runner& farthest_runner() {
     static Runner runner =
         expect(Runner::create(shared_context().device(), shared_context().queue()));
     return runner;
@@ -43,7 +43,7 @@ Runner& shared_runner() {
 
 FarthestOrder ordered(const PreparedMesh& mesh, std::span<const Sample> samples,
                       std::uint32_t count = 0) {
-    return expect(farthest_order(shared_runner(), mesh, samples, count));
+    return expect(farthest_order(farthest_runner(), mesh, samples, count));
 }
 
 /// Goes on greedily in the order found, by distances of the twin in double precision. Returns how
@@ -61,7 +61,7 @@ std::size_t check_greedy(const PreparedMesh& mesh, const std::vector<Sample>& sa
     for (std::size_t k = 0; k < order.indices.size(); ++k) {
         const std::uint32_t chosen = order.indices[k];
         const auto farthest = std::ranges::max_element(distances);
-        const double error = kPrecision * size;
+        const double error = kFarthestPrecision * size;
         REQUIRE(distances[chosen] >= 0); // Not chosen before.
         CHECK((distances[chosen] == *farthest || distances[chosen] >= *farthest - error));
         CHECK((distances[chosen] == order.distances[k] ||
@@ -74,7 +74,7 @@ std::size_t check_greedy(const PreparedMesh& mesh, const std::vector<Sample>& sa
         distances[chosen] = -1;
     }
     const double cover = std::max(0.0, *std::ranges::max_element(distances));
-    CHECK((cover == order.cover || std::abs(cover - double{order.cover}) <= kPrecision * size));
+    CHECK((cover == order.cover || std::abs(cover - double{order.cover}) <= kFarthestPrecision * size));
     CHECK(std::ranges::is_sorted(order.distances, std::greater<>()));
     return others;
 }
@@ -95,7 +95,7 @@ TestMesh twice(const TestMesh& mesh, double apart) {
 
 Error refusal(const PreparedMesh& mesh, std::span<const Sample> samples, std::uint32_t count = 0,
               const ProgressCallback& progress = {}) {
-    auto order = farthest_order(shared_runner(), mesh, samples, count, progress);
+    auto order = farthest_order(farthest_runner(), mesh, samples, count, progress);
     REQUIRE_FALSE(order);
     return order.error();
 }
@@ -203,7 +203,7 @@ TEST_SUITE("farthest") {
             last = now.decided;
             return true;
         };
-        CHECK(farthest_order(shared_runner(), mesh, samples, 30, heard));
+        CHECK(farthest_order(farthest_runner(), mesh, samples, 30, heard));
         CHECK(last > 20);
         const Error error = refusal(mesh, samples, 0, [](const Progress&) { return false; });
         CHECK(error.status == Status::cancelled);
@@ -224,7 +224,7 @@ TEST_SUITE("farthest") {
             NeighbourQuery query;
             query.sources = points;
             query.within = size;
-            const Neighbours found = expect(find_neighbours(shared_runner(), mesh, query));
+            const Neighbours found = expect(find_neighbours(farthest_runner(), mesh, query));
             std::vector<double> least(mesh.vertex_count(), kInfinite);
             for (std::size_t i = 0; i < points.size(); ++i) {
                 for (std::size_t at = found.offsets[i]; at < found.offsets[i + 1]; ++at) {
@@ -256,7 +256,7 @@ TEST_SUITE("farthest") {
         NeighbourQuery query;
         query.sources = std::span(samples).first(1);
         query.within = 4;
-        const auto whole = expect(find_neighbours(shared_runner(), mesh, query)).report.windows;
+        const auto whole = expect(find_neighbours(farthest_runner(), mesh, query)).report.windows;
         const FarthestOrder order = ordered(mesh, samples);
         CHECK(order.report.windows < 6 * whole);
         CHECK(order.report.disks == samples.size());

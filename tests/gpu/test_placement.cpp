@@ -26,7 +26,7 @@ struct Vertex {
     float normal[3];
 };
 
-std::vector<Vertex> vertices_of(const TestMesh& mesh) {
+std::vector<Vertex> placed_vertices(const TestMesh& mesh) {
     std::vector<Vertex> vertices(mesh.vertex_count());
     for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) {
         vertices[v] = {7, {}, {8, 9}, {}};
@@ -149,7 +149,7 @@ TEST_SUITE("placement") {
         const TestMesh mesh = builtin("torus-knot", 8);
         const PreparedMesh surface = prepared(mesh);
         const SampleParams params = params_for(surface, 300);
-        const auto vertices = vertices_of(mesh);
+        const auto vertices = placed_vertices(mesh);
         const auto indices = bytes_of(mesh.triangles);
         Scene scene(expect(Domain::surface(surface, params)), vertices, indices);
         scene.decide();
@@ -190,7 +190,7 @@ TEST_SUITE("placement") {
     TEST_CASE("what is in order so far is placed after every finish") {
         const TestMesh mesh = builtin("icosphere", 3);
         const PreparedMesh surface = prepared(mesh);
-        Scene scene(expect(Domain::surface(surface, params_for(surface, 200))), vertices_of(mesh),
+        Scene scene(expect(Domain::surface(surface, params_for(surface, 200))), placed_vertices(mesh),
                     bytes_of(mesh.triangles));
         scene.run.begin();
         std::size_t before = 0;
@@ -200,7 +200,7 @@ TEST_SUITE("placement") {
             const auto points = scene.points();
             CHECK(points.size() >= before);
             before = points.size();
-            check_points(points, scene.run, mesh, vertices_of(mesh), false);
+            check_points(points, scene.run, mesh, placed_vertices(mesh), false);
         }
         CHECK(before > 100);
     }
@@ -210,11 +210,11 @@ TEST_SUITE("placement") {
         const PreparedMesh surface = prepared(mesh);
         const RadiusField radii = radius_field(surface, wavy_factors(mesh, 0.2));
         const SampleParams params = params_for(surface, 300, 1, &radii);
-        Scene scene(expect(Domain::surface(surface, params)), vertices_of(mesh),
+        Scene scene(expect(Domain::surface(surface, params)), placed_vertices(mesh),
                     bytes_of(mesh.triangles));
         scene.decide();
         const auto points = scene.points();
-        check_points(points, scene.run, mesh, vertices_of(mesh), false);
+        check_points(points, scene.run, mesh, placed_vertices(mesh), false);
         for (const gpu::PlacedRec& point : points) {
             const float* const g = &radii.factors()[std::size_t{3} * point.face];
             const double factor = (1.0 - point.weight1 - point.weight2) * g[0] +
@@ -231,7 +231,7 @@ TEST_SUITE("placement") {
         // An instance names the same vertices again.
         std::vector<std::uint32_t> indices = mesh.triangles;
         indices.insert(indices.end(), mesh.triangles.begin(), mesh.triangles.end());
-        Scene scene(expect(Domain::surfaces(parts)), vertices_of(mesh), bytes_of(indices));
+        Scene scene(expect(Domain::surfaces(parts)), placed_vertices(mesh), bytes_of(indices));
         scene.decide();
         for (const SurfacePart& part : parts) {
             const auto index = static_cast<std::uint32_t>(&part - parts);
@@ -253,7 +253,7 @@ TEST_SUITE("placement") {
         const TestMesh mesh = builtin("icosphere", 1);
         const PreparedMesh surface = prepared(mesh);
         const SampleParams params = params_for(surface, 30);
-        Scene scene(expect(Domain::surface(surface, params)), vertices_of(mesh),
+        Scene scene(expect(Domain::surface(surface, params)), placed_vertices(mesh),
                     bytes_of(mesh.triangles));
         const auto source = scene.source;
         const auto target = scene.target;

@@ -20,10 +20,10 @@ using namespace geodisk::test;
 
 namespace {
 
-struct Case : FieldCase {
-    Case(TestMesh shape, const std::vector<double>& density)
+struct DensityCase : FieldCase {
+    DensityCase(TestMesh shape, const std::vector<double>& density)
         : FieldCase(std::move(shape), density_field, density) {}
-    Case(const TestMesh& shape, const std::function<double(double)>& of_x)
+    DensityCase(const TestMesh& shape, const std::function<double(double)>& of_x)
         : FieldCase(shape, density_field, density_along(shape, of_x)) {}
 
     double x_of(ref::FacePoint<double> point) const {
@@ -37,7 +37,7 @@ struct Case : FieldCase {
     }
 };
 
-std::string refused(const PreparedMesh& surface, const std::vector<double>& density,
+std::string density_refused(const PreparedMesh& surface, const std::vector<double>& density,
                     std::uint64_t element = kNoElement) {
     return refusal(RadiusField::from_density(surface, density), element);
 }
@@ -47,7 +47,7 @@ struct Strips {
     std::vector<double> found;
     double samples = 0;
 
-    Strips(const Case& c, double count, std::size_t strips, std::uint64_t runs) : found(strips) {
+    Strips(const DensityCase& c, double count, std::size_t strips, std::uint64_t runs) : found(strips) {
         for (std::uint64_t seed = 1; seed <= runs; ++seed) {
             const SampleParams params = c.params(count, seed);
             const ref::Surface<float> surface(c.surface, params);
@@ -69,7 +69,7 @@ struct Strips {
     }
 };
 
-TestMesh one_triangle() {
+TestMesh density_triangle() {
     TestMesh mesh;
     mesh.add_vertex({0, 0, 0});
     mesh.add_vertex({2, 0, 0});
@@ -98,18 +98,18 @@ TEST_SUITE("density") {
             density[vertex] = value;
             return density;
         };
-        CHECK(refused(surface, {1, 2}) == "there are 2 densities for 43 vertices");
-        CHECK(refused(surface, with(7, -0.5), 7) ==
+        CHECK(density_refused(surface, {1, 2}) == "there are 2 densities for 43 vertices");
+        CHECK(density_refused(surface, with(7, -0.5), 7) ==
               "the density of vertex 7 (from 0) is -0.5; it must be 0 or positive, and finite");
-        CHECK(refused(surface, with(3, NAN), 3) ==
+        CHECK(density_refused(surface, with(3, NAN), 3) ==
               "the density of vertex 3 (from 0) is nan; it must be 0 or positive, and finite");
-        CHECK(refused(surface, with(0, HUGE_VAL), 0) ==
+        CHECK(density_refused(surface, with(0, HUGE_VAL), 0) ==
               "the density of vertex 0 (from 0) is inf; it must be 0 or positive, and finite");
-        CHECK(refused(surface, std::vector<double>(43, 0.0)) ==
+        CHECK(density_refused(surface, std::vector<double>(43, 0.0)) ==
               "the density is 0 everywhere, so no samples fit");
         std::vector<double> unused(43, 0.0);
         unused[42] = 1;
-        CHECK(refused(surface, unused) == "the density is 0 everywhere, so no samples fit");
+        CHECK(density_refused(surface, unused) == "the density is 0 everywhere, so no samples fit");
         CHECK(RadiusField::from_density(surface, with(42, NAN)));
     }
 
@@ -150,7 +150,7 @@ TEST_SUITE("density") {
                                                    {0.1, 0.5, 1.0},
                                                    {1.0, 20.0, 900.0},
                                                    {0.0, 3.0, 1000.0}}) {
-            const Case c(one_triangle(), density);
+            const DensityCase c(density_triangle(), density);
             SampleParams params = c.params(100, 5);
             params.throws = 200000;
             const ref::Surface<double> surface(c.surface, params);
@@ -205,7 +205,7 @@ TEST_SUITE("density") {
             mesh.add_triangle(corner, corner + 1, corner + 2);
             std::vector<double> density(mesh.vertex_count(), x / 1024);
             std::fill(density.begin() + corner, density.end(), 1.0);
-            const Case c(mesh, density);
+            const DensityCase c(mesh, density);
             const double area = 12.5514;
             SampleParams params = c.params(3000, 1);
             params.min_distance = distance_for_count(area, 1200 / std::sqrt(x));
@@ -222,7 +222,7 @@ TEST_SUITE("density") {
     }
 
     TEST_CASE("a mask has samples where it is 1 alone") {
-        const Case c(flat_grid(8, 8, 1, 1), [](double x) { return x < 0.5 ? 0.0 : 1.0; });
+        const DensityCase c(flat_grid(8, 8, 1, 1), [](double x) { return x < 0.5 ? 0.0 : 1.0; });
         const Strips strips(c, 400, 8, 4);
         CHECK(strips.samples == doctest::Approx(400).epsilon(0.06));
         CHECK(strips.found[0] + strips.found[1] + strips.found[2] == 0);
@@ -235,7 +235,7 @@ TEST_SUITE("density") {
     TEST_CASE("a ramp has samples in proportion, on fine and on coarse meshes") {
         for (const std::uint32_t columns : {1u, 3u, 10u, 60u}) {
             CAPTURE(columns);
-            const Case c(flat_grid(columns, columns, 1, 1), [](double x) { return x; });
+            const DensityCase c(flat_grid(columns, columns, 1, 1), [](double x) { return x; });
             const Strips strips(c, 2000, 5, 4);
             CHECK(strips.samples == doctest::Approx(2000).epsilon(0.07));
             for (std::size_t i = 0; i < 5; ++i) {
@@ -248,7 +248,7 @@ TEST_SUITE("density") {
     }
 
     TEST_CASE("strips of 1, 10 and 100 have samples in proportion") {
-        const Case c(flat_grid(60, 20, 1, 0.333), [](double x) {
+        const DensityCase c(flat_grid(60, 20, 1, 0.333), [](double x) {
             return x < 0.3334 ? 1.0 : x < 0.6668 ? 10.0 : 100.0;
         });
         const Strips strips(c, 3000, 3, 4);
@@ -259,7 +259,7 @@ TEST_SUITE("density") {
     }
 
     TEST_CASE("a range of 1e9 has samples in proportion") {
-        const Case c(flat_grid(90, 10, 1, 0.111),
+        const DensityCase c(flat_grid(90, 10, 1, 0.111),
                      [](double x) { return std::pow(10, -9 * (1 - x)); });
         const Strips strips(c, 4000, 45, 3); // A fifth of a decade each.
         double ratio = 1 / std::pow(10, 0.2);

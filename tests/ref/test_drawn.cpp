@@ -34,7 +34,7 @@ std::vector<DrawnCandidate> drawn_pool(const PreparedMesh& mesh, const SamplePar
 }
 
 /// Checks that the host draws the pool of the twin.
-void check_pool(const PreparedMesh& mesh, const SampleParams& params) {
+void check_drawn_pool(const PreparedMesh& mesh, const SampleParams& params) {
     const auto drawn = drawn_pool(mesh, params);
     const auto pool = ref::draw_pool(ref::Surface<float>(mesh, params), params);
     REQUIRE(drawn.size() == pool.size());
@@ -55,11 +55,11 @@ TEST_CASE("drawn candidates: the twin's, in faces of any size") {
                                   needle_disk(50), tetrahedra(2, 0.2), builtin("icosphere", 4)}) {
         const PreparedMesh mesh = prepared(shape);
         for (const double count : {1.0, 30.0, 700.0, 3000.0}) {
-            check_pool(mesh, params_for(mesh, count, 5));
+            check_drawn_pool(mesh, params_for(mesh, count, 5));
         }
         SampleParams many = params_for(mesh, 300, 0x9e3779b97f4a7c15);
         many.pool_ratio = 100;
-        check_pool(mesh, many);
+        check_drawn_pool(mesh, many);
     }
 }
 
@@ -76,10 +76,10 @@ TEST_CASE("drawn candidates: radii that vary, densities, masks and keys") {
             SampleParams params = params_for(mesh, 500, 2);
             params.radii = radii;
             params.min_distance = distance_for_count(radii->effective_area(), 500);
-            check_pool(mesh, params);
+            check_drawn_pool(mesh, params);
             params.face_keys = keys;
             params.face_mask = mask;
-            check_pool(mesh, params);
+            check_drawn_pool(mesh, params);
         }
     }
 }

@@ -14,7 +14,7 @@
 namespace geodisk::test {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+constexpr double kHalfTurn = std::numbers::pi;
 
 SampleParams dart_params(double min_distance, std::uint32_t throws, std::uint64_t seed) {
     SampleParams params;
@@ -50,7 +50,7 @@ std::vector<Vec3> directions_of_faces(const TestMesh& sphere) {
 /// Part of an n-dimensional box of volume 1 that `count` balls of this diameter fill.
 double filled(std::size_t dimension, double diameter, std::size_t count) {
     const double n = static_cast<double>(dimension);
-    return static_cast<double>(count) * std::pow(std::sqrt(kPi) * diameter / 2, n) /
+    return static_cast<double>(count) * std::pow(std::sqrt(kHalfTurn) * diameter / 2, n) /
            std::tgamma(n / 2 + 1);
 }
 
@@ -62,7 +62,7 @@ TEST_SUITE("known results") {
     TEST_CASE("a sphere takes exactly four samples a quarter of the way around apart") {
         const PreparedMesh sphere = prepared(builtin("icosphere", 4));
         // Ways along the facets are up to 0.2 % shorter than great circles.
-        const double quarter = 0.998 * kPi / 2;
+        const double quarter = 0.998 * kHalfTurn / 2;
         for (std::uint64_t seed = 0; seed < 40; ++seed) {
             CAPTURE(seed);
             std::size_t samples = 0;

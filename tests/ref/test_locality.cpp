@@ -23,12 +23,12 @@ namespace {
 /// Order word and weights.
 using Candidate = std::tuple<std::uint32_t, double, double>;
 /// By key.
-using Faces = std::map<std::uint32_t, std::vector<Candidate>>;
+using LocalFaces = std::map<std::uint32_t, std::vector<Candidate>>;
 
 template <class Real>
-Faces faces_of(const PreparedMesh& mesh, const SampleParams& params) {
+LocalFaces faces_of(const PreparedMesh& mesh, const SampleParams& params) {
     const auto pool = ref::draw_pool(ref::Surface<Real>(mesh, params), params);
-    Faces faces;
+    LocalFaces faces;
     for (std::uint32_t rank = 0; rank < pool.size(); ++rank) {
         const auto p = pool.candidate(rank);
         const std::uint32_t key = params.face_keys.empty() ? p.face : params.face_keys[p.face];
@@ -39,11 +39,11 @@ Faces faces_of(const PreparedMesh& mesh, const SampleParams& params) {
 }
 
 /// The faces of a mesh in the half space x > 0, in another order, and which they are.
-struct Part {
+struct LocalPart {
     TestMesh mesh;
     std::vector<std::uint32_t> keys;
 
-    explicit Part(const TestMesh& whole) {
+    explicit LocalPart(const TestMesh& whole) {
         mesh.positions = whole.positions;
         for (std::uint32_t f = whole.face_count(); f-- > 0;) {
             if (whole.corner(f, 0).x + whole.corner(f, 1).x + whole.corner(f, 2).x > 0) {
@@ -57,7 +57,7 @@ struct Part {
 
 template <class Real>
 void check_part(const TestMesh& whole, bool has_radii) {
-    const Part part(whole);
+    const LocalPart part(whole);
     const PreparedMesh all = prepared(whole);
     const PreparedMesh some = prepared(part.mesh);
     REQUIRE(some.face_count() > all.face_count() / 4);
@@ -67,10 +67,10 @@ void check_part(const TestMesh& whole, bool has_radii) {
     const RadiusField of_some = radius_field(some, factors);
     SampleParams params = params_for(all, 3000, 11);
     params.radii = has_radii ? &of_all : nullptr;
-    const Faces expected = faces_of<Real>(all, params);
+    const LocalFaces expected = faces_of<Real>(all, params);
     params.radii = has_radii ? &of_some : nullptr;
     params.face_keys = part.keys;
-    const Faces found = faces_of<Real>(some, params);
+    const LocalFaces found = faces_of<Real>(some, params);
     std::uint32_t wrong = 0;
     for (const std::uint32_t key : part.keys) {
         const auto a = expected.find(key);
@@ -82,13 +82,13 @@ void check_part(const TestMesh& whole, bool has_radii) {
 }
 
 /// A surface, its radii if they vary, and a job on it.
-struct Scene {
+struct LocalScene {
     const TestMesh& mesh;
     PreparedMesh surface;
     RadiusField field;
     SampleParams params;
 
-    Scene(const TestMesh& shape, const std::vector<double>& factors, double min_distance)
+    LocalScene(const TestMesh& shape, const std::vector<double>& factors, double min_distance)
         : mesh(shape), surface(prepared(shape)) {
         if (!factors.empty()) {
             field = radius_field(surface, factors);
@@ -97,8 +97,8 @@ struct Scene {
         params.min_distance = min_distance;
         params.seed = 21;
     }
-    Scene(const Scene&) = delete;
-    Scene& operator=(const Scene&) = delete;
+    LocalScene(const LocalScene&) = delete;
+    LocalScene& operator=(const LocalScene&) = delete;
 
     std::vector<Point> samples() const {
         const ref::Surface<double> of(surface, params);
@@ -117,7 +117,7 @@ std::tuple<std::uint32_t, double, double> place_of(const Point& p) {
 }
 
 /// How far from `at`, in minimum distances, samples are that only one of both has.
-double reach_of(const Scene& before, const Scene& after, Vec3 at) {
+double reach_of(const LocalScene& before, const LocalScene& after, Vec3 at) {
     const auto comes_before = [](const Point& p, const Point& q) {
         return place_of(p) < place_of(q);
     };
@@ -142,9 +142,9 @@ double reach_of(const Scene& before, const Scene& after, Vec3 at) {
 }
 
 /// Of all faces but those at a vertex.
-void check_other_faces(const Scene& before, const Scene& after, std::uint32_t vertex) {
-    const Faces a = faces_of<float>(before.surface, before.params);
-    const Faces b = faces_of<float>(after.surface, after.params);
+void check_other_faces(const LocalScene& before, const LocalScene& after, std::uint32_t vertex) {
+    const LocalFaces a = faces_of<float>(before.surface, before.params);
+    const LocalFaces b = faces_of<float>(after.surface, after.params);
     std::uint32_t wrong = 0;
     for (std::uint32_t f = 0; f < before.surface.face_count(); ++f) {
         const auto corners = before.mesh.triangles.begin() + 3 * static_cast<std::ptrdiff_t>(f);
@@ -173,13 +173,13 @@ TEST_CASE("locality: keys, not their order, choose the candidates") {
     SampleParams params = params_for(mesh, 500, 3);
     std::vector<std::uint32_t> keys(mesh.face_count());
     std::iota(keys.begin(), keys.end(), 0u);
-    const Faces plain = faces_of<float>(mesh, params);
+    const LocalFaces plain = faces_of<float>(mesh, params);
     params.face_keys = keys;
     CHECK(faces_of<float>(mesh, params) == plain);
     for (std::uint32_t& key : keys) {
         key += 1'000'000'000;
     }
-    const Faces others = faces_of<float>(mesh, params);
+    const LocalFaces others = faces_of<float>(mesh, params);
     CHECK(others.begin()->first >= 1'000'000'000);
     CHECK(others.begin()->second != plain.begin()->second);
 }
@@ -197,8 +197,8 @@ TEST_CASE("locality: an edit changes samples near it and no others") {
         for (std::size_t axis = 0; axis < 3; ++axis) {
             edited.positions[std::size_t{3} * vertex + axis] *= 1.2;
         }
-        const Scene before(mesh, {}, min_distance);
-        const Scene after(edited, {}, min_distance);
+        const LocalScene before(mesh, {}, min_distance);
+        const LocalScene after(edited, {}, min_distance);
         check_other_faces(before, after, vertex);
         farthest = std::max(farthest, reach_of(before, after, mesh.vertex(vertex)));
     }
@@ -216,8 +216,8 @@ TEST_CASE("locality: another radius at one vertex changes samples near it and no
     for (std::uint32_t vertex = 5; vertex < mesh.vertex_count(); vertex += 67) {
         std::vector<double> edited = factors;
         edited[vertex] *= 0.6;
-        const Scene before(mesh, factors, min_distance);
-        const Scene after(mesh, edited, min_distance);
+        const LocalScene before(mesh, factors, min_distance);
+        const LocalScene after(mesh, edited, min_distance);
         check_other_faces(before, after, vertex);
         farthest = std::max(farthest, reach_of(before, after, mesh.vertex(vertex)));
     }

@@ -108,7 +108,7 @@ void check_frames(const PreparedMesh& mesh, double exactness) {
     }
 }
 
-double face_area(const PreparedMesh& mesh, std::uint32_t face) {
+double prepared_face_area(const PreparedMesh& mesh, std::uint32_t face) {
     const HalfEdge& edge = mesh.half_edges()[std::size_t{3} * face];
     return names_vertex_twice(mesh, face) ? 0 : 0.5 * edge.length * edge.apex_y;
 }
@@ -117,7 +117,7 @@ void check_area(const TestMesh& mesh) {
     const PreparedMesh surface = prepared(mesh);
     double total = 0;
     for (std::uint32_t f = 0; f < surface.face_count(); ++f) {
-        total += face_area(surface, f);
+        total += prepared_face_area(surface, f);
     }
     CHECK(total == doctest::Approx(surface.statistics().area).epsilon(1e-12));
 }

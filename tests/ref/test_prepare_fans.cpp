@@ -17,7 +17,7 @@ using namespace geodisk::test;
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+constexpr double kStraightAngle = std::numbers::pi;
 /// Angles are kept in units of 2^-13 radian.
 constexpr double kUnits = 0x1p13;
 
@@ -123,7 +123,7 @@ FanCounts check_fans(const TestMesh& mesh) {
         ++(is_open(fan) ? counts.open : counts.closed);
         REQUIRE(in_rotational_order(surface, corners_of(surface, v), is_open(fan)));
         check_angles(surface, v);
-        const double needed = (is_open(fan) ? 1 : 2) * kPi * kUnits;
+        const double needed = (is_open(fan) ? 1 : 2) * kStraightAngle * kUnits;
         REQUIRE((bends(fan) || fan.total_angle < needed));
         REQUIRE((!bends(fan) || fan.total_angle > needed - 10));
     }
@@ -190,7 +190,7 @@ TEST_CASE("fans: shared meshes") {
 TEST_CASE("fans: angles known by hand") {
     const PreparedMesh cube = prepared(builtin("cube", 1));
     for (const VertexFan& fan : cube.fans()) {
-        CHECK(std::abs(fan.total_angle - 1.5 * kPi * kUnits) <= 1);
+        CHECK(std::abs(fan.total_angle - 1.5 * kStraightAngle * kUnits) <= 1);
         CHECK_FALSE(bends(fan));
         CHECK_FALSE(is_open(fan));
     }
@@ -198,7 +198,7 @@ TEST_CASE("fans: angles known by hand") {
     for (std::uint32_t v = 0; v < 9; ++v) {
         const VertexFan& fan = grid.fans()[v];
         const double right_angles = v == 4 ? 4 : (v % 2 == 0 ? 1 : 2);
-        CHECK(std::abs(fan.total_angle - right_angles * kPi / 2 * kUnits) <= 1);
+        CHECK(std::abs(fan.total_angle - right_angles * kStraightAngle / 2 * kUnits) <= 1);
         CHECK(is_open(fan) == (v != 4));
         CHECK(bends(fan) == (v % 2 == 1 || v == 4));
     }
@@ -215,14 +215,14 @@ TEST_CASE("fans: angles known by hand") {
 }
 
 TEST_CASE("fans: cones of any angle") {
-    for (const double angle : {0.3, 3.0, 6.0, 2 * kPi, 6.3, 7.9}) {
+    for (const double angle : {0.3, 3.0, 6.0, 2 * kStraightAngle, 6.3, 7.9}) {
         const Cone cone(16, angle, angle < 1 ? 0 : 0.05, 1);
         check_fans(cone.mesh());
         const PreparedMesh surface = prepared(cone.mesh());
         const VertexFan& apex = surface.fans()[0];
         CHECK(is_regular(apex));
         CHECK(std::abs(apex.total_angle - angle * kUnits) <= 2);
-        CHECK(bends(apex) == (angle >= 2 * kPi - 1e-9));
+        CHECK(bends(apex) == (angle >= 2 * kStraightAngle - 1e-9));
     }
     // More than fits 16 bits.
     const VertexFan wide = prepared(Cone(24, 8.1, 0.05, 1).mesh()).fans()[0];

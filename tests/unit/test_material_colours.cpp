@@ -25,7 +25,7 @@ using Colour = std::array<double, 3>;
 constexpr Colour kRed{1, 0, 0}, kGreen{0, 1, 0}, kBlue{0, 0, 1}, kWhiteColour{1, 1, 1};
 
 /// Red and green above, blue and white below.
-const std::string kImage =
+const std::string kColourImage =
     png_bytes(2, 2, std::string_view("\xff\0\0\0\xff\0\0\0\xff\xff\xff\xff", 12), 8, 2);
 
 MeshFile read_with_materials(const std::filesystem::path& path) {
@@ -103,7 +103,7 @@ struct Obj {
 MeshFile mesh_of(const Obj& files) {
     const TemporaryFolder folder;
     folder.write("a.mtl", files.mtl);
-    folder.write("a.png", kImage);
+    folder.write("a.png", kColourImage);
     return read_with_materials(folder.write("a.obj", files.obj));
 }
 
@@ -132,7 +132,7 @@ std::string text_of(const Gltf& gltf) {
         bytes_of_values<float>({0,     0,     0,     1,    0,    0,     0,     1,     0,
                                 0.25,  0.25,  0.75,  0.25, 0.75, 0.75,  0.125, 0.125, 0.375,
                                 0.125, 0.375, 0.375, 1.25, 0.25, -0.75, 1.75,  2.25,  -5}) +
-        kImage;
+        kColourImage;
     std::string primitives;
     for (const std::string& primitive : gltf.primitives) {
         primitives += (primitives.empty() ? "{" : ", {") + std::string(R"("attributes": {)") +
@@ -148,7 +148,7 @@ std::string text_of(const Gltf& gltf) {
                  R"(, "byteLength": )" + (i == 0 ? "36" : "24") + "}, ";
     }
     views +=
-        R"({"buffer": 0, "byteOffset": 108, "byteLength": )" + std::to_string(kImage.size()) + "}";
+        R"({"buffer": 0, "byteOffset": 108, "byteLength": )" + std::to_string(kColourImage.size()) + "}";
     const auto list = [](const char* name, const std::string& value) {
         return value.empty() ? "" : std::string(", \"") + name + "\": " + value;
     };
@@ -163,7 +163,7 @@ std::string text_of(const Gltf& gltf) {
 
 MeshFile mesh_of(const Gltf& gltf) {
     const TemporaryFolder folder;
-    folder.write("a b.png", kImage);
+    folder.write("a b.png", kColourImage);
     folder.write("a.jpg", jpeg_bytes());
     return read_with_materials(folder.write("a.gltf", text_of(gltf)));
 }
@@ -240,7 +240,7 @@ TEST_CASE("MTL files and their images are found beside the file that names them"
     std::filesystem::create_directory(folder / "in side");
     folder.write("in side/the paint.mtl",
                  "newmtl m\nmap_Kd ..\\an image.png\nnewmtl n\nmap_Kd -s 1 1 \"own im#1.png\"\n");
-    folder.write("an image.png", kImage);
+    folder.write("an image.png", kColourImage);
     folder.write("in side/own im#1.png", png_bytes(1, 1, std::string_view("\0\0\xff", 3), 8, 2));
     folder.write("other.mtl", "newmtl o\nKd 0 1 0\n");
     folder.write("a.obj", obj_of({"mtllib other.mtl", "usemtl m", kFace, "usemtl n", kFace,
@@ -297,7 +297,7 @@ TEST_CASE("OBJ materials that cannot be read are refused") {
     // Damaged images are named with their material.
     const TemporaryFolder folder;
     folder.write("a.mtl", "newmtl m\nmap_Kd a.png\n");
-    folder.write("a.png", kImage.substr(0, 60));
+    folder.write("a.png", kColourImage.substr(0, 60));
     const MeshFile mesh = read_with_materials(folder.write("a.obj", used));
     check_fails(ExitCode::bad_input,
                 "a.mtl: material 'm': ", [&] { const Textures decoded(*mesh.materials); });
@@ -358,7 +358,7 @@ TEST_CASE("images of glTF are files, data and views") {
     for (const std::string& image :
          {std::string(R"({"uri": "a%20b.png"})"),
           std::string(R"({"bufferView": 4, "mimeType": "image/png"})"),
-          R"({"uri": "data:image/png;base64,)" + base64(kImage) + "\"}"}) {
+          R"({"uri": "data:image/png;base64,)" + base64(kColourImage) + "\"}"}) {
         gltf.images = "[" + image + "]";
         check_colours(mesh_of(gltf), 0, {kRed, kGreen, kWhiteColour});
     }

@@ -18,7 +18,7 @@ MeshWarning warning_of(const MeshFile& mesh) {
     return mesh.warnings[0];
 }
 
-using Corners = std::vector<std::uint32_t>;
+using FormatCorners = std::vector<std::uint32_t>;
 
 constexpr std::string_view kFacet = "facet normal 0 0 1\n outer loop\n  vertex 0 0 0\n"
                                     "  vertex 1 0 0\n  vertex 1 1 0\n endloop\nendfacet\n";
@@ -53,7 +53,7 @@ TEST_CASE("STL facets hang together where their vertices lie in one place") {
           binary_stl("solid that is binary all the same")}) {
         const MeshFile mesh = mesh_of("a.STL", bytes);
         CHECK(mesh.positions.size() == 18);
-        CHECK(mesh.triangles == Corners{0, 1, 2, 0, 2, 5});
+        CHECK(mesh.triangles == FormatCorners{0, 1, 2, 0, 2, 5});
         CHECK(mesh.polygons.empty());
         CHECK(mesh.warnings.empty());
         CHECK(mesh.weld->merged_vertices == 2);
@@ -63,7 +63,7 @@ TEST_CASE("STL facets hang together where their vertices lie in one place") {
 TEST_CASE("binary STL that begins with solid is told by the zeros of its head") {
     std::string bytes = binary_stl("solid part") + "more"; // Not of the size that it tells.
     const MeshFile mesh = mesh_of("a.stl", bytes);
-    CHECK(mesh.triangles == Corners{0, 1, 2, 0, 2, 5});
+    CHECK(mesh.triangles == FormatCorners{0, 1, 2, 0, 2, 5});
     CHECK(warning_of(mesh).kind == "trailing_data");
     const MeshFile apart =
         mesh_of("a.stl", "solid x\nfacet\nouter loop\nvertex 0 0 0\nvertex 1 0 0\n"
@@ -118,19 +118,19 @@ TEST_CASE("faults of STL files are told with their place") {
 }
 
 TEST_CASE("OFF files are read whatever follows the coordinates and corners") {
-    const Corners expected{0, 1, 2, 0, 2, 3, 0, 2, 1};
+    const FormatCorners expected{0, 1, 2, 0, 2, 3, 0, 2, 1};
     const MeshFile plain =
         mesh_of("a.off", "OFF # a square\n4 2 5\n\n0 0 0\n1 0 0\n1 1 0 # c\n0 1 0\n"
                          "4 0 1 2 3\n3 1 3 0 255 0 0\n");
-    CHECK(plain.triangles == Corners{0, 1, 2, 0, 2, 3, 1, 3, 0});
-    CHECK(plain.polygons == Corners{0, 0, 1});
+    CHECK(plain.triangles == FormatCorners{0, 1, 2, 0, 2, 3, 1, 3, 0});
+    CHECK(plain.polygons == FormatCorners{0, 0, 1});
     CHECK(plain.warnings.empty());
     for (const std::string header :
          {"COFF 3 1 0", "NOFF\r\n3 1", "STCNOFF\n3\t1 0", "NCOFF 3 1 0", "OFF 3 1 0"}) {
         CAPTURE(header);
         const MeshFile mesh =
             mesh_of("a.off", header + "\n0 0 0 1 1 1 1\n1 0 0 1 1 1 1\n0 1 0 1 1 1 1\n3 0 1 2\n");
-        CHECK(mesh.triangles == Corners{0, 1, 2});
+        CHECK(mesh.triangles == FormatCorners{0, 1, 2});
         CHECK(mesh.positions == std::vector<double>{0, 0, 0, 1, 0, 0, 0, 1, 0});
     }
 }
@@ -138,7 +138,7 @@ TEST_CASE("OFF files are read whatever follows the coordinates and corners") {
 TEST_CASE("records of OFF and ASCII PLY files may go on over further lines") {
     const MeshFile off = mesh_of("a.off", "OFF\n4 2 0\n0 0\n0\n1 0 0\n1 1 0\n0\n1\n0\n"
                                           "4 0\n1\n2 \n3\n3 1 3 0\n");
-    CHECK(off.triangles == Corners{0, 1, 2, 0, 2, 3, 1, 3, 0});
+    CHECK(off.triangles == FormatCorners{0, 1, 2, 0, 2, 3, 1, 3, 0});
     CHECK(off.positions == std::vector<double>{0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0});
     CHECK(off.warnings.empty());
     const std::string start = "OFF\n3 2 0\n0 0 0\n1 0 0\n0 1 0\n";
@@ -149,7 +149,7 @@ TEST_CASE("records of OFF and ASCII PLY files may go on over further lines") {
                                "property float y\nproperty float z\nelement face 1\n"
                                "property list uchar int vertex_indices\nend_header\n";
     const MeshFile ply = mesh_of("a.ply", header + "0 0\n0\n1 0 0\n0\n1\n0\n3\n\n0 1\n2\n");
-    CHECK(ply.triangles == Corners{0, 1, 2});
+    CHECK(ply.triangles == FormatCorners{0, 1, 2});
     CHECK(ply.positions == std::vector<double>{0, 0, 0, 1, 0, 0, 0, 1, 0});
     CHECK(ply.warnings.empty());
     check_refused("a.ply", header + "0 0\n1 0 0\n0 1 0\n3 0 1 2\n",
@@ -188,7 +188,7 @@ TEST_CASE("OFF headers may hold a dimension, or a count behind the keyword") {
     CHECK(mesh.positions == std::vector<double>{0, 0, 0, 5, 1, 0, 0, 5, 0, 1, 0, 5});
     const std::string rest = "\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
     const MeshFile glued = mesh_of("a.off", "OFF3 1 0" + rest);
-    CHECK(glued.triangles == Corners{0, 1, 2});
+    CHECK(glued.triangles == FormatCorners{0, 1, 2});
     CHECK(warning_of(glued).message ==
           "1 number behind OFF without a blank read as the number of vertices (line 1)");
     check_refused("a.off", "OFF4\n3 1 0" + rest, "points of 4 coordinates (4-D)");
@@ -262,8 +262,8 @@ TEST_CASE("vertices of no face may have coordinates that are no numbers, however
 
 TEST_CASE("OBJ faces of fewer than three corners make no triangle") {
     const MeshFile mesh = mesh_of("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2\nf\nf 1 2 3\n");
-    CHECK(mesh.triangles == Corners{0, 1, 2});
-    CHECK(mesh.polygons == Corners{2});
+    CHECK(mesh.triangles == FormatCorners{0, 1, 2});
+    CHECK(mesh.polygons == FormatCorners{2});
     CHECK(warning_of(mesh).message ==
           "2 faces with fewer than 3 corners make no triangle (first: line 4)");
 }
@@ -299,11 +299,11 @@ std::string ply_of(std::string_view faces, std::string_view records,
 TEST_CASE("PLY names that nobody asks for may repeat") {
     const std::string text =
         ply_of("element face 1\nproperty uchar gap\nproperty uchar gap\n", "0 0 3 0 1 2\n");
-    CHECK(mesh_of("a.ply", text).triangles == Corners{0, 1, 2});
+    CHECK(mesh_of("a.ply", text).triangles == FormatCorners{0, 1, 2});
     const std::string extra = "element other 1\nproperty int a\n";
     CHECK(
         mesh_of("a.ply", ply_of(extra + extra + "element face 1\n", "1\n2\n3 0 1 2\n")).triangles ==
-        Corners{0, 1, 2});
+        FormatCorners{0, 1, 2});
     check_refused("a.ply", ply_of("property float y\nelement face 1\n", "3 0 1 2\n"),
                   "line 7: property 'y' is declared twice");
 }
@@ -312,7 +312,7 @@ TEST_CASE("PLY lines may end with CR alone") {
     const std::string faces = "element face 2\n", records = "3 0 1 2\n3 0 2 3\n";
     for (const char* const line_end : {"\n", "\r\n", "\r"}) {
         const MeshFile mesh = mesh_of("a.ply", ply_of(faces, records, line_end));
-        CHECK(mesh.triangles == Corners{0, 1, 2, 0, 2, 3});
+        CHECK(mesh.triangles == FormatCorners{0, 1, 2, 0, 2, 3});
         CHECK(mesh.warnings.empty());
     }
 }
@@ -320,7 +320,7 @@ TEST_CASE("PLY lines may end with CR alone") {
 TEST_CASE("PLY strips of triangles alternate and begin anew at -1") {
     const MeshFile mesh =
         mesh_of("a.ply", ply_of("element tristrips 2\n", "8 0 1 2 3 -1 3 2 1\n2 0 1\n"));
-    CHECK(mesh.triangles == Corners{0, 1, 2, 2, 1, 3, 1, 1, 1});
+    CHECK(mesh.triangles == FormatCorners{0, 1, 2, 2, 1, 3, 1, 1, 1});
     CHECK(warning_of(mesh).message == "1 copy of an earlier triangle dropped (triangle 2)");
     check_refused("a.ply", ply_of("element tristrips 1\n", "3 0 1 4\n"),
                   "triangle 0: vertex index 4");
@@ -334,7 +334,7 @@ TEST_CASE("PLY lines of the header and values that have no place are ignored, no
     CHECK(warning_of(stray).message == "1 unknown header line ignored (line 7)");
     const MeshFile surplus =
         mesh_of("a.ply", ply_of("element face 2\n", "3 0 1 2 3\n3 0 2 3 0 0\n"));
-    CHECK(surplus.triangles == Corners{0, 1, 2, 0, 2, 3});
+    CHECK(surplus.triangles == FormatCorners{0, 1, 2, 0, 2, 3});
     CHECK(warning_of(surplus).kind == "surplus_values");
     CHECK(warning_of(surplus).count == 2);
 }

@@ -10,11 +10,11 @@ using namespace geodisk::tools;
 
 namespace {
 
-constexpr std::string_view kObj = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 1 3 4\n";
+constexpr std::string_view kSurfaceObj = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 1 3 4\n";
 constexpr std::string_view kBareObj = "f 1 2 3\nf 1 3 4\n";
 
 /// Two triangles with the given vertex properties and values.
-std::string ply_with(std::string_view properties, std::string_view values) {
+std::string surface_ply_with(std::string_view properties, std::string_view values) {
     return "ply\nformat ascii 1.0\nelement vertex 4\n" + std::string(properties) +
            "element face 2\nproperty list uchar int vertex_indices\nend_header\n" +
            std::string(values) + "3 0 1 2\n3 0 2 3\n";
@@ -46,7 +46,7 @@ MeshFile mesh_of(std::string_view name, std::string_view bytes, std::string_view
 
 void coordinates_fail(std::string_view coordinates, std::string_view part) {
     CAPTURE(coordinates);
-    check_fails(ExitCode::bad_input, part, [&] { mesh_of("a.obj", kObj, coordinates, ""); });
+    check_fails(ExitCode::bad_input, part, [&] { mesh_of("a.obj", kSurfaceObj, coordinates, ""); });
 }
 
 void lengths_fail(std::string_view lengths, std::string_view part) {
@@ -82,30 +82,30 @@ TEST_CASE("a dropped triangle has no say in the normals of a lift") {
 }
 
 TEST_CASE("PLY vertices may have x0 to x7") {
-    const MeshFile mesh = mesh_of("a.ply", ply_with(numbered(4), kLines4), "", "");
+    const MeshFile mesh = mesh_of("a.ply", surface_ply_with(numbered(4), kLines4), "", "");
     CHECK(mesh.dimension == 4);
     CHECK(mesh.positions == kSquare4);
     CHECK(mesh.triangles == std::vector<std::uint32_t>{0, 1, 2, 0, 2, 3});
     // They count, not x y z beside them.
     const std::string both = "property float x\nproperty float y\nproperty float z\n" + numbered(4);
     CHECK(mesh_of("a.ply",
-                  ply_with(both, "9 9 9 0 0 0 5\n9 9 9 1 0 0 5\n9 9 9 1 1 0 5\n9 9 9 0 1 0 5\n"),
+                  surface_ply_with(both, "9 9 9 0 0 0 5\n9 9 9 1 0 0 5\n9 9 9 1 1 0 5\n9 9 9 0 1 0 5\n"),
                   "", "")
               .positions == kSquare4);
     const std::string zeros = "0 0 0 0 0 0 0 0\n";
     CHECK(mesh_of("a.ply",
-                  ply_with(numbered(8), zeros + "1 0 0 0 0 0 0 0\n0 0 0 0 0 0 0 1\n" + zeros), "",
+                  surface_ply_with(numbered(8), zeros + "1 0 0 0 0 0 0 0\n0 0 0 0 0 0 0 1\n" + zeros), "",
                   "")
               .dimension == 8);
     const auto fails = [](const std::string& properties, std::string_view part) {
         check_fails(ExitCode::bad_input, part,
-                    [&] { mesh_of("a.ply", ply_with(properties, ""), "", ""); });
+                    [&] { mesh_of("a.ply", surface_ply_with(properties, ""), "", ""); });
     };
     fails(numbered(2), "has properties x0 to x1");
     fails(numbered(9), "3 to 8 coordinates");
     fails(numbered(3) + "property double x4\n", "a property x4 but no x3");
     check_fails(ExitCode::bad_input, "record 2: the coordinates are not finite", [] {
-        mesh_of("a.ply", ply_with(numbered(4), "0 0 0 5\n1 0 0 5\n1 1 0 inf\n0 1 0 5\n"), "", "");
+        mesh_of("a.ply", surface_ply_with(numbered(4), "0 0 0 5\n1 0 0 5\n1 1 0 inf\n0 1 0 5\n"), "", "");
     });
 }
 
@@ -136,7 +136,7 @@ TEST_CASE("polygons in R^4 are split in their plane") {
 
 TEST_CASE("a sidecar file gives the coordinates of an OBJ file, with or without its own") {
     const std::string commented = "# four of them\n\n" + std::string(kLines4) + "  # the end\r\n";
-    for (const std::string_view obj : {kObj, kBareObj}) {
+    for (const std::string_view obj : {kSurfaceObj, kBareObj}) {
         const MeshFile mesh = mesh_of("a.obj", obj, commented, "");
         CHECK(mesh.dimension == 4);
         CHECK(mesh.positions == kSquare4);
@@ -150,7 +150,7 @@ TEST_CASE("a sidecar file gives the coordinates of an OBJ file, with or without 
     coordinates_fail("0 0 0 5\n1 0 0 5\n", "has the coordinates of 2 vertices");
     check_fails(ExitCode::bad_input, "line 2: vertex index 4 is out of range, the file has 3",
                 [] { mesh_of("a.obj", kBareObj, "0 0 0\n1 0 0\n1 1 0\n", ""); });
-    check_fails(ExitCode::usage, "contradict", [] { mesh_of("a.obj", kObj, kLines4, kLengths); });
+    check_fails(ExitCode::usage, "contradict", [] { mesh_of("a.obj", kSurfaceObj, kLines4, kLengths); });
     check_fails(ExitCode::usage, "builtin:cube is complete", [] {
         read_mesh({"builtin:cube", "", "a.txt", "", {}});
     });
@@ -164,13 +164,13 @@ TEST_CASE("a sidecar file gives the lengths of edges") {
     CHECK(bare.warnings.empty());
     // Coordinates are kept but do not matter, not even if all are equal; PLY counts from 0.
     const std::string flat = "property float x\nproperty float y\nproperty float z\n";
-    const MeshFile ply = mesh_of("a.ply", ply_with(flat, "0 0 0\n0 0 0\n0 0 0\n0 0 0\n"), "",
+    const MeshFile ply = mesh_of("a.ply", surface_ply_with(flat, "0 0 0\n0 0 0\n0 0 0\n0 0 0\n"), "",
                                  "0 1 3 # first\n2 1 4\n2 0 5\n3 2 3\n3 0 4\n2 0 5\n7 8 1\n");
     CHECK(ply.lengths == expected);
     CHECK(ply.positions.size() == 12);
     REQUIRE(ply.warnings.size() == 1);
     CHECK(ply.warnings[0].message == "1 length of an edge that no face has ignored");
-    CHECK(mesh_of("a.ply", ply_with("property float quality\n", "1\n2\n3\n4\n"), "",
+    CHECK(mesh_of("a.ply", surface_ply_with("property float quality\n", "1\n2\n3\n4\n"), "",
                   "0 1 3\n2 1 4\n2 0 5\n3 2 3\n3 0 4\n")
               .positions.empty());
 
@@ -215,7 +215,7 @@ TEST_CASE("a lift appends weighted normals and attributes") {
     const std::string properties =
         "property float x\nproperty float y\nproperty float z\nproperty float quality\n"
         "property list uchar int tags\n";
-    const std::string ply = ply_with(properties, "0 0 0 1 0\n1 0 0 2 0\n1 1 0 3 0\n0 1 0 4 0\n");
+    const std::string ply = surface_ply_with(properties, "0 0 0 1 0\n1 0 0 2 0\n1 1 0 3 0\n0 1 0 4 0\n");
     const MeshFile mesh = mesh_of("a.ply", ply, "", "", {"quality"});
     CHECK(mesh.attributes == std::vector<std::vector<double>>{{1, 2, 3, 4}});
     const std::vector<Lift> lifts{{"quality", 0.5}, {"", 2}};
@@ -234,7 +234,7 @@ TEST_CASE("a lift appends weighted normals and attributes") {
     not_finite.attributes[0][2] = NAN;
     fails(ExitCode::bad_input, "record 2: 'quality' is not finite", not_finite, {{"quality", 1}});
     fails(ExitCode::usage, "needs a mesh with 3 coordinates; a.ply has 4",
-          mesh_of("a.obj", kObj, kLines4, ""), {{"", 1}});
+          mesh_of("a.obj", kSurfaceObj, kLines4, ""), {{"", 1}});
     MeshFile twice = mesh;
     twice.triangles = {0, 1, 2, 0, 2, 1};
     fails(ExitCode::bad_input, "vertex 0 (from 0) has no normal", twice, {{"", 1}});
@@ -244,7 +244,7 @@ TEST_CASE("a lift appends weighted normals and attributes") {
     check_fails(ExitCode::bad_input, "no scalar property 'tags'",
                 [&] { mesh_of("a.ply", ply, "", "", {"tags"}); });
     check_fails(ExitCode::bad_input, "only PLY files do",
-                [] { mesh_of("a.obj", kObj, "", "", {"quality"}); });
+                [] { mesh_of("a.obj", kSurfaceObj, "", "", {"quality"}); });
     check_fails(ExitCode::bad_input, "has 4 values of 'quality' for 5 vertices", [&] {
         MeshFile longer = mesh;
         longer.positions.resize(15);
