@@ -213,7 +213,7 @@ TEST_CASE("points are avoided, each by a radius of its own, and verified") {
     const Outcome wider =
         run(folder, {"verify", mesh, "b.ply", "--avoid", "wells.csv:0.21", "--json", "v.json"});
     CHECK(wider.status == 1);
-    CHECK(contains(wider.err, "within the radius of a point to avoid"));
+    CHECK(contains(wider.err, "within the radius of a point or line to avoid"));
     const Json intrusions = json_in(folder, "v.json")["avoided"]["intrusions"];
     CHECK(intrusions["count"] > 0);
     CHECK(intrusions["rows"].size() == intrusions["count"]);

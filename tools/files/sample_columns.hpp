@@ -37,6 +37,8 @@ inline constexpr std::string_view kGivenColumn = "given";
 
 /// The column with the classes of samples.
 inline constexpr std::string_view kClassColumn = "class";
+/// The column that numbers polylines, of points to avoid.
+inline constexpr std::string_view kLineColumn = "line";
 /// The column of levels, and the entries of the header with their distances and their ends.
 inline constexpr std::string_view kLevelColumn = "level", kLevelDistances = "level_distances",
                                   kLevelSamples = "level_samples";

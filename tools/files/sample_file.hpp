@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <optional>
@@ -108,6 +109,8 @@ struct SampleFile {
     std::vector<double> numbers;    ///< Values of the column that read_samples() was asked for.
     bool has_faces = true;          ///< Else rows have positions alone, as of other programs.
     std::vector<WrongColumn> wrong_columns{}; ///< Left out.
+    /// Lines between two rows each; only read_points_and_lines() reads them all.
+    std::vector<std::array<std::uint32_t, 2>> segments{};
 
     /// The values of a column of `extra`; empty without it.
     std::span<const std::uint32_t> extra_values(std::string_view name) const;

@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <array>
 #include <optional>
 #include <string>
 #include <utility>
@@ -9,10 +11,37 @@
 #include "files/sample_file.hpp"
 #include "files/sample_rows.hpp"
 #include "files/text_file.hpp"
+#include "program/exact_text.hpp"
 #include "program/failure.hpp"
 
 namespace geodisk::tools {
 namespace {
+
+/// Reads lines between vertices.
+void read_ply_edges(PlyFile& file, const PlyElement& element, SampleFile& samples) {
+    const std::size_t places[] = {*element.find_scalar("vertex1"), *element.find_scalar("vertex2")};
+    file.read_records(element, [&](std::uint64_t index, const PlyRecord& record) {
+        std::array<std::uint32_t, 2>& segment = samples.segments.emplace_back();
+        for (std::size_t end = 0; end < 2; ++end) {
+            const double vertex = record.scalars[places[end]];
+            if (!set_index(segment[end], vertex)) {
+                file.fail(element, index, exact_text(vertex) + " is no vertex");
+            }
+        }
+    });
+}
+
+/// Checks that lines are between vertices that there are.
+void check_edges(const Path& path, const SampleFile& samples) {
+    for (std::size_t i = 0; i < samples.segments.size(); ++i) {
+        const std::uint32_t last = std::max(samples.segments[i][0], samples.segments[i][1]);
+        if (last >= samples.rows.size()) {
+            fail_input(path, "edge " + std::to_string(i) + ": names vertex " +
+                                 std::to_string(last) + ", but there are " +
+                                 std::to_string(samples.rows.size()));
+        }
+    }
+}
 
 SampleFile read_ply_samples(PlyFile file, SampleDomain domain, const std::string& numbers) {
     const Path& path = file.path();
@@ -22,6 +51,11 @@ SampleFile read_ply_samples(PlyFile file, SampleDomain domain, const std::string
     }
     bool has_vertices = false, is_mesh = false;
     for (const PlyElement& element : file.elements()) {
+        if (element.name == "edge" && element.find_scalar("vertex1") &&
+            element.find_scalar("vertex2")) {
+            read_ply_edges(file, element, samples);
+            continue;
+        }
         if (element.name != "vertex") {
             is_mesh |= element.name == "face" && element.count > 0;
             file.read_records(element, [](std::uint64_t, const PlyRecord&) {});
@@ -46,6 +80,7 @@ SampleFile read_ply_samples(PlyFile file, SampleDomain domain, const std::string
     if (!has_vertices) {
         fail_input(path, "has no element vertex");
     }
+    check_edges(path, samples);
     if (!samples.has_faces && is_mesh) {
         fail_input(path, "has faces, so this is a mesh and no file of samples");
     }

@@ -81,6 +81,7 @@ class ExtraReader {
         names.emplace_back(kClassColumn);
         names.emplace_back(kFeatureColumn);
         names.emplace_back(kLevelColumn);
+        names.emplace_back(kLineColumn);
         for (const std::string& name : names) {
             if (const std::optional<std::size_t> place = place_of(name)) {
                 places_.push_back(*place);

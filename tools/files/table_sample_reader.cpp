@@ -1,6 +1,7 @@
 // Samples in tables of text: CSV of geodisk, and points of other programs.
 #include <algorithm>
 #include <cctype>
+#include <span>
 
 #include "files/input_file.hpp"
 #include "files/sample_rows.hpp"
@@ -190,6 +191,30 @@ SampleFile read_table_samples(const Path& path, std::string_view bytes, SampleDo
     return TableReader(path, bytes, domain, numbers).read();
 }
 
+namespace {
+
+/// Adds a polyline of OBJ, whose vertices may have indices of texture coordinates behind a slash.
+template <typename Fail>
+void add_line(const Cells& cells, const Fail& fail, SampleFile& samples) {
+    std::optional<std::uint32_t> last;
+    for (const std::string_view cell : std::span(cells).subspan(1)) {
+        const auto index = parse_integer<std::int64_t>(cell.substr(0, cell.find('/')));
+        const auto count = static_cast<std::int64_t>(samples.rows.size());
+        const std::int64_t vertex = index.value_or(0) < 0 ? count + *index : index.value_or(0) - 1;
+        if (!index || vertex < 0 || vertex >= count) {
+            fail(in_quotes(cell) + " is not one of the " +
+                 counted(samples.rows.size(), "vertex", "vertices") + " before it");
+        }
+        const auto row = static_cast<std::uint32_t>(vertex);
+        if (last) {
+            samples.segments.push_back({*last, row});
+        }
+        last = row;
+    }
+}
+
+} // namespace
+
 SampleFile read_obj_points(const Path& path, std::string_view bytes) {
     SampleFile samples;
     samples.has_faces = false;
@@ -205,6 +230,9 @@ SampleFile read_obj_points(const Path& path, std::string_view bytes) {
         };
         if (!cells.empty() && cells[0] == "f") {
             fail("a face, so this is a mesh and no file of samples");
+        }
+        if (!cells.empty() && cells[0] == "l") {
+            add_line(cells, fail, samples);
         }
         if (cells.size() < 4 || cells[0] != "v") {
             continue;

@@ -271,6 +271,7 @@ SampleResult sample_mesh(const SampleJob& job, const MeshInput& mesh, RunDevice&
         result.levels = levels_of(job.method, mesh, params);
     }
     result.avoided = given.points_to_avoid;
+    result.avoided_length = given.lines_to_avoid;
     result.scene = scene_frame(job.out, job.mesh, mesh);
     std::vector<std::uint32_t> faces;
     for (const SampleRow& row : result.rows) {

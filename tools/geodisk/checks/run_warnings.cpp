@@ -10,7 +10,7 @@ std::vector<MeshWarning> run_warnings(const SampleJob& job, const MeshInput& mes
     std::vector<MeshWarning> warnings =
         set_warnings({.samples = result.count(),
                       .given = result.given,
-                      .avoids = result.avoided > 0,
+                      .avoids = result.avoided > 0 || result.avoided_length > 0,
                       .min_distance = result.params.min_distance * mesh.distance_part,
                       .wanted_count = job.wanted_count.samples,
                       .cut = result.done.cut,

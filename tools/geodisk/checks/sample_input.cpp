@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "files/line_file.hpp"
 #include "files/sample_columns.hpp"
 #include "geodisk/options/tolerance_option.hpp"
 #include "geodisk/outputs/outputs.hpp"
@@ -99,7 +100,9 @@ SampleInput read_silently(const std::string& path, const std::string& mesh_path,
                           const std::string& tolerance, std::vector<MeshWarning>& warnings,
                           ProgressLine& progress, const ReadAs& as = {}) {
     progress.begin_stage("reading the samples");
-    SampleInput input{read_samples(path, as.numbers), {}};
+    SampleInput input{as.has_lines ? read_points_and_lines(path, as.numbers)
+                                   : read_samples(path, as.numbers),
+                      {}};
     progress.clear();
     check_columns(path, input.file, as.noun, warnings);
     check_dimensions(path, input.file, mesh_path, mesh);

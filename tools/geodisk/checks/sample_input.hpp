@@ -21,6 +21,7 @@ struct SampleInput {
 struct ReadAs {
     std::string noun = "sample"; ///< Names a row in errors.
     std::string numbers;         ///< Column to read as well, see read_samples(), or "".
+    bool has_lines = false;      ///< Formats of lines may be read, see read_points_and_lines().
 };
 
 /// Reads the samples in the file `path` of the mesh in the file `mesh_path`. Points without faces

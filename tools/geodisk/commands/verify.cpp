@@ -109,17 +109,16 @@ void verify_samples(const VerifyOptions& options, const NotePairs& note) {
     ConstraintOptions constraints = options.constraints;
     constraints.tolerance = options.tolerance;
     const std::size_t before = warnings.size();
-    const std::vector<KeepOut> avoided =
-        load_avoided(constraints, options.mesh, mesh, warnings, progress);
+    const Avoided avoided = load_avoided(constraints, options.mesh, mesh, warnings, progress);
     for (std::size_t i = before; i < warnings.size(); ++i) {
         print_warning(warnings[i].file + ": " + warnings[i].message);
     }
-    std::vector<Intrusion> intrusions =
-        find_intrusions(mesh, samples.rows, samples.extra_values(kGivenColumn), avoided, progress);
+    std::vector<Intrusion> intrusions = find_intrusions(
+        mesh, samples.rows, samples.extra_values(kGivenColumn), avoided.disks, progress);
     std::optional<GapCheck> gaps;
     if (options.is_maximal) {
-        gaps =
-            find_gaps(mesh, samples.rows, spacing.radii, spacing.min_distance, avoided, progress);
+        gaps = find_gaps(mesh, samples.rows, spacing.radii, spacing.min_distance, avoided.disks,
+                         progress);
     }
     std::vector<LevelSpacing> levels;
     if (options.min_distance.empty() && spacing.is_known) {
@@ -135,7 +134,8 @@ void verify_samples(const VerifyOptions& options, const NotePairs& note) {
                             std::move(found.others),
                             std::move(found.among_given),
                             masked_samples(samples, mesh),
-                            avoided.size(),
+                            avoided.points,
+                            avoided.length,
                             std::move(intrusions),
                             std::move(gaps),
                             std::move(levels),

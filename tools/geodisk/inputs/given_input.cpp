@@ -25,13 +25,14 @@ void check_count(const SampleJob& job, std::size_t given) {
 
 /// Takes the points to avoid that matter. Throws UserError if they leave no room, unless there are
 /// samples to keep.
-void take_avoided(const std::vector<KeepOut>& avoided, const MeshInput& mesh, bool keeps_samples,
+void take_avoided(const Avoided& avoided, const MeshInput& mesh, bool keeps_samples,
                   GivenInput& given) {
-    CoveredParts covered = covered_parts(mesh.prepared, avoided);
+    CoveredParts covered = covered_parts(mesh.prepared, avoided.disks);
     if (!avoided.empty() && !keeps_samples && covered.cover_all(mesh.prepared, mesh.face_mask)) {
         fail_usage("--avoid: the points leave no room for samples; lower their radii");
     }
-    given.points_to_avoid = avoided.size();
+    given.points_to_avoid = avoided.points;
+    given.lines_to_avoid = avoided.length;
     given.avoided = std::move(covered.needed);
 }
 
@@ -55,32 +56,68 @@ std::vector<std::uint8_t> classes_in(const std::string& path, const SampleFile& 
     return classes;
 }
 
+/// Adds the points of a file, and the points along its lines.
+void avoid_file(const AvoidOption& option, const std::string& tolerance, const MeshOptions& of_mesh,
+                const MeshInput& mesh, std::vector<MeshWarning>& warnings, ProgressLine& progress,
+                Avoided& avoided, std::vector<KeepOut>& along_lines) {
+    const HeaderEntries additions = of_mesh.additions();
+    const std::string& path = option.points;
+    const SampleFile file =
+        read_samples_silently_on(path, of_mesh.mesh, mesh, &additions, tolerance, warnings,
+                                 progress, {"point", option.column, true});
+    if (file.rows.empty()) {
+        fail_input(path, "has no points to avoid; leave out --avoid");
+    }
+    const std::size_t first = avoided.disks.size();
+    for (std::size_t i = 0; i < file.rows.size(); ++i) {
+        const double radius = option.radius
+                                  ? distance_on_mesh(*option.radius, mesh.prepared.statistics())
+                                  : file.numbers[i];
+        if (!(radius > 0) || !std::isfinite(radius)) {
+            fail_input(path, "point " + std::to_string(i) + ": its " + option.column +
+                                 (std::isnan(radius) ? " is blank or not a number"
+                                                     : " is " + exact_text(radius)) +
+                                 ", not a positive radius");
+        }
+        avoided.disks.push_back({sample_of(file.rows[i]), radius});
+    }
+    avoided.length += LineCover(mesh, path, of_mesh.mesh, tolerance)
+                          .cover(file, first, avoided.disks, along_lines);
+}
+
+/// Adds points along edges of the mesh.
+void avoid_edges(const AvoidOption& option, const MeshOptions& of_mesh, const MeshInput& mesh,
+                 std::vector<MeshWarning>& warnings, Avoided& avoided,
+                 std::vector<KeepOut>& along_lines) {
+    const double radius = distance_on_mesh(*option.radius, mesh.prepared.statistics());
+    const double length = cover_edges(mesh, option.kind, radius, along_lines);
+    if (length == 0) {
+        const bool is_border = option.kind == AvoidOption::Kind::border;
+        warnings.push_back(
+            {"nothing_to_avoid", 1, "",
+             std::string("has no ") + (is_border ? "border" : "creases") + " to avoid",
+             of_mesh.mesh});
+    }
+    avoided.length += length;
+}
+
 } // namespace
 
-std::vector<KeepOut> load_avoided(const ConstraintOptions& options, const MeshOptions& of_mesh,
-                                  const MeshInput& mesh, std::vector<MeshWarning>& warnings,
-                                  ProgressLine& progress) {
-    std::vector<KeepOut> avoided;
-    const HeaderEntries additions = of_mesh.additions();
-    for (const auto& [points, length, column] : options.parsed_avoid()) {
-        const SampleFile file =
-            read_samples_silently_on(points, of_mesh.mesh, mesh, &additions, options.tolerance,
-                                     warnings, progress, {"point", column});
-        if (file.rows.empty()) {
-            fail_input(points, "has no points to avoid; leave out --avoid");
-        }
-        for (std::size_t i = 0; i < file.rows.size(); ++i) {
-            const double radius =
-                length ? distance_on_mesh(*length, mesh.prepared.statistics()) : file.numbers[i];
-            if (!(radius > 0) || !std::isfinite(radius)) {
-                fail_input(points, "point " + std::to_string(i) + ": its " + column +
-                                       (std::isnan(radius) ? " is blank or not a number"
-                                                           : " is " + exact_text(radius)) +
-                                       ", not a positive radius");
-            }
-            avoided.push_back({sample_of(file.rows[i]), radius});
+Avoided load_avoided(const ConstraintOptions& options, const MeshOptions& of_mesh,
+                     const MeshInput& mesh, std::vector<MeshWarning>& warnings,
+                     ProgressLine& progress) {
+    Avoided avoided;
+    std::vector<KeepOut> along_lines;
+    for (const AvoidOption& option : options.parsed_avoid()) {
+        if (option.kind == AvoidOption::Kind::file) {
+            avoid_file(option, options.tolerance, of_mesh, mesh, warnings, progress, avoided,
+                       along_lines);
+        } else {
+            avoid_edges(option, of_mesh, mesh, warnings, avoided, along_lines);
         }
     }
+    avoided.points = avoided.disks.size();
+    avoided.disks.insert(avoided.disks.end(), along_lines.begin(), along_lines.end());
     return avoided;
 }
 

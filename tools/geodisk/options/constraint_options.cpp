@@ -1,5 +1,6 @@
 #include "geodisk/options/constraint_options.hpp"
 
+#include <algorithm>
 #include <cctype>
 #include <utility>
 
@@ -15,16 +16,23 @@ AvoidOption parse_avoid(const std::string& text) {
     const std::size_t colon = text.rfind(':');
     if (colon == std::string::npos || colon == 0 || colon + 1 == text.size()) {
         fail_usage("--avoid: " + in_quotes(text) +
-                   " is not POINTS:RADIUS, such as wells.csv:5 or wells.csv:size");
+                   " is not POINTS:RADIUS, such as wells.csv:5, wells.csv:size or border:5");
     }
-    AvoidOption option{text.substr(0, colon), {}, {}};
+    AvoidOption option;
+    option.points = text.substr(0, colon);
+    option.kind = option.points == "border"    ? AvoidOption::Kind::border
+                  : option.points == "creases" ? AvoidOption::Kind::creases
+                                               : AvoidOption::Kind::file;
     const std::string radius = text.substr(colon + 1);
     const bool is_number = std::isdigit(static_cast<unsigned char>(radius.front())) != 0 ||
                            std::string("+-.").find(radius.front()) != std::string::npos;
     if (is_number) {
         option.radius = parse_length("--avoid", radius);
-    } else {
+    } else if (option.kind == AvoidOption::Kind::file) {
         option.column = radius;
+    } else {
+        fail_usage("--avoid: " + option.points + " takes a length, not " + in_quotes(radius) +
+                   "; for a file of that name, write ./" + option.points);
     }
     return option;
 }
@@ -39,10 +47,16 @@ std::vector<AvoidOption> ConstraintOptions::parsed_avoid() const {
     return options;
 }
 
+bool ConstraintOptions::reads_points() const {
+    return !existing.empty() || std::ranges::any_of(parsed_avoid(), [](const AvoidOption& option) {
+        return option.kind == AvoidOption::Kind::file;
+    });
+}
+
 void ConstraintOptions::check(const std::string& metric) const {
     check_tolerance(tolerance);
     parsed_avoid();
-    if (!is_given() && !tolerance.empty()) {
+    if (!reads_points() && !tolerance.empty()) {
         fail_usage("--tolerance is for points that are read; give --existing or --avoid");
     }
     if (is_given() && metric != "geodesic") {
@@ -56,7 +70,9 @@ void ConstraintOptions::add_files(std::vector<NamedFile>& read) const {
         read.push_back({"the existing samples", existing});
     }
     for (const AvoidOption& option : parsed_avoid()) {
-        read.push_back({"the points to avoid", option.points});
+        if (option.kind == AvoidOption::Kind::file) {
+            read.push_back({"the points to avoid", option.points});
+        }
     }
 }
 
@@ -66,7 +82,7 @@ void ConstraintOptions::place_files(const std::function<std::string(const std::s
     }
     for (std::string& text : avoid) {
         const std::size_t colon = text.rfind(':');
-        if (colon != std::string::npos) {
+        if (colon != std::string::npos && parse_avoid(text).kind == AvoidOption::Kind::file) {
             text = place(text.substr(0, colon)) + text.substr(colon);
         }
     }
@@ -97,9 +113,10 @@ HeaderEntries ConstraintOptions::given() const {
 void add_avoid_option(Command command, ConstraintOptions& options, const std::string& group) {
     command
         .add_option("--avoid", options.avoid, "POINTS:RADIUS",
-                    "Place no new sample within RADIUS of the points of a file,\n"
-                    "along the surface. RADIUS: a length, or the name of a column\n"
-                    "of the file with one per point. May be given several times",
+                    "Place no new sample within RADIUS of the points and lines of a\n"
+                    "file, along the surface. RADIUS: a length, or the name of a\n"
+                    "column of the file with one per point. POINTS may be border or\n"
+                    "creases: edges of the mesh. May be given several times",
                     group)
         .takes_one_value();
 }

@@ -16,6 +16,10 @@ class Command;
 
 /// A value of --avoid.
 struct AvoidOption {
+    /// Points and lines of a file, or edges of the mesh: its borders or its creases.
+    enum class Kind { file, border, creases };
+
+    Kind kind = Kind::file;
     std::string points; ///< File.
     std::optional<Length> radius;
     std::string column; ///< Of radii, where there is no `radius`.
@@ -24,10 +28,12 @@ struct AvoidOption {
 /// As given on the command line.
 struct ConstraintOptions {
     std::string existing;           ///< File of samples to keep, or "".
-    std::vector<std::string> avoid; ///< Files of points to avoid, with radii.
+    std::vector<std::string> avoid; ///< What to avoid, with radii.
     std::string tolerance;          ///< For points without faces, or "".
 
     bool is_given() const { return !existing.empty() || !avoid.empty(); }
+    /// Returns true if points are read from a file.
+    bool reads_points() const;
     /// Throws UserError(usage) for what is not POINTS:RADIUS.
     std::vector<AvoidOption> parsed_avoid() const;
     /// Throws UserError(usage) for options that contradict each other, or `metric`, the name of the

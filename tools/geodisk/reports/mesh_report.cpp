@@ -97,4 +97,12 @@ Json mesh_json(const std::string& path, const HeaderEntries& additions, const Me
     return json;
 }
 
+std::string avoided_text(std::size_t points, double length) {
+    std::string text = points > 0 ? counted(points, "point", "points") : "";
+    if (length > 0) {
+        text += (text.empty() ? "" : ", ") + std::string("lines of length ") + rounded(length, 6);
+    }
+    return text;
+}
+
 } // namespace geodisk::tools

@@ -19,4 +19,7 @@ std::string mesh_lines(const std::string& label, const std::string& path,
 /// The same for programs.
 Json mesh_json(const std::string& path, const HeaderEntries& additions, const MeshInput& input);
 
+/// Returns how many points, and what length of lines, are avoided; "" for none.
+std::string avoided_text(std::size_t points, double length);
+
 } // namespace geodisk::tools

@@ -72,7 +72,7 @@ std::string maximal_line(const SampleJob& job, const MeshInput& mesh, const Samp
     return head + "certified: every point" +
            (mesh.face_mask.empty() ? "" : " that may have a sample") + " is within " +
            rounded(report.largest_gap * mesh.distance_part, 6) + " of a sample" +
-           (result.avoided > 0 ? " or avoided\n" : "\n");
+           (result.avoided > 0 || result.avoided_length > 0 ? " or avoided\n" : "\n");
 }
 
 /// Returns the number of samples of each class.
@@ -185,10 +185,8 @@ std::string constraint_lines(const SampleJob& job, const SampleResult& result) {
     if (job.features) {
         text += feature_line(result);
     }
-    if (result.avoided > 0) {
-        text += "avoided       " + counted(result.avoided, "point", "points") + '\n';
-    }
-    return text;
+    const std::string avoided = avoided_text(result.avoided, result.avoided_length);
+    return text + (avoided.empty() ? "" : "avoided       " + avoided + '\n');
 }
 
 } // namespace
@@ -293,6 +291,7 @@ Json SampleReport::document(const SecondsByStage& after) const {
                   {"sample_radii", nullptr}, // Where they do not vary.
                   {"given", nullptr},
                   {"avoided", result_.avoided}, // Without --existing.
+                  {"avoided_length", result_.avoided_length},
                   {"classes", nullptr},
                   {"features", nullptr},
                   {"levels", levels_json(told_levels(result_, distance))},

@@ -39,6 +39,7 @@ struct SampleResult {
     std::size_t given = 0;               ///< Number of rows that were given: the first.
     SpacingResult among_given;           ///< Their pairs.
     std::size_t avoided = 0;             ///< Number of points to avoid.
+    double avoided_length = 0;           ///< Length of lines to avoid.
     std::vector<std::uint32_t> classes;  ///< Of the rows; 0 if there are none.
     std::vector<std::uint32_t> features; ///< FeatureKind of the rows.
     std::size_t feature_corners = 0;     ///< Corners that may have samples.

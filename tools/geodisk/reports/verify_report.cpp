@@ -31,11 +31,12 @@ std::string smallest_text(const SampleCheck& check) {
     return smallest_text(result, check.spacing.min_distance);
 }
 
-Json intrusions_json(const std::vector<Intrusion>& intrusions) {
+/// The first `known` points are those of files, the others lie along lines.
+Json intrusions_json(const std::vector<Intrusion>& intrusions, std::size_t known) {
     Json rows = Json::array(), points = Json::array(), distances = Json::array();
     for (const Intrusion& one : intrusions) {
         rows.push_back(one.row);
-        points.push_back(one.point);
+        points.push_back(one.point < known ? Json(one.point) : Json(nullptr));
         distances.push_back(one.distance);
     }
     return {{"count", intrusions.size()},
@@ -113,15 +114,16 @@ std::string report_text(const SampleCheck& check) {
                     : "; " + pairs.pairs_text() + " among these too close, no violation")
             << '\n';
     }
-    if (check.avoided > 0) {
-        out << "avoided       " << counted(check.avoided, "point", "points") << "; "
+    if (check.avoids()) {
+        out << "avoided       " << avoided_text(check.avoided, check.avoided_length) << "; "
             << counted(check.intrusions.size(), "sample", "samples") << " within the radii\n";
     }
     for (std::size_t i = 0; i < std::min(check.intrusions.size(), kNamedStrays); ++i) {
         const Intrusion& one = check.intrusions[i];
         out << "              "
-            << "sample " << one.row << ": " << rounded(one.distance, 9) << " from point "
-            << one.point << '\n';
+            << "sample " << one.row << ": " << rounded(one.distance, 9) << " from "
+            << (one.point < check.avoided ? "point " + std::to_string(one.point) : "a line")
+            << '\n';
     }
     if (check.gaps) {
         out << "largest gap   " << gap_text(*check.gaps, check.mesh) << '\n';
@@ -153,7 +155,7 @@ std::string report_text(const SampleCheck& check) {
 
 std::string report_json(const SampleCheck& check) {
     const auto& [options, samples, mesh, warnings, spacing, strays, result, among_given, masked,
-                 avoided, intrusions, gaps, levels, features] = check;
+                 avoided, avoided_length, intrusions, gaps, levels, features] = check;
     const std::size_t given = check.given();
     const bool has_distance = spacing.min_distance > 0;
     return text_of(Json{
@@ -176,9 +178,10 @@ std::string report_json(const SampleCheck& check) {
         {"given", given == 0
                       ? Json(nullptr)
                       : Json{{"samples", given}, {"violations", violations_json(among_given)}}},
-        {"avoided", avoided == 0
-                        ? Json(nullptr)
-                        : Json{{"points", avoided}, {"intrusions", intrusions_json(intrusions)}}},
+        {"avoided", check.avoids() ? Json{{"points", avoided},
+                                          {"length", avoided_length},
+                                          {"intrusions", intrusions_json(intrusions, avoided)}}
+                                   : Json(nullptr)},
         {"maximal", gap_json(gaps)},
         {"levels", levels_json(levels)},
         {"wrong_radii", spacing.wrong},
@@ -208,7 +211,7 @@ std::string fault_text(const SampleCheck& check) {
             " farther off the mesh than --tolerance allows");
     }
     add(check.intrusions.size(), "sample is", "samples are",
-        " within the radius of a point to avoid");
+        " within the radius of a point or line to avoid");
     add(spacing.wrong, "radius is", "radii are",
         spacing.classes.is_given() ? " not that of the class"
                                    : " not what the density options give");

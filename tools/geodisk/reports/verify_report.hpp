@@ -31,6 +31,7 @@ struct SampleCheck {
     SpacingResult among_given;         ///< Of samples that were given.
     std::vector<std::uint32_t> masked; ///< Samples on faces that take none.
     std::size_t avoided = 0;           ///< Number of points to avoid.
+    double avoided_length = 0;         ///< Length of lines to avoid.
     std::vector<Intrusion> intrusions;
     std::optional<GapCheck> gaps;
     std::vector<LevelSpacing> levels;          ///< Of samples in progressive order.
@@ -42,6 +43,8 @@ struct SampleCheck {
     double rho() const;
     /// Number of samples of each class.
     std::vector<std::size_t> class_counts() const;
+    /// Returns true if there are points or lines to avoid.
+    bool avoids() const { return avoided > 0 || avoided_length > 0; }
     /// What the distance of a pair is a part of.
     std::string least_text() const;
 };
