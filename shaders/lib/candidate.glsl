@@ -28,6 +28,10 @@ float intensity_of(uint face) {
     return kSeveral ? uintBitsToFloat(part_word(part_of(face), 2u)) : push.intensity;
 }
 
+// Returns what is added to the orders of a surface's candidates. It keeps their dart order, and candidates
+// that several surfaces draw alike apart.
+uint lag_of(uint face) { return kSeveral ? part_word(part_of(face), 6u) : 0u; }
+
 // Returns the number of stages in which the face has candidates.
 uint stages_of(uint face) { return kSeveral ? part_word(part_of(face), 3u) : kAllStages; }
 
@@ -110,6 +114,7 @@ Candidate draw_candidate(uint face, uint stage, uint number) {
             kept = propose(c, random);
         }
     }
+    c.order += lag_of(face);
     return c;
 }
 

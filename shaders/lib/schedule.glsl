@@ -9,8 +9,12 @@ layout(constant_id = kSpecSlotLocalSize) const uint kSlotLocalSize = 64u;
 
 GEODISK_BUFFER(kBindList, , uint, list);
 
-// Average share of the places in the list of idle candidates that is filled.
+// Average share of the places in the list of idle candidates that is filled: less where surfaces draw alike,
+// since their candidates come in crowds.
 const float kListFill = 0.75;
+const float kListFillAlike = 0.375;
+// A list that holds less than this part of its orders is made again, of fewer orders.
+const uint kListPart = 8u;
 
 uint groups_of_slots(uint count) { return (count + kSlotLocalSize - 1u) / kSlotLocalSize; }
 
@@ -26,8 +30,8 @@ uint due_ranges() { return range_of(control.batch_end - 1u) - control.first_rang
 // Returns the order up to which this many idle candidates are expected, from `first` on. Disks reject
 // candidates whatever their order.
 uint order_after(uint first, float idle) {
-    precise float spacing = float((push.stages << kPriorityBits) - first) /
-                            max(float(control.idle), 1.0);
+    uint end = (push.stages << kPriorityBits) + job.most_lag;
+    precise float spacing = float(end - first) / max(float(control.idle), 1.0);
     precise float ahead = idle * spacing;
     float left = float(push.end_order - first);
     return ahead >= left ? push.end_order : first + max(uint(ahead), 1u);
@@ -55,7 +59,8 @@ uint end_after(uint first, float idle) {
 // Prepares select for all candidates, to list the idle ones from `first` on again.
 void prepare_list(uint first) {
     uint ranges = list_ranges();
-    precise float filled = kListFill * float(ranges * kListRange);
+    float fill = job.most_lag > 0u ? kListFillAlike : kListFill;
+    precise float filled = fill * float(ranges * kListRange);
     control.list_end = end_after(first, filled);
     control.list_first = first;
     control.list_width = (control.list_end - first - 1u) / ranges + 1u;
@@ -141,10 +146,22 @@ void end_batch() {
     go_on();
 }
 
-// Shortens the next batch or list if not even the first candidate found room.
-void limit_span(bool is_stuck, uint end) {
-    uint span = end - control.first_order;
+// Shortens the next batch if not even the first candidate found room.
+void limit_batch() {
+    bool is_stuck = control.first_left <= control.first_order;
+    uint span = control.batch_end - control.first_order;
     control.longest_span = is_stuck ? max(span / 2u, 1u) : kNoOrder;
+}
+
+// Ends the list where candidates found no room. If that is soon, makes a list of fewer orders: in a crowd,
+// room is found by narrower ranges.
+void limit_list() {
+    uint span = control.list_end - control.first_order;
+    uint listed = max(control.list_left, control.first_order) - control.first_order;
+    bool is_short = listed < span && listed <= span / kListPart;
+    uint fewer = min(max(2u * listed, control.list_width), max(span / 2u, 1u));
+    control.longest_span = is_short ? fewer : kNoOrder;
+    control.list_end = is_short ? control.first_order : min(control.list_end, control.list_left);
 }
 
 // Begins the batch that select has put into the slots.
@@ -152,7 +169,7 @@ void begin_batch() {
     uint most = control.mode == kSelectSettled ? push.slots : batch_slots();
     uint used = min(control.due, most);
     control.select_x = 0u;
-    limit_span(control.first_left <= control.first_order, control.batch_end);
+    limit_batch();
     if (used == 0u) {
         end_batch();
         return;
@@ -183,8 +200,7 @@ void go_on_selected() {
             set_out_select(next_blocks());
             return;
         }
-        limit_span(control.list_left <= control.first_order, control.list_end);
-        control.list_end = min(control.list_end, control.list_left);
+        limit_list();
         go_on(); // push.end_order may be lower by now.
     } else {
         begin_batch();

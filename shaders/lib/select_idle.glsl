@@ -122,8 +122,9 @@ uint rank_among(uint due, uint own) {
 
 void give_slots() {
     uint due = min(group_due, kListRange);
+    bool is_ordered = is_ranked() || group_slot + due > batch_slots();
     for (uint i = gl_LocalInvocationID.x; i < due; i += kSelectLanes) {
-        uint slot = group_slot + (is_ranked() ? rank_among(due, i) : i);
+        uint slot = group_slot + (is_ordered ? rank_among(due, i) : i);
         uint place = group_places[i];
         uint order = group_orders[i];
         if (slot < batch_slots()) {

@@ -7,7 +7,7 @@
 GEODISK_BEGIN_SHARED
 
 // Raised with every change of a record, a push block or the meaning of a constant.
-GEODISK_CONST uint kAbi = 24u;
+GEODISK_CONST uint kAbi = 25u;
 
 // If radii vary: maximum of proposals per candidate. It takes the first that is kept, or the last.
 GEODISK_CONST uint kMostProposals = 1024u;

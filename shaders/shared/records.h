@@ -28,10 +28,10 @@ struct RadiiRec {
 };
 
 // One of several surfaces: its seed, expected candidates per stage and unit of area, its number of stages;
-// its largest radius, in its own units, and its first face.
+// its largest radius, in its own units, its first face, and its lag.
 struct PartRec {
     uint seed_low; uint seed_high; float intensity; uint stages;
-    float radius; uint first_face; uint spare0; uint spare1;
+    float radius; uint first_face; uint lag; uint spare;
 };
 
 struct FanRec {
@@ -196,7 +196,7 @@ namespace geodisk::gpu {
 static_assert(sizeof(HalfEdgeRec) == 16 && offsetof(HalfEdgeRec, around) == 12);
 static_assert(sizeof(FaceLengthsRec) == 16 && offsetof(FaceLengthsRec, cells) == 12);
 static_assert(sizeof(RadiiRec) == 32 && offsetof(RadiiRec, density) == 28);
-static_assert(sizeof(PartRec) == 32 && offsetof(PartRec, spare1) == 28);
+static_assert(sizeof(PartRec) == 32 && offsetof(PartRec, spare) == 28);
 static_assert(sizeof(FanRec) == 16 && offsetof(FanRec, flags) == 12);
 static_assert(sizeof(AxisRec) == 32 && offsetof(AxisRec, per_step) == 28);
 static_assert(sizeof(SlotRec) == 64 && offsetof(SlotRec, rows_visited) == 60);

@@ -27,7 +27,8 @@ const Offsets kJob{GEODISK_OFFSET(JobRec, capacity),       GEODISK_OFFSET(JobRec
                    GEODISK_OFFSET(JobRec, has_keys),       GEODISK_OFFSET(JobRec, first_key_row),
                    GEODISK_OFFSET(JobRec, stop_count),     GEODISK_OFFSET(JobRec, idle_capacity),
                    GEODISK_OFFSET(JobRec, buckets),        GEODISK_OFFSET(JobRec, base_error),
-                   GEODISK_OFFSET(JobRec, first_mask_row), GEODISK_OFFSET(JobRec, first_class_row)};
+                   GEODISK_OFFSET(JobRec, first_mask_row), GEODISK_OFFSET(JobRec, first_class_row),
+                   GEODISK_OFFSET(JobRec, most_lag)};
 
 const Offsets kPush{GEODISK_OFFSET(Push, slots),           GEODISK_OFFSET(Push, batch),
                     GEODISK_OFFSET(Push, lanes),           GEODISK_OFFSET(Push, lanes_per_group),

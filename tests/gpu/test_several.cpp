@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "device_run.hpp"
+#include "engine/domain/drawn.hpp"
 #include "lib/frame.hpp"
 #include "sets.hpp"
 #include "support/radius_fields.hpp"
@@ -55,6 +56,36 @@ std::string refusal(const std::vector<SurfacePart>& parts) {
     REQUIRE_FALSE(domain);
     CHECK(domain.error().status == Status::invalid_argument);
     return domain.error().message;
+}
+
+/// Returns the seed, of the first so many, with the most candidates in all stages.
+std::uint64_t fullest_seed(const PreparedMesh& mesh, SampleParams params, std::uint64_t seeds) {
+    const JobFrame frame = expect(frame_of(mesh, params));
+    std::size_t most = 0;
+    std::uint64_t fullest = 0;
+    for (params.seed = 0; params.seed < seeds; ++params.seed) {
+        const CandidateDraw draw(mesh, params, frame);
+        std::vector<DrawnCandidate> drawn;
+        for (std::uint32_t stage = 0; stage < draw.stages().pool_stages(); ++stage) {
+            for (std::uint32_t face = 0; face < mesh.face_count(); ++face) {
+                draw.draw(face, stage, drawn);
+            }
+        }
+        if (drawn.size() > most) {
+            most = drawn.size();
+            fullest = params.seed;
+        }
+    }
+    return fullest;
+}
+
+/// A ball stretched by `by` along one axis.
+PreparedMesh stretched_ball(int level, double by) {
+    TestMesh shape = builtin("icosphere", level);
+    for (std::size_t i = 0; i < shape.positions.size(); i += 3) {
+        shape.positions[i] *= by;
+    }
+    return prepared(shape);
 }
 
 } // namespace
@@ -145,6 +176,45 @@ TEST_SUITE("several") {
         Runner runner =
             expect(Runner::create(shared_context().device(), shared_context().queue(), options));
         CHECK(points_of(expect(runner.sample_and_wait(domain))) == whole);
+    }
+
+    TEST_CASE("a thousand equal surfaces have equal samples, also where a seed draws very many") {
+        const PreparedMesh ball = prepared(builtin("icosphere", 1));
+        SampleParams params = params_for(ball, 12);
+        params.seed = fullest_seed(ball, params, 64);
+        const Points alone = points_of(sample(ball, params));
+        const Domain domain =
+            expect(Domain::surfaces(std::vector<SurfacePart>(1000, {&ball, params})));
+        Runner runner = expect(Runner::create(shared_context().device(), shared_context().queue()));
+        const SampleSet set = expect(runner.sample_and_wait(domain));
+        const auto points = points_by_surface(domain, set);
+        CHECK(std::ranges::count(points, alone) == 1000);
+        CHECK(set.report.iterations < 300);
+        RunnerOptions options;
+        options.plan.stages = 1;
+        options.plan.slots = 200;
+        Runner small =
+            expect(Runner::create(shared_context().device(), shared_context().queue(), options));
+        CHECK(points_of(expect(small.sample_and_wait(domain))) == points_of(set));
+    }
+
+    TEST_CASE("different surfaces with equal faces and one seed") {
+        std::vector<PreparedMesh> balls;
+        for (int i = 0; i < 80; ++i) {
+            balls.push_back(stretched_ball(1, 1 + 0.01 * i));
+        }
+        std::vector<SurfacePart> parts;
+        for (const PreparedMesh& ball : balls) {
+            parts.push_back({&ball, params_for(ball, 15)});
+        }
+        const Domain domain = expect(Domain::surfaces(parts));
+        Runner runner = expect(Runner::create(shared_context().device(), shared_context().queue()));
+        const auto points = points_by_surface(domain, expect(runner.sample_and_wait(domain)));
+        for (std::size_t i = 0; i < parts.size(); ++i) {
+            CAPTURE(i);
+            CHECK(points[i] == float_set(balls[i], parts[i].params,
+                                         ref::frame_of(balls[i], parts[i].params).first_error()));
+        }
     }
 
     TEST_CASE("what cannot be is refused, by the part") {

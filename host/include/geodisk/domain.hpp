@@ -58,7 +58,8 @@ class GEODISK_API Domain {
     /// to must outlive the domain and its runs. Each surface gets the samples that it gets alone,
     /// except that the largest guard (RunReport::guard) of one holds for all. Faces and vertices
     /// are numbered through all surfaces. Samples come in the order of the job, which keeps the
-    /// order of each surface; given ones first, surface by surface.
+    /// order of each surface; given ones first, surface by surface. If more than 32 surfaces have
+    /// the same seed, the orders of each are increased by a number of its own.
     ///
     /// Errors: those of surface(), naming the part; `invalid_argument` for no part, a null mesh, a
     /// scale that is not positive and finite, throws or a stop count, radii for some parts only, or

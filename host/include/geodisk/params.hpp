@@ -91,6 +91,11 @@ struct Stages {
     /// the candidates that all first stages expect together. 0 for one surface.
     std::uint32_t most_stages = 0;
     double most_expected = 0;
+    /// For several surfaces: a bound on the variance of the candidates of all first stages. Those
+    /// with the same seed draw alike, so that their deviations add up.
+    double most_variance = 0;
+    /// For several surfaces: how many have the same seed, at most.
+    std::uint32_t most_alike = 0;
     /// For a part of a surface in the frame of the whole: the expected samples of the whole, which
     /// tell how darts grow. 0 for `samples`.
     double of_whole = 0;
@@ -121,6 +126,10 @@ struct Stages {
     }
     /// Returns the maximum of candidates that so many stages expect, drawn at once.
     GEODISK_API double expected_at_once(std::uint32_t stages) const noexcept;
+    /// Returns a bound on the variance of the candidates of so many stages, drawn at once.
+    double variance_at_once(std::uint32_t stages) const noexcept {
+        return most_variance > 0 ? stages * most_variance : expected_at_once(stages);
+    }
     /// Returns the candidates that a pool expects.
     double pool() const noexcept { return ratio * samples; }
     /// Returns the candidates of the job: its darts, or else its pool.

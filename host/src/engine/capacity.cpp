@@ -14,6 +14,11 @@ namespace {
 // Room for random fluctuations: number of standard deviations above the expected candidates of a
 // stage.
 constexpr double kDeviations = 8;
+// Additional room, since the tail of a Poisson law is longer than that of a normal one: in all, and
+// for each surface of those that are alike. By Bernstein's inequality e^-32 bounds the probability
+// of more.
+constexpr double kTail = 64;
+constexpr double kTailOfAlike = 11;
 // Candidates per range of orders when samples are sorted.
 constexpr std::uint32_t kCandidatesPerBucket = 16;
 constexpr std::uint32_t kLeastBuckets = 256;
@@ -23,7 +28,9 @@ constexpr std::uint32_t kMostBuckets = 1u << 22;
 
 std::uint32_t capacity_for(const Stages& stages, std::uint32_t at_once) noexcept {
     const double expected = stages.expected_at_once(at_once);
-    const double most = std::ceil(expected + kDeviations * std::sqrt(expected) + 64);
+    const double deviation = std::sqrt(stages.variance_at_once(at_once));
+    const double tail = std::max(kTail, kTailOfAlike * stages.most_alike);
+    const double most = std::ceil(expected + kDeviations * deviation + tail);
     return static_cast<std::uint32_t>(std::min<double>(most, kMostCandidates));
 }
 

@@ -149,7 +149,7 @@ gpu::PartRec part_of(const PlacedSurface& surface) {
             surface.stages.pool_stages(),
             static_cast<float>(params.min_distance / 2),
             surface.first_face,
-            0,
+            surface.lag,
             0};
 }
 

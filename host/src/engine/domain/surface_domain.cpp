@@ -7,6 +7,7 @@
 #include "bindings.h"
 #include "constants.h"
 #include "engine/capacity.hpp"
+#include "engine/domain/alike_surfaces.hpp"
 #include "engine/domain/check_frame.hpp"
 #include "engine/domain/classes.hpp"
 #include "engine/domain/device_mesh.hpp"
@@ -84,6 +85,11 @@ Stages stages_of(PlacedSurfaces surfaces) {
         all.most_expected += own.expected(0);
     }
     all.ratio = pool / all.samples;
+    for (const AlikeSurfaces& alike : alike_surfaces(surfaces)) {
+        all.most_variance += alike.deviation * alike.deviation;
+        all.most_alike =
+            std::max(all.most_alike, static_cast<std::uint32_t>(alike.surfaces.size()));
+    }
     return all;
 }
 
@@ -189,6 +195,7 @@ Result<Domain> Domain::surfaces(std::span<const SurfacePart> parts) noexcept {
             }
             surfaces.push_back(*next);
         }
+        set_lags(surfaces);
         return wrapped(SurfaceDomain::make(std::move(surfaces)));
     });
 }
@@ -375,6 +382,7 @@ void SurfaceDomain::set_constants(gpu::JobRec& job, const RunPlan& plan) const {
     job.first_class_row =
         job.first_key_row +
         static_cast<std::uint32_t>((key_bytes(surfaces_) + mask_bytes(surfaces_)) / kRowBytes);
+    job.most_lag = std::ranges::max(surfaces_, {}, &PlacedSurface::lag).lag;
     job.vertices = vertex_count(surfaces_);
     job.path_rules = gpu::kRuleSplitsOnce | gpu::kRuleStraightFaces;
     for (const PlacedSurface& surface : surfaces_) {

@@ -191,7 +191,7 @@ void Job::Impl::begin_stages(std::uint32_t first, std::uint32_t count) {
     ready = first == 0 ? 0 : ready;
     awaits_cut = constants.capacity > stages.still_wanted(thrown);
     cut.reset();
-    chunk_end = count << gpu::kPriorityBits;
+    chunk_end = (count << gpu::kPriorityBits) + constants.most_lag;
     push.first_stage = first;
     push.stages = count;
     push.intensity = static_cast<float>(stages.per_sample(first) * samples_per_measure);
