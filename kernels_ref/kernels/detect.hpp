@@ -249,7 +249,7 @@ class Detector : public Windows<Real, kMayVary> {
         return kept_.trims(surface_.edges[h].origin, surface_.edges[next_in_face(h)].origin,
                            surface_.edges[h].length,
                            {window.x, window.y, window.b0, window.b1, window.sigma},
-                           Base::path_limit());
+                           Base::path_limit(), margin_);
     }
 
     /// Carries the window, given in the frame of h with its source at (x, -y), into the face of h.

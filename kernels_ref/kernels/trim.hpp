@@ -27,15 +27,17 @@ class KeptWindows {
 
     /// `scale` is that of the rounding of positions, by which one window may be farther than
     /// another that it trims: 1, or more where edges are long.
-    explicit KeptWindows(Real scale) : error_(scale * std::numeric_limits<Real>::epsilon()) {}
+    explicit KeptWindows(Real scale) : error_(scale * kError) {}
 
     /// Forgets the windows of earlier disks.
     void begin_disk() { ++generation_; }
 
     /// Returns true if a window that comes to the edge from vertex `start` to vertex `end` is
-    /// dropped: another one is not farther by more than rounding, everywhere that the window lights
-    /// before its paths are `limit` long. Otherwise it may be kept from now on.
-    bool trims(std::uint32_t start, std::uint32_t end, Real length, Window window, Real limit) {
+    /// dropped: everywhere that it lights before its paths are `limit` long, another one is not
+    /// farther by more than rounding, or a path from there along the edge is shorter by `margin`.
+    /// Otherwise it may be kept from now on.
+    bool trims(std::uint32_t start, std::uint32_t end, Real length, Window window, Real limit,
+               Real margin) {
         if (start > end) {
             std::swap(start, end);
             window = {length - window.x, window.y, length - window.b1, length - window.b0,
@@ -48,7 +50,7 @@ class KeptWindows {
             return row.start == start && row.end == end && row.generation == generation_;
         };
         for (const Row& row : kept) {
-            if (is_of_edge(row) && dominates(row.window, window, limit)) {
+            if (is_of_edge(row) && dominates(row.window, window, limit, margin)) {
                 return true;
             }
         }
@@ -72,16 +74,21 @@ class KeptWindows {
     };
     static Real square(Real v) { return v * v; }
 
-    /// Returns true if the kept window is hardly farther from the point `at` of the edge.
-    bool is_as_near(const Window& kept, const Window& other, Real at) const {
+    /// Returns true if the kept window is hardly farther from the point `at` of the edge. Where it
+    /// does not light the point, a path goes on from its end along the edge. That path bends, so it
+    /// must be shorter by the margin.
+    bool is_as_near(const Window& kept, const Window& other, Real at, Real margin) const {
+        const Real lit_at = std::clamp(at, kept.b0 - error_, kept.b1 + error_);
+        const Real along_edge = std::abs(at - lit_at) + margin;
         const Real distance = other.sigma + root(square(at - other.x) + square(other.y));
-        const Real rest = (distance - kept.sigma) + error_;
-        return rest >= 0 && square(at - kept.x) + square(kept.y) <= rest * rest;
+        const Real rest = (distance - kept.sigma) + (lit_at == at ? error_ : -along_edge);
+        return rest >= 0 && square(lit_at - kept.x) + square(kept.y) <= rest * rest;
     }
 
     /// Returns true if this holds everywhere. The difference of the two is largest at an end, or
-    /// where both sources are collinear with the point.
-    bool dominates(const Window& kept, const Window& other, Real limit) const {
+    /// where both sources are collinear with the point. Along the edge it grows away from what the
+    /// kept one lights.
+    bool dominates(const Window& kept, const Window& other, Real limit, Real margin) const {
         const Real way = limit - other.sigma;
         const Real low = std::max(other.b0, other.x - way);
         const Real high = std::min(other.b1, other.x + way);
@@ -89,15 +96,20 @@ class KeptWindows {
         const Real rise = kept.y - other.y;
         const Real over = rise < 0 ? -turn : turn;
         const Real under = std::abs(rise);
-        const Real width = high - low;
+        const Real first_both = std::max(low, kept.b0 - error_);
+        const Real last_both = std::min(high, kept.b1 + error_);
+        const Real width = last_both - first_both;
         const Real across = width * under;
         const Real part = across > static_cast<Real>(kSmallestSquare)
-                              ? ratio(over - low * under, across)
+                              ? ratio(over - first_both * under, across)
                               : Real{0};
-        return kept.b0 - error_ <= low && kept.b1 + error_ >= high &&
-               is_as_near(kept, other, low) && is_as_near(kept, other, high) &&
-               is_as_near(kept, other, low + width * part);
+        const Real between = first_both < last_both ? first_both + width * part : low;
+        return is_as_near(kept, other, low, margin) && is_as_near(kept, other, high, margin) &&
+               is_as_near(kept, other, between, margin);
     }
+
+    /// Long chains round to many times the error of one number; in float the guard allows no more.
+    static constexpr Real kError = std::max(std::numeric_limits<Real>::epsilon(), Real{0x1p-44});
 
     Real error_;
     std::vector<std::array<Row, gpu::kKeptPerEdge>> edges_; ///< Kept windows; empty until a disk

@@ -22,18 +22,22 @@ uint kept_row(uvec2 ends) {
 }
 
 // Returns true if the kept window is hardly farther, by trim_error(), at this position of the edge, than the
-// one in flight, whose source is at sx along and lane.y off the edge.
-bool is_as_near(vec2 kept_source, float kept_sigma, float sx, float at) {
+// one in flight, whose source is at sx along and lane.y off the edge. Where the kept one does not light the
+// position, a path goes on from its end along the edge. That path bends, so it must be shorter by the margin.
+bool is_as_near(vec2 kept_source, float kept_sigma, vec2 kept_lit, float sx, float at) {
+    float lit_at = min(max(at, kept_lit.x), kept_lit.y);
+    precise float along_edge = abs(at - lit_at) + margin;
     precise float dx = at - sx;
     precise float distance = lane.sigma + root(squared(dx, lane.y));
-    precise float rest = (distance - kept_sigma) + trim_error();
+    precise float rest = (distance - kept_sigma) + (lit_at == at ? trim_error() : -along_edge);
     precise float rest_square = rest * rest;
-    precise float kept_dx = at - kept_source.x;
+    precise float kept_dx = lit_at - kept_source.x;
     return rest >= 0.0 && squared(kept_dx, kept_source.y) <= rest_square;
 }
 
 // Returns true if this holds everywhere that the window in flight lights within reach. The difference of
-// the two is largest at an end, or where both sources are collinear with the point.
+// the two is largest at an end, or where both sources are collinear with the point. Along the edge it grows
+// away from what the kept one lights.
 bool dominates(vec2 kept_source, float kept_sigma, vec2 kept_lit, float sx, vec2 lit) {
     precise float way = path_limit() - lane.sigma;
     precise float first = sx - way;
@@ -46,13 +50,18 @@ bool dominates(vec2 kept_source, float kept_sigma, vec2 kept_lit, float sx, vec2
     precise float rise = kept_source.y - lane.y;
     float over = rise < 0.0 ? -turn : turn;
     float under = abs(rise);
-    precise float width = high - low;
-    precise float past_low = over - low * under;
+    float first_both = max(low, kept_low);
+    float last_both = min(high, kept_high);
+    precise float width = last_both - first_both;
+    precise float past_first = over - first_both * under;
     precise float across = width * under;
-    precise float on_line = low + width * (across > kSmallestSquare ? ratio(past_low, across) : 0.0);
-    return kept_low <= low && kept_high >= high && is_as_near(kept_source, kept_sigma, sx, low) &&
-           is_as_near(kept_source, kept_sigma, sx, high) &&
-           is_as_near(kept_source, kept_sigma, sx, on_line);
+    precise float on_line =
+        first_both + width * (across > kSmallestSquare ? ratio(past_first, across) : 0.0);
+    float between = first_both < last_both ? on_line : low;
+    vec2 widened = vec2(kept_low, kept_high);
+    return is_as_near(kept_source, kept_sigma, widened, sx, low) &&
+           is_as_near(kept_source, kept_sigma, widened, sx, high) &&
+           is_as_near(kept_source, kept_sigma, widened, sx, between);
 }
 
 // Converts a position on the edge to one from its lower vertex, if that is its end.
@@ -78,6 +87,7 @@ bool trimmed() {
     if (!trims() || !window_taken) {
         return false;
     }
+    set_margin();
     uint start = edge.origin & kVertexMask;
     uint end = right.origin & kVertexMask;
     bool turned = start > end;

@@ -132,10 +132,44 @@ TEST_CASE("sheets of needles upon each other take few windows") {
     }
 }
 
+TEST_CASE("disks among flat faces on top of each other end, wherever they begin") {
+    const PreparedMesh surface = prepared(shared_mesh("cases/layers_flat.obj").value());
+    const double reach = 90;
+    const std::vector<Point> points = random_points(surface, 1, 300);
+    GeodesicQuery<float> query(surface, reach, points, ref::frame_of(surface, reach).tolerances());
+    GeodesicQuery<double> exact(surface, reach, points, ref::double_tolerances());
+    for (const Point& source : points) {
+        query.from(source);
+        exact.from(source);
+        CHECK(query.count().windows < 5000);
+        CHECK(exact.count().windows < 5000);
+    }
+}
+
+TEST_CASE("trimming leaves all distances, among triangles of many faces per edge") {
+    const PreparedMesh surface = prepared(all_triangles(7));
+    const double reach = 0.8;
+    const std::vector<Point> points = random_points(surface, 1, 40);
+    GeodesicQuery<double> all(surface, reach, points, ref::double_tolerances());
+    GeodesicQuery<double> trimming(surface, reach, points, ref::double_tolerances());
+    trimming.trim_all();
+    std::uint32_t windows = 0, trimmed = 0;
+    for (const Point& source : points) {
+        const auto wanted = all.from(source);
+        const auto found = trimming.from(source);
+        windows += all.count().windows;
+        trimmed += trimming.count().windows;
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            CHECK((found[i] == wanted[i] || found[i] == doctest::Approx(wanted[i]).epsilon(1e-9)));
+        }
+    }
+    CHECK(trimmed < windows / 2);
+}
+
 TEST_CASE("a disk that does not end is an error, and the next one is as ever") {
     const PreparedMesh surface = prepared(all_triangles(24));
-    const double reach = 0.5;
-    const std::vector<Point> points = random_points(surface, 1, 20);
+    const double reach = 0.8;
+    const std::vector<Point> points = random_points(surface, 1, 12);
     GeodesicQuery<double> query(surface, reach, points, ref::frame_of(surface, reach).tolerances());
     std::uint32_t endless = 0;
     for (const Point& source : points) {

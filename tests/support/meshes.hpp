@@ -105,7 +105,7 @@ TestMesh needle_strip(std::uint32_t needles, double length);
 TestMesh needle_sheets();
 
 /// All triangles between some random points of the unit cube, so that each edge has two faces fewer
-/// than there are points. From 16 points on, windows in large disks are too many to wait for.
+/// than there are points. From 22 points on, windows in large disks are too many to wait for.
 TestMesh all_triangles(std::uint32_t points);
 
 /// The orientable double cover of builtin:moebius: face f of the strip lies under faces f and
