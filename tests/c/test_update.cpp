@@ -141,6 +141,35 @@ TEST_CASE("an edited mesh is found out about, and given samples are followed") {
     CHECK(samples_of(updater.get()).faces.front() == 200);
 }
 
+TEST_CASE("updates go by the frame of a plain run, and by another one where an edit needs it") {
+    TestMesh shape = builtin("torus-knot", 3); // Its edges are many distances long.
+    const auto before = mesh_of(shape);
+    const auto params = job_at(0.03);
+    geodisk_job_frame plain{};
+    REQUIRE(geodisk_job_frame_of(before.get(), &params, &plain, nullptr) == GEODISK_OK);
+    const Placed samples = whole_run(before.get(), params);
+    const Owned<geodisk_updater> updater = begin(before.get(), params, points_of(samples));
+    for (const double by : {0.001, 1.0}) {
+        CAPTURE(by);
+        shape.positions[3 * 20] += by;
+        const auto after = mesh_of(shape);
+        std::vector<std::uint32_t> changed;
+        for (std::uint32_t i = 0; i < shape.triangles.size(); ++i) {
+            if (shape.triangles[i] == 20) {
+                changed.push_back(i / 3);
+            }
+        }
+        REQUIRE(geodisk_update(updater.get(), shared_sampler(), after.get(), &params,
+                               changed.data(), changed.size(), nullptr, nullptr, nullptr,
+                               nullptr) == GEODISK_OK);
+        const geodisk_job_frame frame = frame_of(updater.get());
+        CHECK(samples_of(updater.get()) == whole_run(after.get(), params, &frame));
+        if (by < 1) { // The frame of the plain run has room for this.
+            CHECK(samples_of(updater.get()) == whole_run(after.get(), params, &plain));
+        }
+    }
+}
+
 TEST_CASE("updates that cannot be are refused") {
     const TestMesh shape = builtin("torus-knot", 8);
     const auto mesh = mesh_of(shape);

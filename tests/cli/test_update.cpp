@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <fstream>
+#include <sstream>
 #include <string>
 
 #include "cli/command.hpp"
@@ -50,7 +51,7 @@ TEST_CASE("samples are updated to those of a whole run, and few disks are comput
     const TemporaryFolder folder;
     write_hills(folder, "old.ply", 0);
     write_hills(folder, "new.ply", 1);
-    const Arguments job{"-d", "1.5", "--seed", "3"};
+    const Arguments job{"-d", "2", "--seed", "3"};
     REQUIRE(run(folder, joined({"sample", "old.ply", "-o", "a.ply"}, job)).status == 0);
     const Outcome updated = run(folder, joined({"sample", "new.ply", "-o", "b.ply", "--from",
                                                 "old.ply", "--update", "a.ply", "--json", "b.json"},
@@ -74,6 +75,85 @@ TEST_CASE("samples are updated to those of a whole run, and few disks are comput
                 .status == 0);
     CHECK(rows_of(folder, "e.ply") == rows_of(folder, "a.ply"));
     CHECK(disks_in(folder, "e.json") == 0);
+}
+
+TEST_CASE("updates are whole runs where edges are longer than the distance") {
+    const TemporaryFolder folder;
+    // A torus of few faces, with radii that vary.
+    const auto write_torus = [&folder](const std::string& name, double bump) {
+        std::ostringstream file;
+        file << "ply\nformat ascii 1.0\nelement vertex 160\nproperty double x\nproperty double "
+                "y\nproperty double z\nproperty double q\nelement face 320\nproperty list uchar "
+                "int vertex_indices\nend_header\n";
+        file.precision(17);
+        for (int i = 0; i < 20; ++i) {
+            for (int k = 0; k < 8; ++k) {
+                const double a = 0.1 * 3.14159265 * i, b = 0.25 * 3.14159265 * k;
+                const double r = 1 + 0.4 * std::cos(b);
+                const bool is_bump = (8 * i + k) % 50 == 5;
+                file << r * std::cos(a) << ' ' << r * std::sin(a) << ' '
+                     << 0.4 * std::sin(b) + (is_bump ? bump : 0) << ' '
+                     << 1 - 0.25 * ((7 * i + k) % 3) << '\n';
+            }
+        }
+        for (int i = 0; i < 20; ++i) {
+            for (int k = 0; k < 8; ++k) {
+                const auto at = [](int row, int column) { return row % 20 * 8 + column % 8; };
+                file << "3 " << at(i, k) << ' ' << at(i + 1, k) << ' ' << at(i + 1, k + 1) << '\n';
+                file << "3 " << at(i, k) << ' ' << at(i + 1, k + 1) << ' ' << at(i, k + 1) << '\n';
+            }
+        }
+        folder.write(name, file.str());
+    };
+    write_torus("old.ply", 0);
+    write_torus("mid.ply", 0.02);
+    write_torus("new.ply", 0.3);
+    for (const char* const seed : {"1", "2"}) {
+        CAPTURE(seed);
+        const Arguments job{"-d", "0.04", "--radius-factor", "q", "--seed", seed};
+        const auto sample = [&](const std::string& mesh, const std::string& out,
+                                const Arguments& more) {
+            const Outcome made =
+                run(folder, joined(joined({"sample", mesh, "-o", out}, job), more));
+            INFO(made.err);
+            REQUIRE(made.status == 0);
+            return made.err;
+        };
+        const std::string again = "all samples are decided again, as without --update";
+        const auto follow = [&](const std::string& before, const std::string& edited,
+                                const std::string& out) {
+            const Arguments from{"--from", before + ".ply"};
+            sample(edited + ".ply", "whole.ply", from);
+            const std::string told = sample(edited + ".ply", out + ".s.ply",
+                                            joined(from, {"--update", before + ".s.ply"}));
+            CHECK(rows_of(folder, out + ".s.ply") == rows_of(folder, "whole.ply"));
+            return told;
+        };
+        sample("old.ply", "old.s.ply", {});
+        sample("new.ply", "plain.ply", {});
+        // Longer edges than the frame of the mesh before allows.
+        CHECK(contains(follow("old", "new", "new"), "need wider tolerances; so " + again));
+        CHECK(rows_of(folder, "new.s.ply") == rows_of(folder, "plain.ply"));
+        CHECK_FALSE(contains(bytes_of(folder / "new.s.ply"), "job_frame"));
+        // Shorter ones, in the frame of the mesh before; then samples of that.
+        CHECK_FALSE(contains(follow("new", "mid", "mid"), again));
+        CHECK(contains(bytes_of(folder / "mid.s.ply"), "comment job_frame: 47444a46"));
+        CHECK(contains(follow("mid", "old", "old"),
+                       "mid.s.ply was decided with other tolerances than a run over mid.ply"));
+    }
+}
+
+TEST_CASE("an edit that only copies a face changes no samples") {
+    const TemporaryFolder folder;
+    const std::string old = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0.2\nf 1 2 3\nf 2 4 3\n";
+    folder.write("old.obj", old);
+    folder.write("new.obj", old + "f 1 2 3\n");
+    REQUIRE(run(folder, {"sample", "old.obj", "-d", "0.1", "-o", "s.ply"}).status == 0);
+    const Outcome updated = run(folder, {"sample", "new.obj", "-d", "0.1", "--from", "old.obj",
+                                         "--update", "s.ply", "-o", "u.ply"});
+    INFO(updated.err);
+    REQUIRE(updated.status == 0);
+    CHECK(rows_of(folder, "u.ply") == rows_of(folder, "s.ply"));
 }
 
 TEST_CASE("files say what they were made from, and whether their samples were changed") {
@@ -199,9 +279,12 @@ TEST_CASE("updates of other samples, meshes and kinds are refused") {
     folder.write("seed.ply", other_seed);
     refused(3, "seed.ply: sample ",
             {"-d", "3", "--seed", "9", "--from", "old.ply", "--update", "seed.ply"});
-    write_hills(folder, "tall.ply", 90);
-    check_fails(folder, 3, "tall.ply: has an edge of length 90",
-                {"sample", "tall.ply", "-o", "b.ply", "-d", "3", "--from", "old.ply"});
+    std::string other_frame = bytes_of(folder / "a.ply");
+    other_frame.replace(other_frame.find("comment seed: 0"), 15,
+                        "comment seed: 0\ncomment job_frame: 47");
+    folder.write("frame.ply", other_frame);
+    refused(3, "frame.ply: its header has a wrong job_frame: a job frame has 64 bytes, there are 1",
+            {"-d", "3", "--from", "old.ply", "--update", "frame.ply"});
     write_hills(folder, "wide.ply", 0, 60);
     refused(3, "a.ply: sample ", {"-d", "3", "--from", "wide.ply", "--update", "a.ply"});
     refused(2, "--update: the minimum distance exceeds old.ply", joined(edit, {"-d", "900"}));

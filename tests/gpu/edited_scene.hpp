@@ -49,13 +49,34 @@ class Scene {
         params.min_distance = distance_for_count(effective_area(surface, params), count);
     }
 
+    Scene(Scene&&) = default;
+
     /// Samples the surface as it is, and begins to follow it.
     void begin() {
         const PreparedMesh surface = prepare();
-        const JobFrame frame = frame_for_edits(expect(frame_of(surface, params)));
+        const JobFrame frame = expect(frame_of(surface, params));
         const SampleSet set = expect(runner().sample_and_wait(surface, params));
         updater.emplace(expect(Updater::create(mesh.view(), params, frame, set.samples)));
+        CHECK(decide_alike(updater->frame(), frame));
         CHECK(points_of(updater->samples()) == test::points_of(set));
+    }
+
+    /// Follows an edit as follow(), and also by an updater of the surfaces before and after. `edit`
+    /// changes the scene and returns the faces that it changes.
+    template <class Edit>
+    UpdateReport follow_both(const Edit& edit) {
+        const Scene before(*this);
+        const std::vector<std::uint32_t> changed = edit();
+        prepare();
+        const auto own = updater->samples();
+        auto other =
+            expect(Updater::create({before.mesh.view(), before.job()}, {mesh.view(), params},
+                                   updater->frame(), std::vector(own.begin(), own.end())));
+        expect(other.update(runner(), mesh.view(), params, {}));
+        const UpdateReport report = follow(changed);
+        CHECK(points_of(other.samples()) == points_of(updater->samples()));
+        CHECK(other.frame() == updater->frame());
+        return report;
     }
 
     /// Follows an edit of some faces, and checks the samples against whole runs.
@@ -155,6 +176,51 @@ class Scene {
         }
         return changed;
     }
+    /// Appends a copy of a face.
+    std::vector<std::uint32_t> copy_face() {
+        const std::uint32_t face = below(mesh.face_count());
+        const std::uint32_t* const c = &mesh.triangles[3 * face];
+        mesh.add_triangle(c[0], c[1], c[2]);
+        add_to_fields(1);
+        return {};
+    }
+    /// Appends a face at an edge, which may have two already. It reaches this far.
+    std::vector<std::uint32_t> add_flap(double height) {
+        const std::uint32_t face = below(mesh.face_count());
+        const std::uint32_t a = mesh.triangles[3 * face], b = mesh.triangles[3 * face + 1];
+        const Vec3 from = mesh.vertex(a), to = mesh.vertex(b);
+        add_vertex({(from.x + to.x) / 2, (from.y + to.y) / 2, (from.z + to.z) / 2 + height}, a);
+        mesh.add_triangle(a, b, mesh.vertex_count() - 1);
+        add_to_fields(1);
+        return {};
+    }
+    /// Splits a face at a point of an edge, and fills the slit with a flat triangle.
+    std::vector<std::uint32_t> add_cap() {
+        const std::uint32_t face = below(mesh.face_count());
+        const std::uint32_t a = mesh.triangles[3 * face], b = mesh.triangles[3 * face + 1],
+                            c = mesh.triangles[3 * face + 2];
+        const Vec3 from = mesh.vertex(a), to = mesh.vertex(b);
+        const double t = part();
+        const std::uint32_t middle = mesh.vertex_count();
+        add_vertex({from.x + t * (to.x - from.x), from.y + t * (to.y - from.y),
+                    from.z + t * (to.z - from.z)},
+                   a);
+        mesh.triangles[3 * face + 1] = middle;
+        mesh.add_triangle(middle, b, c);
+        mesh.add_triangle(a, b, middle);
+        add_to_fields(2);
+        return {face};
+    }
+    /// Appends a triangle that nothing else meets, of this length and height.
+    std::vector<std::uint32_t> add_island(double length, double height) {
+        const std::uint32_t first = mesh.vertex_count();
+        for (const auto& [x, y] : {std::pair{0.0, 0.0}, {length, 0.0}, {length / 2, height}}) {
+            add_vertex({30 + x, y, 0}, 0);
+        }
+        mesh.add_triangle(first, first + 1, first + 2);
+        add_to_fields(1);
+        return {};
+    }
     /// Removes some faces, and reverses the order of faces and vertices.
     void reverse_without(std::uint32_t first, std::uint32_t end) {
         const TestMesh old = std::exchange(mesh, {});
@@ -216,19 +282,35 @@ class Scene {
         if (std::ranges::any_of(factors, [](double g) { return g != 1; })) {
             radii =
                 by_density ? density_field(surface, densities()) : radius_field(surface, factors);
-            params.radii = &*radii;
         }
-        params.face_mask = mask;
-        params.face_keys = keys;
         // Given samples and points to avoid go with their faces.
         std::erase_if(given, [this](const Sample& sample) { return !takes_part(sample.face); });
         std::erase_if(avoid, [this](const KeepOut& one) { return !takes_part(one.center.face); });
-        params.given = given;
-        params.avoid = avoid;
+        params = job();
         return surface;
     }
 
   private:
+    /// Copies all but the updater.
+    Scene(const Scene& other)
+        : mesh(other.mesh), random_(other.random_), factors(other.factors), mask(other.mask),
+          keys(other.keys), given(other.given), avoid(other.avoid), by_density(other.by_density),
+          params(other.params), radii(other.radii) {}
+
+    /// Returns the parameters of the surface as it is.
+    SampleParams job() const {
+        SampleParams own = params;
+        own.radii = radii ? &*radii : nullptr;
+        own.face_mask = mask;
+        own.face_keys = keys;
+        own.given = given;
+        own.avoid = avoid;
+        return own;
+    }
+    void add_vertex(Vec3 p, std::uint32_t like) {
+        mesh.add_vertex(p);
+        factors.push_back(factors[like]);
+    }
     bool takes_part(std::uint32_t face) const {
         const std::uint32_t* const c = &mesh.triangles[3 * face];
         return c[0] != c[1] && c[1] != c[2] && c[2] != c[0];

@@ -18,6 +18,28 @@
 namespace geodisk::test {
 namespace {
 
+/// A torus of 320 faces.
+TestMesh coarse_torus() {
+    constexpr std::uint32_t kRows = 20, kColumns = 8;
+    TestMesh mesh;
+    for (std::uint32_t i = 0; i < kRows; ++i) {
+        for (std::uint32_t k = 0; k < kColumns; ++k) {
+            const double a = 0.31415926 * i, b = 0.78539816 * k, r = 1 + 0.4 * std::cos(b);
+            mesh.add_vertex({r * std::cos(a), r * std::sin(a), 0.4 * std::sin(b)});
+        }
+    }
+    for (std::uint32_t i = 0; i < kRows; ++i) {
+        for (std::uint32_t k = 0; k < kColumns; ++k) {
+            const auto at = [&](std::uint32_t row, std::uint32_t column) {
+                return row % kRows * kColumns + column % kColumns;
+            };
+            mesh.add_triangle(at(i, k), at(i + 1, k), at(i + 1, k + 1));
+            mesh.add_triangle(at(i, k), at(i + 1, k + 1), at(i, k + 1));
+        }
+    }
+    return mesh;
+}
+
 /// Follows random edits, with steps of these lengths.
 void check_edits(Scene& scene, int edits) {
     scene.begin();
@@ -79,6 +101,98 @@ TEST_SUITE("update") {
         check_edits(ball, 15);
         Scene dense(builtin("icosphere", 4), 600, 9, 0.4, true);
         check_edits(dense, 20);
+    }
+    TEST_CASE("in the frame of a plain run, whatever its guard") {
+        // Edges are so long that a frame for longer ones has another guard.
+        for (const std::uint32_t seed : {21u, 22u}) {
+            Scene scene(coarse_torus(), 11000, seed, 0.5);
+            scene.begin();
+            CHECK(scene.updater->frame().longest_edge > 9);
+            scene.follow_both([&] { return scene.move_vertex(0.01); });
+        }
+        Scene sides(builtin("cube", 1), 5000, 23);
+        sides.begin();
+        sides.follow_both([&] { return sides.move_vertex(0.01); });
+    }
+    TEST_CASE("edits that need another frame decide all, and the next ones what they can reach") {
+        for (const double least : {1.0, 0.4}) {
+            Scene ball(builtin("icosphere", 3), 1000, 23, least);
+            ball.begin();
+            const double distance = ball.params.min_distance;
+            const JobFrame first = ball.updater->frame();
+            const UpdateReport longer =
+                ball.follow_both([&] { return ball.add_flap(9.5 * distance); });
+            CHECK(longer.faces == ball.mesh.face_count());
+            CHECK(longer.added > 0);
+            CHECK_FALSE(decide_alike(first, ball.updater->frame()));
+            const JobFrame second = ball.updater->frame();
+            const UpdateReport within =
+                ball.follow_both([&] { return ball.add_flap(5 * distance); });
+            CHECK(within.faces < ball.mesh.face_count());
+            CHECK(second == ball.updater->frame());
+        }
+        // Edges of three faces.
+        Scene plain(builtin("icosphere", 3), 200, 24);
+        plain.begin();
+        const JobFrame frame = plain.updater->frame();
+        plain.follow_both([&] { return plain.add_flap(0.01); });
+        CHECK(frame.splits_once);
+        CHECK_FALSE(plain.updater->frame().splits_once);
+        // Farther than single precision resolves.
+        TestMesh far = plain.mesh;
+        for (double& x : far.positions) {
+            x *= 1e5;
+        }
+        const auto failed = plain.updater->update(runner(), far.view(), plain.params, {{0}});
+        REQUIRE_FALSE(failed);
+        CHECK(failed.error().message.starts_with("the minimum distance is too small for this"));
+    }
+    TEST_CASE("copies of faces, and faces without area") {
+        Scene ball(builtin("icosphere", 3), 400, 25);
+        ball.begin();
+        CHECK(ball.follow_both([&] { return ball.copy_face(); }).rounds == 1);
+        for (const double height : {0.0, 1e-17, 1e-15, 1e-9}) {
+            CAPTURE(height);
+            ball.follow_both([&] { return ball.add_island(0.01, height); });
+        }
+        // A copy is alone with the face that it is of.
+        Scene single(TestMesh{{0, 0, 0, 1, 0, 0, 0, 1, 0}, {0, 1, 2}}, 100, 26);
+        single.begin();
+        single.follow_both([&] { return single.copy_face(); });
+        single.follow_both([&]() -> std::vector<std::uint32_t> {
+            single.mesh.add_triangle(0, 0, 1);
+            return {};
+        });
+    }
+    TEST_CASE("over edits of all kinds") {
+        for (const std::uint32_t seed : {31u, 32u, 33u, 34u}) {
+            CAPTURE(seed);
+            Scene scene(builtin("torus-knot", 5), 500, seed, seed % 2 == 0 ? 0.3 : 1);
+            if (seed == 33) {
+                scene.keys.resize(scene.mesh.face_count());
+                std::iota(scene.keys.rbegin(), scene.keys.rend(), 5u);
+            }
+            scene.begin();
+            const double distance = scene.params.min_distance;
+            const std::function<std::vector<std::uint32_t>()> kinds[] = {
+                [&] { return scene.move_vertex(0.3 * distance); },
+                [&] { return scene.move_vertex(4 * distance); },
+                [&] { return scene.remove_face(); },
+                [&] { return scene.split_face(); },
+                [&] { return scene.mask_stroke(1.5 * distance); },
+                [&] { return scene.change_given(); },
+                [&] { return scene.change_avoided(6 * distance); },
+                [&] { return scene.copy_face(); },
+                [&] { return scene.add_flap(2 * distance); },
+                [&] { return scene.add_cap(); },
+                [&] { return scene.add_island(distance, 1e-17); },
+                [&] { return scene.radius_stroke(1.5 * distance); }};
+            const auto count = static_cast<std::uint32_t>(std::size(kinds));
+            for (int i = 0; i < 12; ++i) {
+                CAPTURE(i);
+                scene.follow_both(kinds[scene.below(scene.radii ? count : count - 1)]);
+            }
+        }
     }
     TEST_CASE("an edit decides only what it can reach") {
         Scene ball(builtin("icosphere", 5), 3000, 11);

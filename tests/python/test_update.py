@@ -48,6 +48,26 @@ def test_samples_of_files_need_their_mesh(tmp_path):
     assert same(there, whole(moved()))
 
 
+def test_samples_know_the_frame_that_decided_them(tmp_path):
+    flap = np.concatenate([FACES, [[0, FACES[0, 1], 9]]])
+    edits = [(VERTICES * [1, 1, 3], FACES), (VERTICES, flap)]
+    assert SAMPLES._frame is None
+    for vertices, faces in edits:
+        there = geodisk.update(SAMPLES, vertices, faces)
+        assert there.report["update"]["faces"] == len(faces)
+        assert same(there, geodisk.sample(vertices, faces, min_distance=0.3, seed=5))
+        for suffix in ("ply", "csv", "npz"):
+            there.save(tmp_path / f"there.{suffix}")
+            read = geodisk.read(tmp_path / f"there.{suffix}")
+            assert read._frame == there._frame
+            back = geodisk.update(read, VERTICES, FACES, vertices=vertices, faces=faces)
+            assert same(back, SAMPLES) and back.report["update"]["rounds"] > 0
+        assert pickle.loads(pickle.dumps(there))._frame == there._frame
+    wrong = dataclasses.replace(read, _frame=geodisk._job.JobFrame("47zz"))
+    with pytest.raises(geodisk.InvalidArgument, match="wrong job_frame"):
+        geodisk.update(wrong, VERTICES, FACES, vertices=vertices, faces=faces)
+
+
 def test_masks_and_existing_samples():
     masked = whole(face_mask=MASK)
     assert same(geodisk.update(SAMPLES, face_mask=MASK), masked)
@@ -269,9 +289,7 @@ def test_what_cannot_be_updated_is_refused():
     refused("none of", kind=TypeError, before={"seed": 1})
     refused("to_faces", kind=TypeError, to_faces=FACES)
     refused("no mesh", geodisk.sample_box([1, 1], min_distance=0.2))
-    refused("the edited mesh has an edge that is longer", SAMPLES, VERTICES * [1, 1, 1000])
-    flap = np.concatenate([FACES, [[0, FACES[0, 1], 9]]])
-    refused("edges of more than two faces, and the mesh before has none", SAMPLES, VERTICES, flap)
+    refused("the minimum distance is too small for this mesh", SAMPLES, VERTICES * [1, 1, 1e5])
     density = 1 + (VERTICES[:, 0] > 0)
     refused("another largest or least value", whole(density=density), density=density**2)
     refused("with density, so radius_factor changes", whole(density=density), radius_factor=density)

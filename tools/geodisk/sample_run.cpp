@@ -153,6 +153,18 @@ std::vector<ExtraColumn> extra_columns(const SampleJob& job, const MeshInput& me
     return columns;
 }
 
+/// Returns the frame of a pool if the mesh and the distance in the header may not say it.
+std::optional<JobFrame> frame_to_tell(const SampleJob& job, const MeshInput& mesh,
+                                      const SampleParams& params,
+                                      const std::optional<UpdateRun>& update) {
+    if (update) {
+        return update->frame();
+    }
+    return job.is_geodesic() && mesh.distance_part != 1
+               ? std::optional(take(frame_of(mesh.prepared, params)))
+               : std::nullopt;
+}
+
 /// Puts the samples in farthest-point order, and leaves out those that are not to be kept.
 void put_farthest_first(const SampleJob& job, const MeshInput& mesh, RunDevice& device,
                         ProgressLine& progress, SampleResult& result) {
@@ -254,6 +266,7 @@ SampleResult sample_mesh(const SampleJob& job, const MeshInput& mesh, RunDevice&
     params.given_classes = {};
     params.avoid = {};
     SampleResult result;
+    result.frame = frame_to_tell(job, mesh, params, update);
     result.params = params;
     result.done = std::move(done);
     result.rows = to_rows(mesh, params.min_distance, set.samples);
@@ -280,6 +293,9 @@ SampleResult sample_mesh(const SampleJob& job, const MeshInput& mesh, RunDevice&
     result.bare = parts_without(mesh.prepared, faces, params.face_mask);
     result.warnings = run_warnings(job, mesh, result);
     result.warnings.insert(result.warnings.begin(), given.warnings.begin(), given.warnings.end());
+    if (update && update->warning()) {
+        result.warnings.push_back(*update->warning());
+    }
     if (features.are_missing()) {
         result.warnings.push_back({"no_features", 1, "",
                                    "no edge where samples may lie turns by more than " +

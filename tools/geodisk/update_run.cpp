@@ -10,6 +10,7 @@
 
 #include <geodisk/update.hpp>
 
+#include "files/job_frame_text.hpp"
 #include "files/sample_columns.hpp"
 #include "geodisk/checks/sample_checks.hpp"
 #include "geodisk/checks/sample_input.hpp"
@@ -66,9 +67,8 @@ std::string values_of(std::string_view key, const HeaderEntries& entries) {
     return text;
 }
 
-/// Checks that the frame of the mesh before has room for the edited one.
-void check_edit(const SampleJob& job, const MeshInput& before, const MeshInput& mesh,
-                const JobFrame& frame) {
+/// Checks that samples can follow from one mesh to the other.
+void check_edit(const SampleJob& job, const MeshInput& before, const MeshInput& mesh) {
     const auto fail = [&](const std::string& what) {
         fail_input(job.mesh.mesh, what + "; sample it without --from");
     };
@@ -82,15 +82,17 @@ void check_edit(const SampleJob& job, const MeshInput& before, const MeshInput& 
         fail("has another largest or least density than " + job.from +
              ", by which all radii go, so all of them change");
     }
-    const MeshStatistics& statistics = mesh.prepared.statistics();
-    const double longest = frame.longest_edge * frame.unit;
-    if (statistics.longest_edge > longest) {
-        fail("has an edge of length " + rounded(statistics.longest_edge, 6) + ", and edits of " +
-             job.from + " may have edges up to " + rounded(longest, 6));
+}
+
+/// Returns the frame in which samples of a mesh were decided: that of their header, or else that of
+/// a run over the mesh at their distance.
+JobFrame frame_of_samples(const SampleFile& file, const std::string& path, const MeshInput& mesh,
+                          SampleParams params) {
+    if (const std::string* const text = file.header.find(kJobFrame)) {
+        return job_frame_of_text(*text, path);
     }
-    if (frame.splits_once && statistics.nonmanifold_edges != 0) {
-        fail("has edges of more than two faces, and " + job.from + " has none");
-    }
+    params.min_distance = header_distance(path, file.header) / mesh.distance_part;
+    return take(frame_of(mesh.prepared, params), path);
 }
 
 /// Checks that samples are of a kind that can be updated.
@@ -168,9 +170,12 @@ std::string edit_text(const SampleJob& job) {
 
 UpdateRun::UpdateRun(const SampleJob& job, const MeshInput& mesh, ProgressLine& progress)
     : job_(job), mesh_(mesh), before_(load_mesh(options_of(job), progress, job.density, job.mask)),
-      params_(params_on(before_, job)),
-      frame_(frame_for_edits(take(frame_of(before_.prepared, params_)))) {
-    check_edit(job, before_, mesh_, frame_);
+      params_(params_on(before_, job)) {
+    check_edit(job, before_, mesh_);
+    const JobFrame plain = take(frame_of(before_.prepared, params_));
+    SampleParams edited = mesh_.with_fields(job.params);
+    edited.min_distance = params_.min_distance;
+    frame_ = take(frame_for_edit(plain, mesh_.prepared, edited), edit_text(job));
     if (job.update.empty()) {
         return;
     }
@@ -191,12 +196,34 @@ UpdateRun::UpdateRun(const SampleJob& job, const MeshInput& mesh, ProgressLine& 
     for (const MeshWarning& warning : warnings) {
         print_warning(job.update + ": " + warning.message);
     }
-    for (const SampleRow& row : file.rows) {
-        samples_.push_back(sample_of(row));
+    if (!decide_alike(frame_of_samples(file, job.update, before_, params_), plain)) {
+        decide_all(job.update + " was decided with other tolerances than a run over " + job.from +
+                   " has");
+        return;
     }
+    if (!decide_alike(frame_, plain)) {
+        decide_all("longer edges than " + job.from +
+                   " has, or edges of more than two faces, need wider tolerances");
+        return;
+    }
+    // Rows may be in another order.
     const auto marks = file.extra_values(kGivenColumn);
-    const auto given = static_cast<std::size_t>(std::ranges::count(marks, 1u));
+    const auto add = [&](bool is_given) {
+        for (std::size_t i = 0; i < file.rows.size(); ++i) {
+            if ((!marks.empty() && marks[i] == 1) == is_given) {
+                samples_.push_back(sample_of(file.rows[i]));
+            }
+        }
+    };
+    add(true);
+    const std::size_t given = samples_.size();
+    add(false);
     params_.given = std::span(samples_).first(given);
+}
+
+void UpdateRun::decide_all(const std::string& reason) {
+    warning_ = {"all_decided", 1, "",
+                reason + "; so all samples are decided again, as without --update", job_.mesh.mesh};
 }
 
 Result<SampleSet> UpdateRun::sample(Runner& runner, const SurfaceTask& surface,

@@ -12,6 +12,7 @@
 #include "geodisk/inputs/mesh_input.hpp"
 #include "geodisk/options/sample_options.hpp"
 #include "geodisk/outputs/progress.hpp"
+#include "geometry/mesh_warning.hpp"
 
 namespace geodisk::tools {
 
@@ -30,18 +31,24 @@ class UpdateRun : public SurfaceSampler {
     const JobFrame& frame() const { return frame_; }
     /// Returns true if there are samples to update.
     bool has_samples() const { return !samples_.empty(); }
+    /// Returns the warning that samples of --update do not help, if so.
+    const std::optional<MeshWarning>& warning() const { return warning_; }
 
     Result<SampleSet> sample(Runner& runner, const SurfaceTask& surface,
                              const ProgressCallback& progress) override;
     const std::vector<ProcessReport>& processes() const override { return processes_; }
 
   private:
+    /// Leaves out the samples of --update.
+    void decide_all(const std::string& reason);
+
     const SampleJob& job_;
     const MeshInput& mesh_;
     MeshInput before_;
     SampleParams params_; ///< On the mesh before.
     JobFrame frame_;
     std::vector<Sample> samples_; ///< Before; the given ones first.
+    std::optional<MeshWarning> warning_;
     std::vector<ProcessReport> processes_;
 };
 

@@ -737,15 +737,17 @@ GEODISK_C_API geodisk_status geodisk_farthest_order(geodisk_sampler *sampler,
 /* ---- Updates ----------------------------------------------------------------------------------- */
 
 /* The samples of a surface, kept up to date while it is edited. An update decides only what the
- * edit can reach. The samples are always those of a whole run in the same frame, as
- * geodisk_domain_surface_in_frame makes it. One call at a time. */
+ * edit can reach. If an edit makes an edge longer than the frame allows, or the first edge of more
+ * than two faces, it decides everything in the frame of the edited surface. The samples are always
+ * those of a whole run in the frame of the updater, as geodisk_domain_surface_in_frame makes it. One
+ * call at a time. */
 typedef struct geodisk_updater geodisk_updater;
 
 /* Makes the updater of a surface and its samples: all of a run, the given ones first. Everything is
  * copied. The metric is GEODISK_GEODESIC, and `params` has no throws, stop_count, classes and
- * is_maximal; the mesh has coordinates. `frame` is that of the mesh that the job began with; NULL for
- * the frame of this one, with room for edges that become longer by up to 8 minimum distances. Fails
- * for a sample that is no candidate of these parameters, with its index in `error->element`. */
+ * is_maximal; the mesh has coordinates. `frame` is the one in which the samples were decided; NULL if
+ * they are from a run over this mesh without another frame. Fails for a sample that is no candidate of
+ * these parameters, with its index in `error->element`. */
 GEODISK_C_API geodisk_status geodisk_updater_create(const geodisk_mesh *mesh,
                                                     const geodisk_surface_params *params,
                                                     const geodisk_job_frame *frame,
@@ -756,7 +758,8 @@ GEODISK_C_API geodisk_status geodisk_updater_create(const geodisk_mesh *mesh,
 
 /* The same from the samples of the surface before an edit, whose faces may have other indices. Finds
  * out what has changed: call geodisk_update with `mesh`, `params` and no changed faces next. Faces
- * correspond by their keys, or by their indices without. `frame` is that of the job before. */
+ * correspond by their keys, or by their indices without. `frame` is the one in which the samples were
+ * decided, or NULL as above. */
 GEODISK_C_API geodisk_status geodisk_updater_create_edited(const geodisk_mesh *mesh_before,
                                                            const geodisk_surface_params *params_before,
                                                            const geodisk_mesh *mesh,
@@ -797,7 +800,7 @@ GEODISK_C_API geodisk_status geodisk_updater_samples(geodisk_updater *updater,
                                                      geodisk_samples **samples,
                                                      geodisk_error *error);
 
-/* Writes the frame in which all surfaces of the updater are sampled. */
+/* Writes the frame in which the samples were decided. Pass it with the samples to another updater. */
 GEODISK_C_API geodisk_status geodisk_updater_frame(geodisk_updater *updater,
                                                    geodisk_job_frame *frame, geodisk_error *error);
 

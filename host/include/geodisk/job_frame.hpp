@@ -39,6 +39,10 @@ struct JobFrame {
     friend bool operator==(const JobFrame&, const JobFrame&) = default;
 };
 
+/// Returns true if candidates of a pool are decided in both frames by the same distances,
+/// tolerances and rules. The samples of a surface are then the same in both.
+GEODISK_API bool decide_alike(const JobFrame& a, const JobFrame& b) noexcept;
+
 /// Derives the frame of a job. Takes time linear in the mesh if `min_distance` exceeds its bounding
 /// box, else none to speak of. Errors: those of pool_size().
 GEODISK_API Result<JobFrame> frame_of(const PreparedMesh& mesh,

@@ -18,7 +18,8 @@ namespace geodisk {
 
 /// Statistics of an update.
 struct UpdateReport {
-    std::uint32_t rounds = 0;   ///< Number of regions decided. Each is wider than the last.
+    /// Number of regions decided. Each is wider than the last. 1 if the whole surface was decided.
+    std::uint32_t rounds = 0;
     std::uint32_t faces = 0;    ///< Faces of the last region.
     std::uint32_t uploaded = 0; ///< Faces of the part that was on the device for it.
     std::uint32_t removed = 0;  ///< Number of samples removed, without given ones.
@@ -32,21 +33,25 @@ struct SurfaceJob {
     SampleParams params;
 };
 
-/// Returns a frame with room for edits that make edges longer: by up to 8 minimum distances.
-/// Without it, an edge longer than the longest one of the first surface is refused.
-GEODISK_API JobFrame frame_for_edits(const JobFrame& frame) noexcept;
+/// Returns the frame in which an edited surface is sampled, where `frame` is that of the surface
+/// before. The result decides alike if the edited surface fits: its longest edge is not longer, up
+/// to whole distances, and it has no first edge of more than two faces. Otherwise the result is
+/// frame_of() the edited surface. Errors: those of frame_of().
+GEODISK_API Result<JobFrame> frame_for_edit(const JobFrame& frame, const PreparedMesh& edited,
+                                            const SampleParams& params) noexcept;
 
 /// The samples of a pool on a surface, kept up to date while the surface is edited. An update
-/// decides only what the edit can reach, and takes time in proportion to the edit.
+/// decides only what the edit can reach, and takes time in proportion to the edit. If the edited
+/// surface does not fit the frame, the update decides all candidates in frame_for_edit().
 ///
 /// The samples are always those of a whole run in the same frame: Domain::surface(mesh, params,
 /// frame()). See host/docs/update.md. Not thread-safe.
 class GEODISK_API Updater {
   public:
     /// Makes the updater of a surface and its samples, as Runner returned them: the given ones of
-    /// `params` first. Copies what it needs. Takes time linear in the mesh. `frame` is frame_of()
-    /// the surface that the job began with, or frame_for_edits() of that. All later surfaces are
-    /// sampled in it.
+    /// `params` first. Copies what it needs. Takes time linear in the mesh. `frame` is the one in
+    /// which the samples were decided: frame_of() this surface, unless Domain::surface() was given
+    /// another frame, or another updater made the samples.
     ///
     /// Errors: `invalid_argument` for parameters that cannot be updated: darts, a stop count,
     /// classes or a maximal set; for a frame of another job; for a minimum
@@ -58,8 +63,8 @@ class GEODISK_API Updater {
                                   const ThreadOptions& threads = {}) noexcept;
     /// Makes the updater of an edited surface from the samples of the surface before, whose faces
     /// may have other numbers. Finds out what has changed; call update() with `after` next, and no
-    /// changed faces. Faces correspond by their keys, or by their numbers without. `frame` is that
-    /// of the job on `before`. Takes time linear in both meshes.
+    /// changed faces. Faces correspond by their keys, or by their numbers without. `frame` is the
+    /// one in which the samples on `before` were decided. Takes time linear in both meshes.
     ///
     /// Errors: those of create() and update().
     static Result<Updater> create(const SurfaceJob& before, const SurfaceJob& after,
@@ -76,10 +81,9 @@ class GEODISK_API Updater {
     /// Given samples and points to avoid are compared with those before.
     ///
     /// Errors: `invalid_argument` for another seed, distance or pool ratio, parameters that cannot
-    /// be updated, fewer faces than before, a changed face that does not exist, and for a surface
-    /// that the frame does not fit, as Domain::surface() with a frame; `mesh_rejected` as
-    /// PreparedMesh::prepare(); those of Runner::sample_and_wait(), to which `progress` goes. The
-    /// samples then stay as they were, and the next update includes this edit.
+    /// be updated, fewer faces than before, and a changed face that does not exist; those of
+    /// Domain::surface() and PreparedMesh::prepare(); those of Runner::sample_and_wait(), to which
+    /// `progress` goes. The samples then stay as they were, and the next update includes this edit.
     Result<UpdateReport> update(Runner& runner, const MeshView& mesh, const SampleParams& params,
                                 std::span<const std::uint32_t> changed,
                                 const ProgressCallback& progress = {}) noexcept;
@@ -88,7 +92,8 @@ class GEODISK_API Updater {
     std::span<const Sample> samples() const noexcept;
     /// Returns the number of given samples.
     std::size_t given() const noexcept;
-    /// Returns the frame. Its longest edge is rounded up as far as this changes no decision.
+    /// Returns the frame of the samples. Its longest edge is rounded up as far as this changes no
+    /// decision.
     const JobFrame& frame() const noexcept;
 
     struct Impl; ///< Internal.

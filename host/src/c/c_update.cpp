@@ -39,13 +39,12 @@ SurfaceJob job_of(const DomainState& state) {
     return {state.parts[0].mesh->view(), state.parts[0].params};
 }
 
-/// Returns the frame given, or one for edits of the surface.
+/// Returns the frame given, or that of the surface.
 Result<JobFrame> frame_for(const geodisk_job_frame* given, const DomainState& state) {
     if (given != nullptr) {
         return frame_from_bytes(std::as_bytes(std::span(given->bytes)));
     }
-    const auto frame = frame_of(state.parts[0].mesh->prepared, state.parts[0].params);
-    return frame ? Result<JobFrame>(frame_for_edits(*frame)) : frame.error();
+    return frame_of(state.parts[0].mesh->prepared, state.parts[0].params);
 }
 
 Result<Done> check_samples(const geodisk_surface_point* samples, std::size_t count,

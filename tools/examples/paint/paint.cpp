@@ -172,12 +172,11 @@ void paint(const Mesh& mesh, double count, bool paints_radii) {
     const double area = prepared.statistics().area;
     params.min_distance = geodisk::distance_for_count(area, count);
     canvas.apply(params);
-    const auto frame = geodisk::frame_for_edits(take(geodisk::frame_of(prepared, params)));
+    const auto frame = take(geodisk::frame_of(prepared, params));
 
     const auto context = take(geodisk::Context::create());
     auto runner = take(geodisk::Runner::create(context.device(), context.queue()));
-    const auto set =
-        take(runner.sample_and_wait(take(geodisk::Domain::surface(prepared, params, frame))));
+    const auto set = take(runner.sample_and_wait(prepared, params));
     auto updater = take(geodisk::Updater::create(mesh.view(), params, frame, set.samples));
     std::printf("%zu faces, %zu samples\n", mesh.face_count(), set.samples.size());
 

@@ -7,6 +7,7 @@
 #include <geodisk/version.hpp>
 
 #include "files/fingerprint.hpp"
+#include "files/job_frame_text.hpp"
 #include "files/part_columns.hpp"
 #include "files/sample_columns.hpp"
 #include "geodisk/reports/farthest_report.hpp"
@@ -217,6 +218,13 @@ SampleReport::SampleReport(const SampleJob& job, const MeshInput& mesh, const Sa
                            static_cast<double>(samples_))),
       radii_(result.all ? result.all->radii : RadiusRange(result.rows)) {}
 
+bool SampleReport::is_told(const JobFrame& frame, double distance) const {
+    SampleParams params = result_.params;
+    params.min_distance = distance / mesh_.distance_part;
+    const auto plain = frame_of(mesh_.prepared, params);
+    return plain && decide_alike(frame, *plain);
+}
+
 SampleHeader SampleReport::header() const {
     const DeviceRun& done = result_.done;
     const HeaderEntries additions = job_.additions();
@@ -238,6 +246,9 @@ SampleHeader SampleReport::header() const {
     }
     if (job_.params.pool_ratio != kDefaultPoolRatio) {
         header.entries.emplace_back(kPoolRatio, exact_text(job_.params.pool_ratio));
+    }
+    if (result_.frame && !is_told(*result_.frame, distance)) {
+        header.entries.emplace_back(kJobFrame, job_frame_text(*result_.frame));
     }
     if (done.cut > 0) {
         header.entries.emplace_back("exact", std::to_string(result_.count()));

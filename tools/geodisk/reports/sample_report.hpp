@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include <geodisk/job_frame.hpp>
 #include <geodisk/levels.hpp>
 
 #include "files/sample_file.hpp"
@@ -33,6 +34,8 @@ struct AllRows {
 /// What came of a job.
 struct SampleResult {
     SampleParams params; ///< Of the job, on its mesh.
+    /// Frame of the run, if the mesh and the distance of the report may not say it.
+    std::optional<JobFrame> frame;
     DeviceRun done;
     std::vector<SampleRow> rows;         ///< None where `all` is given.
     std::optional<AllRows> all;          ///< Where rows are divided among processes.
@@ -80,6 +83,8 @@ class SampleReport {
 
   private:
     Drawn drawn() const;
+    /// Returns true if a run over the mesh, at the distance in the header, is decided alike.
+    bool is_told(const JobFrame& frame, double distance) const;
 
     const SampleJob& job_;
     const MeshInput& mesh_;

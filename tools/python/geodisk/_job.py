@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import ctypes
+import struct
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, ClassVar
 
 from numpy.typing import ArrayLike
 
+from . import _errors as e
 from . import _library as c
 
 
@@ -23,6 +26,36 @@ class Job:
     existing: Any = None
     avoid: Any = None
     source: c.Handle | None = None  #: The file of the mesh, or what its faces were given as.
+
+
+@dataclass(frozen=True)
+class JobFrame:
+    """The distances, tolerances and rules that decided samples, as the library has them."""
+
+    SIZE: ClassVar[int] = 64
+
+    digits: str  #: Its bytes in hexadecimal, as headers of files have them.
+
+    @classmethod
+    def found(cls, function: str, *arguments: Any) -> JobFrame:
+        """Returns the frame that a function of the library writes."""
+        made = ctypes.create_string_buffer(cls.SIZE)
+        c.call(function, *arguments, made)
+        return cls(made.raw.hex())
+
+    def to_bytes(self) -> bytes:
+        """Returns the bytes for the library, which checks all but their number."""
+        try:
+            made = bytes.fromhex(self.digits)
+        except ValueError:
+            made = b""
+        if len(made) != self.SIZE:
+            raise e.invalid("the header of the samples has a wrong job_frame")
+        return made
+
+    def min_distance(self) -> float:
+        """Returns the minimum distance, as the run had it."""
+        return float(struct.unpack_from("<d", self.to_bytes(), 8)[0])
 
 
 #: Arguments of sample() that updates follow.

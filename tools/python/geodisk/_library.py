@@ -118,6 +118,8 @@ _FALLIBLE: dict[str, list[Any]] = {
         POINTER(UpdateInfo),
     ],
     "geodisk_updater_samples": [c_void_p, _HANDLE],
+    "geodisk_updater_frame": [c_void_p, c_char_p],
+    "geodisk_job_frame_of": [c_void_p, POINTER(SurfaceParams), c_char_p],
     "geodisk_neighbours_describe": [c_void_p, POINTER(NeighbourArrays)],
     "geodisk_find_cells": [
         c_void_p,

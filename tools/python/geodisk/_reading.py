@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from . import _errors as e
 from ._attributes import attributes_of_columns
+from ._job import JobFrame
 from ._record import Record
 from ._samples import Samples
 from ._values import path_of
@@ -111,6 +112,7 @@ def _samples(header: Header, **arrays: Any) -> Samples:
             None, header.get("normals", "face"), "frames" in arrays.get("attributes", {})
         )
     arrays["seed"] = int(header["seed"]) if "seed" in header else None
+    arrays["_frame"] = JobFrame(header["job_frame"]) if "job_frame" in header else None
     return Samples(**arrays)
 
 

@@ -17,7 +17,7 @@ from . import _errors as e
 from ._arrays import array_of, indices, real
 from ._attributes import check_finite, interpolated, values_of
 from ._files import complete
-from ._job import Job
+from ._job import Job, JobFrame
 from ._sample import Sample
 from ._surface import Surface
 from ._values import choice, flag, integer, number, numbers_of, path_of
@@ -182,6 +182,8 @@ class Samples:
     _digest: str | None = None  # Of the set that these are of, if these may be a part.
     _job: Job | None = None  # What they were made with, for updates.
     _record: Record | None = None  # What they have of their mesh; None if that is unknown.
+    #: Frame in which they were decided; None for that of a run over their mesh at `min_distance`.
+    _frame: JobFrame | None = None
 
     def __post_init__(self) -> None:
         def keep(name: str, value: Any) -> None:

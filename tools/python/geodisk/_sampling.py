@@ -20,7 +20,7 @@ from ._devices import DeviceLike
 from ._existing import AvoidLike, ExistingLike, avoided_of, existing_of
 from ._farthest import put_farthest_first
 from ._features import Features
-from ._job import Job
+from ._job import Job, JobFrame
 from ._levels import levels_of, run_levels
 from ._mesh import keys_of, mask_of, mesh_of
 from ._oddities import oddities_of_set, warn
@@ -321,7 +321,11 @@ def sample(
         avoid,
         mesh._source,
     )
-    samples = dataclasses.replace(samples, _job=job)
+    frame = None
+    if samples.min_distance / part != run_distance:  # What files say is rounded.
+        params.min_distance, params.given_count, params.stop_count = run_distance, 0, 0
+        frame = JobFrame.found("geodisk_job_frame_of", mesh._handle.value, byref(params))
+    samples = dataclasses.replace(samples, _job=job, _frame=frame)
     if order == "farthest":
         samples = put_farthest_first(mesh._handle, mesh._surface, samples, device, progress)
     return recorded(samples, mesh, record)

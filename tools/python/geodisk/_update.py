@@ -21,7 +21,7 @@ from ._devices import DeviceLike, name_of
 from ._existing import POINT, AvoidLike, ExistingLike, avoided_of, existing_of, points_of
 from ._inherited import Wanted
 from ._inputs import surface_of
-from ._job import FOLLOWED, Job
+from ._job import FOLLOWED, Job, JobFrame
 from ._mesh import Mesh, is_mesh, keys_of, mask_of, mesh_of
 from ._protocols import Faces, MeshLike
 from ._radii import one_of, radii_of
@@ -61,7 +61,9 @@ def update(
     """Returns the samples of an edited mesh, and decides only what the edit can reach.
 
     The samples are those of a whole run over the edited mesh with the same seed and distance, in
-    the frame of the mesh before: see "Updates" in the documentation.
+    the frame that decided the samples before. An edit that makes an edge longer than that frame
+    allows, or the first edge of more than two faces, decides all samples again, as :func:`sample`
+    does: see "Updates" in the documentation.
 
     Parameters
     ----------
@@ -97,8 +99,7 @@ def update(
     Raises
     ------
     InvalidArgument
-        For samples that are not on their mesh, of another run than above, or not all of a run, and for
-        an edge that became too long.
+        For samples that are not on their mesh, of another run than above, or not all of a run.
     Others as :func:`sample`.
 
     Warns
@@ -150,6 +151,7 @@ def update(
     new = _Side(mesh, edited, samples, old)
     points = points_of(old.mesh._surface, samples, "samples", True)
     info = s.UpdateInfo()
+    frames_of_run: list[JobFrame] = []
 
     def find(sampler: ctypes.c_void_p, hear: Any) -> c.Handle:
         updater = c.Handle(
@@ -157,7 +159,7 @@ def update(
             "geodisk_updater_create_edited",
             *old.arguments(),
             *new.arguments(),
-            None,
+            None if samples._frame is None else samples._frame.to_bytes(),
             points.ctypes.data,
             len(points),
         )
@@ -172,12 +174,10 @@ def update(
             None,
             byref(info),
         )
+        frames_of_run.append(JobFrame.found("geodisk_updater_frame", updater.value))
         return c.Handle("samples", "geodisk_updater_samples", updater.value)
 
-    try:
-        made = Made(searched(name_of(device), progress, find))
-    except e.InvalidArgument as error:
-        raise e.invalid(_in_words_of_edits(str(error))) from None
+    made = Made(searched(name_of(device), progress, find))
     there = samples_of(made, samples.seed, mesh._surface, given=samples.min_distance)
     there.report["options"] = [
         name for name in FOLLOWED if _is_chosen(name, getattr(edited, name))
@@ -186,29 +186,14 @@ def update(
         name: getattr(info, name) for name in ("rounds", "faces", "uploaded", "removed", "added")
     }
     file = old.mesh._source if is_moved else mesh._source
-    there = dataclasses.replace(there, _job=dataclasses.replace(edited, source=file))
+    there = dataclasses.replace(
+        there, _job=dataclasses.replace(edited, source=file), _frame=frames_of_run[-1]
+    )
     there = recorded(there, mesh, record)
     if is_moved:
         there = coloured(there, old.mesh, wanted.inherited(samples).texture)
     wanted.warn_of_lost(samples, there)
     return there
-
-
-#: What the library says of frames, and what it means for an edit.
-_OF_FRAMES = {
-    "its mesh has no edge as long": "has an edge that is longer than edits may make one",
-    "its mesh has no edges of more": "has edges of more than two faces, and the mesh before has none",
-    "its mesh has coordinates": "is given by edge lengths, and the mesh before by coordinates",
-    "its unit": "has longer paths than the mesh before",
-}
-
-
-def _in_words_of_edits(message: str) -> str:
-    """Returns the error of the library without the frame of a job, which it is about."""
-    for told, meant in _OF_FRAMES.items():
-        if f"for another job: {told}" in message:
-            return f"the edited mesh {meant}; sample it again"
-    return message
 
 
 class _Side:
@@ -236,10 +221,12 @@ class _Side:
                 "all samples change; sample the mesh again"
             )
         self.part: float = 1.0 if radii is None else radii.distance_part
-        if job.distance is not None:
-            if not math.isclose(job.distance, distance, rel_tol=1e-12):
+        frame = samples._frame
+        exact = job.distance if frame is None else frame.min_distance()  # Before it was rounded.
+        if exact is not None:
+            if not math.isclose(exact, distance, rel_tol=1e-12):
                 raise e.invalid(f"these samples were not made {samples.min_distance} apart")
-            distance = job.distance  # Before it was rounded.
+            distance = exact
         self._params = s.SurfaceParams(
             min_distance=distance,
             seed=samples.seed,

@@ -64,6 +64,8 @@ def header_of(samples: Samples) -> Header:
             options.append(SELECTION)
     if options:
         header["options"] = " ".join(options)
+    if samples._frame is not None:
+        header["job_frame"] = samples._frame.digits
     if samples._record is not None and samples._record.normals != "face":
         header["normals"] = samples._record.normals
     if samples.level_distances is not None:

@@ -72,6 +72,12 @@ Result<Done> check_job(const JobFrame& frame, const SampleParams& params) {
     return Done{};
 }
 
+bool fits(const JobFrame& frame, const MeshStatistics& statistics) {
+    return frame.unit == frame.min_distance &&
+           statistics.longest_edge / frame.unit <= frame.longest_edge &&
+           (statistics.nonmanifold_edges == 0 || !frame.splits_once);
+}
+
 Result<Done> check_frame(const JobFrame& frame, const PreparedMesh& mesh,
                          const SampleParams& params) {
     if (auto checked = check_job(frame, params); !checked) {

@@ -1,6 +1,7 @@
 #include "geodisk/job_frame.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "engine/domain/face_mask.hpp"
 #include "engine/domain/stages.hpp"
@@ -38,6 +39,15 @@ Result<JobFrame> frame_with(const PreparedMesh& mesh, const SampleParams& params
     frame.straight_faces = statistics.diagonal > 0;
     frame.error_bound = ErrorModel(frame).error_of(guessed_chain(mesh, params.min_distance));
     return frame;
+}
+
+bool decide_alike(const JobFrame& a, const JobFrame& b) noexcept {
+    const auto deciding = [](JobFrame frame) {
+        frame.samples = 0; // Stages of a pool follow from its ratio alone.
+        frame.longest_edge = std::ceil(frame.longest_edge); // As ErrorModel takes it.
+        return frame;
+    };
+    return deciding(a) == deciding(b);
 }
 
 Result<JobFrame> frame_of(const PreparedMesh& mesh, const SampleParams& params) noexcept {

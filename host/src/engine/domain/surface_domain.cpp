@@ -153,11 +153,14 @@ Result<Domain> Domain::surface(const PreparedMesh& mesh, const SampleParams& par
         if (auto checked = check_params(mesh, params); !checked) {
             return checked.error();
         }
-        if (auto checked = check_frame(frame, mesh, params); !checked) {
+        if (auto checked = check_job(frame, params); !checked) {
             return checked.error();
         }
         const PlacedSurface surface = placed(mesh, params, frame);
         if (auto checked = check_candidates(mesh, params, surface.stages); !checked) {
+            return checked.error();
+        }
+        if (auto checked = check_frame(frame, mesh, params); !checked) {
             return checked.error();
         }
         return wrapped(SurfaceDomain::make({surface}));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <numeric>
 #include <utility>
 
 #include "engine/domain/face_mask.hpp"
@@ -39,6 +40,12 @@ Shape shape_of(const MeshView& mesh, std::span<const std::uint32_t> faces) {
     return shape;
 }
 
+Result<PreparedMesh> prepare_shape(const MeshView& mesh, std::span<const std::uint32_t> faces,
+                                   const ThreadOptions& threads) {
+    const Shape shape = shape_of(mesh, faces);
+    return PreparedMesh::prepare({shape.positions, shape.triangles, mesh.dimension}, threads);
+}
+
 } // namespace
 
 Result<MeshPart> MeshPart::prepare(const MeshView& mesh, const SampleParams& params,
@@ -48,9 +55,12 @@ Result<MeshPart> MeshPart::prepare(const MeshView& mesh, const SampleParams& par
     part.params_.given = {};
     part.params_.avoid = {};
     part.faces_ = std::move(faces);
-    const Shape shape = shape_of(mesh, part.faces_);
-    auto prepared =
-        PreparedMesh::prepare({shape.positions, shape.triangles, mesh.dimension}, threads);
+    auto prepared = prepare_shape(mesh, part.faces_, threads);
+    if (!prepared && prepared.error().status == Status::mesh_rejected) {
+        part.faces_.resize(mesh.face_count());
+        std::iota(part.faces_.begin(), part.faces_.end(), 0u);
+        prepared = prepare_shape(mesh, part.faces_, threads);
+    }
     if (!prepared) {
         return prepared.error();
     }

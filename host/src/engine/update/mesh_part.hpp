@@ -18,8 +18,9 @@ namespace geodisk {
 /// from the cut is as in the whole, to the bit.
 class MeshPart {
   public:
-    /// Prepares the part of `mesh` with these faces, which are in ascending order. `params` is that
-    /// of the whole. Errors: those of PreparedMesh::prepare().
+    /// Prepares the part of `mesh` with these faces, which are in ascending order. If they have no
+    /// area to speak of, prepares all faces. `params` is that of the whole. Errors: those of
+    /// PreparedMesh::prepare().
     static Result<MeshPart> prepare(const MeshView& mesh, const SampleParams& params,
                                     std::vector<std::uint32_t> faces, const ThreadOptions& threads);
 

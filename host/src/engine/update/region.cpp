@@ -31,6 +31,14 @@ double largest_radius(std::span<const KeepOut> avoided) {
 
 } // namespace
 
+Changes changes_between(const Darts& old, const Darts& now, bool has_keys) {
+    const DartOrder before{has_keys};
+    Changes changes;
+    std::ranges::set_difference(old, now, std::back_inserter(changes.removed), before);
+    std::ranges::set_difference(now, old, std::back_inserter(changes.added), before);
+    return changes;
+}
+
 Region::Region(Runner& runner, const EditedSurface& surface)
     : runner_(runner), surface_(surface), reach_(kReach * surface.params.min_distance),
       faces_(surface.faces, surface.mesh) {
@@ -173,9 +181,7 @@ Changes Region::compare(const MeshPart& part, const std::vector<Entry>& entries,
             goes_on_.push_back(dart.point.face);
         }
     }
-    Changes changes;
-    std::ranges::set_difference(old, now, std::back_inserter(changes.removed), before);
-    std::ranges::set_difference(now, old, std::back_inserter(changes.added), before);
+    Changes changes = changes_between(old, now, !surface_.params.face_keys.empty());
     // A new sample rejects samples outside, which shows above. What one that is gone rejected may
     // be accepted now.
     for (const DrawnCandidate& dart : changes.removed) {

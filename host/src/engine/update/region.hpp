@@ -35,6 +35,9 @@ struct Changes {
     Darts removed, added;
 };
 
+/// Returns what turns some samples into others, both in dart order.
+Changes changes_between(const Darts& old, const Darts& now, bool has_keys);
+
 /// Finds the samples that an edit changes (host/docs/update.md). A region around the edit is
 /// decided again, with the samples outside it as they are. If what changes in it reaches out of it,
 /// it becomes wider.

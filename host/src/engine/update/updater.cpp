@@ -9,14 +9,15 @@
 #include <utility>
 #include <vector>
 
+#include <geodisk/domain.hpp>
+
 #include "engine/domain/check_frame.hpp"
 #include "engine/domain/given.hpp"
-#include "engine/domain/stages.hpp"
-#include "engine/domain/tolerances.hpp"
 #include "engine/update/dart_set.hpp"
 #include "engine/update/face_set.hpp"
 #include "engine/update/live_mesh.hpp"
 #include "engine/update/match.hpp"
+#include "engine/update/mesh_part.hpp"
 #include "engine/update/region.hpp"
 #include "engine/update/update_checks.hpp"
 #include "mesh/checks.hpp"
@@ -25,9 +26,6 @@
 
 namespace geodisk {
 namespace {
-
-// Distances by which edges may become longer.
-constexpr double kSpareEdges = 8;
 
 /// Returns what only one of two lists has: of given samples, or of points to avoid.
 template <class Place, class Order>
@@ -41,11 +39,11 @@ std::vector<Place> difference_of(std::vector<Place> a, std::vector<Place> b, con
 
 } // namespace
 
-JobFrame frame_for_edits(const JobFrame& frame) noexcept {
-    JobFrame wide = frame;
-    wide.longest_edge = std::min(std::ceil(frame.longest_edge) + kSpareEdges, kLongestEdge);
-    wide.error_bound += ErrorModel(wide).error_of(0) - ErrorModel(frame).error_of(0);
-    return wide;
+Result<JobFrame> frame_for_edit(const JobFrame& frame, const PreparedMesh& edited,
+                                const SampleParams& params) noexcept {
+    JobFrame own = frame;
+    own.longest_edge = std::ceil(frame.longest_edge); // All tolerances go by it.
+    return fits(own, edited.statistics()) ? Result<JobFrame>(own) : frame_of(edited, params);
 }
 
 struct Updater::Impl {
@@ -75,6 +73,11 @@ struct Updater::Impl {
                                 std::span<const std::uint32_t> changed) const;
     /// Connects the changed faces, and adds them and their neighbours to `sources`.
     void connect(const MeshView& mesh);
+    /// Returns true if the edited surface fits the frame.
+    Result<bool> fits_frame(const MeshView& mesh, const SampleParams& params) const;
+    /// Decides all candidates of the edited surface in a frame that it fits.
+    Result<Changes> decide_all(Runner& runner, const MeshView& mesh, const SampleParams& params,
+                               const ProgressCallback& progress, UpdateReport& report);
     void set_samples();
 };
 
@@ -83,7 +86,7 @@ Result<std::unique_ptr<Updater::Impl>> Updater::Impl::make(const SurfaceJob& job
                                                            std::vector<NumberedSample> samples,
                                                            const ThreadOptions& threads) {
     JobFrame own = frame;
-    own.longest_edge = std::ceil(own.longest_edge); // All tolerances go by it.
+    own.longest_edge = std::ceil(frame.longest_edge); // All tolerances go by it.
     const auto& [mesh, params] = job;
     auto darts = DartSet::find(mesh, params, own, std::move(samples), threads);
     if (!darts) {
@@ -145,6 +148,55 @@ void Updater::Impl::connect(const MeshView& mesh) {
         add(face);
         faces.for_faces_around(face, add);
     }
+}
+
+Result<bool> Updater::Impl::fits_frame(const MeshView& mesh, const SampleParams& params) const {
+    if (undecided.empty() || frame.unit < frame.min_distance) {
+        return frame.unit == frame.min_distance;
+    }
+    // A new edge of more than two faces is at a changed face, and so are the other faces there.
+    std::vector<std::uint32_t> near = sources.members();
+    std::ranges::sort(near);
+    const auto part = MeshPart::prepare(mesh, params, std::move(near), threads);
+    if (!part) {
+        return part.error();
+    }
+    return fits(frame, part->mesh().statistics());
+}
+
+Result<Changes> Updater::Impl::decide_all(Runner& runner, const MeshView& mesh,
+                                          const SampleParams& params,
+                                          const ProgressCallback& progress, UpdateReport& report) {
+    const auto surface = PreparedMesh::prepare(mesh, threads);
+    if (!surface) {
+        return surface.error();
+    }
+    const auto other = frame_for_edit(frame, *surface, params);
+    if (!other) {
+        return other.error();
+    }
+    const auto domain = Domain::surface(*surface, params, *other);
+    if (!domain) {
+        return domain.error();
+    }
+    const auto set = runner.sample_and_wait(*domain, progress);
+    if (!set) {
+        return set.error();
+    }
+    std::vector<NumberedSample> found;
+    for (std::size_t i = set->given; i < set->samples.size(); ++i) {
+        found.push_back({set->samples[i], i});
+    }
+    const auto all = DartSet::find(mesh, params, *other, std::move(found), threads);
+    if (!all) {
+        return all.error();
+    }
+    frame = *other;
+    frame.longest_edge = std::ceil(frame.longest_edge);
+    report.run = set->report;
+    report.rounds = 1;
+    report.faces = report.uploaded = surface->face_count();
+    return changes_between(darts.in_order(), all->in_order(), has_keys);
 }
 
 void Updater::Impl::set_samples() {
@@ -266,10 +318,15 @@ Result<UpdateReport> Updater::update(Runner& runner, const MeshView& mesh,
             own.sources.insert(one.center.face);
             own.avoided = std::max(own.avoided, one.radius);
         }
+        const auto fits = own.fits_frame(mesh, params);
+        if (!fits) {
+            return fits.error();
+        }
         UpdateReport report;
         Region region(runner,
                       {mesh, params, own.frame, own.faces, own.darts, own.threads, progress});
-        const auto changes = region.decide(own.sources.members(), own.avoided, report);
+        const auto changes = *fits ? region.decide(own.sources.members(), own.avoided, report)
+                                   : own.decide_all(runner, mesh, params, progress, report);
         if (!changes) {
             return changes.error();
         }
