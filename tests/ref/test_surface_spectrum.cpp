@@ -193,6 +193,25 @@ TEST_CASE("flat and collapsed triangles are no obstacle") {
     }
 }
 
+TEST_CASE("harmonics are the same in any unit") {
+    const TestMesh mesh = flat_irregular(12, 3);
+    const Harmonics expected(laplacian_of(mesh), 100);
+    for (const double unit : {1e-60, 1e-12, 1e12, 1e60}) {
+        CAPTURE(unit);
+        TestMesh scaled = mesh;
+        for (double& coordinate : scaled.positions) {
+            coordinate *= unit;
+        }
+        const Harmonics found(laplacian_of(scaled), 100);
+        for (Eigen::Index i = 0; i < 100; ++i) {
+            CHECK(found.eigenvalues[i] * unit * unit ==
+                  doctest::Approx(expected.eigenvalues[i]).epsilon(1e-9));
+            CHECK(found.functions.col(i).cwiseAbs().maxCoeff() * unit ==
+                  doctest::Approx(expected.functions.col(i).cwiseAbs().maxCoeff()).epsilon(1e-6));
+        }
+    }
+}
+
 TEST_CASE("harmonics stop when they are told to") {
     const TestMesh mesh = builtin("showpiece", 60);
     const Laplacian laplacian = laplacian_of(mesh);

@@ -165,9 +165,9 @@ class FoundModes {
     Eigen::MatrixXd functions_; ///< With room for those of the whole slice.
 };
 
-[[noreturn]] void fail_slice(const Slice& slice, std::size_t found) {
-    const auto frequency = [](double eigenvalue) {
-        return rounded(std::sqrt(eigenvalue) / (2 * std::numbers::pi), 6);
+[[noreturn]] void fail_slice(const Slice& slice, std::size_t found, double unit) {
+    const auto frequency = [&](double eigenvalue) {
+        return rounded(std::sqrt(eigenvalue) / (2 * std::numbers::pi * unit), 6);
     };
     throw UserError(ExitCode::bad_input,
                     "of " + counted(slice.count, "harmonic", "harmonics") + " between " +
@@ -179,7 +179,7 @@ class FoundModes {
 /// All of the slice. Lanczos finds one function of several that share an eigenvalue, as on
 /// symmetric surfaces, so it runs again without those known until all are there.
 HarmonicBand solve_slice(const Laplacian& laplacian, Factors& factors, const Slice& slice,
-                         const std::function<void()>& watch) {
+                         double unit, const std::function<void()>& watch) {
     const double shift = factors.factorize((slice.low + slice.high) / 2);
     Spectra::SparseSymMatProd<double> mass(laplacian.mass);
     Inverse inverse(factors, laplacian, watch);
@@ -195,17 +195,30 @@ HarmonicBand solve_slice(const Laplacian& laplacian, Factors& factors, const Sli
         solver.init();
         solver.compute(Spectra::SortRule::LargestMagn, kMostRestarts, kTolerance);
         if (!found.add(solver.eigenvalues(), solver.eigenvectors()) || found.count() == known) {
-            fail_slice(slice, known);
+            fail_slice(slice, known, unit);
         }
     }
     return found.sorted();
+}
+
+/// Returns the width of a square of the area, as a power of two.
+double unit_of(double area) {
+    return std::exp2(std::round(std::log2(area) / 2));
+}
+
+/// Returns the Laplacian in that unit. Solvers compare with absolute bounds. The stiffness is the
+/// same in all units.
+Laplacian in_unit(const Laplacian& laplacian, double unit) {
+    const double factor = 1 / unit / unit;
+    return {laplacian.stiffness, laplacian.mass * factor, {}, laplacian.area * factor};
 }
 
 } // namespace
 
 /// The first factors, at the lowest eigenvalue, and what they took.
 struct ManifoldHarmonics::Probe {
-    explicit Probe(const Laplacian& laplacian) : factors(laplacian) {
+    explicit Probe(const Laplacian& given)
+        : unit(unit_of(given.area)), laplacian(in_unit(given, unit)), factors(laplacian) {
         const Stopwatch factorizing;
         lowest = factors.factorize(kLowest / laplacian.area);
         factor_seconds = factorizing.seconds();
@@ -217,8 +230,7 @@ struct ManifoldHarmonics::Probe {
     }
 
     /// From the lowest eigenvalue on, about kBandSize in each.
-    std::vector<Slice> slices(const Laplacian& laplacian, std::size_t harmonics,
-                              const PartDone& tell) {
+    std::vector<Slice> slices(std::size_t harmonics, const PartDone& tell) {
         std::vector<Slice> result;
         // Weyl's law.
         double low = lowest,
@@ -244,14 +256,15 @@ struct ManifoldHarmonics::Probe {
         return result;
     }
 
+    double unit; ///< Length that 1 stands for.
+    Laplacian laplacian;
     Factors factors;
     double lowest, factor_seconds, solve_seconds;
     std::size_t below;
 };
 
 ManifoldHarmonics::ManifoldHarmonics(const Laplacian& laplacian)
-    : laplacian_(laplacian), probe_(std::make_unique<Probe>(laplacian)),
-      count_(laplacian.size() - probe_->below) {}
+    : probe_(std::make_unique<Probe>(laplacian)), count_(laplacian.size() - probe_->below) {}
 
 ManifoldHarmonics::~ManifoldHarmonics() = default;
 ManifoldHarmonics::ManifoldHarmonics(ManifoldHarmonics&&) noexcept = default;
@@ -260,7 +273,8 @@ HarmonicCost ManifoldHarmonics::cost(std::size_t harmonics) const {
     // As measured: Lanczos solves 2.5 times for each harmonic of a full band, and each vector is
     // multiplied with those of the Krylov space some four times.
     constexpr double kSolves = 2.5, kProducts = 4, kPerSecond = 3e9;
-    const double size = laplacian_.size(), krylov = static_cast<double>(krylov_size(kBandSize));
+    const double size = probe_->laplacian.size(),
+                 krylov = static_cast<double>(krylov_size(kBandSize));
     const auto bands = static_cast<double>(batch_count(harmonics, kBandSize));
     const double band_seconds =
         probe_->factor_seconds +
@@ -275,7 +289,7 @@ HarmonicCost ManifoldHarmonics::cost(std::size_t harmonics) const {
 void ManifoldHarmonics::compute(std::size_t harmonics,
                                 const std::function<void(const HarmonicBand&)>& visit,
                                 const PartDone& tell) const {
-    const std::vector<Slice> slices = probe_->slices(laplacian_, harmonics, tell);
+    const std::vector<Slice> slices = probe_->slices(harmonics, tell);
     const std::thread::id caller = std::this_thread::get_id();
     std::atomic<bool> ends{false};
     std::atomic<std::size_t> done{0};
@@ -290,11 +304,14 @@ void ManifoldHarmonics::compute(std::size_t harmonics,
         }
     };
     const auto make_worker = [&] {
-        return [&, factors = Factors(laplacian_)](std::size_t batch, std::size_t,
-                                                  std::size_t) mutable {
+        return [&, factors = Factors(probe_->laplacian)](std::size_t batch, std::size_t,
+                                                         std::size_t) mutable {
             const Slice& slice = slices[batch];
             try {
-                HarmonicBand band = solve_slice(laplacian_, factors, slice, watch);
+                HarmonicBand band =
+                    solve_slice(probe_->laplacian, factors, slice, probe_->unit, watch);
+                band.eigenvalues /= probe_->unit * probe_->unit;
+                band.functions /= probe_->unit;
                 const std::size_t rest = harmonics - slice.first;
                 if (rest < slice.count) {
                     const auto kept = static_cast<Index>(rest);

@@ -33,7 +33,7 @@ struct HarmonicCost {
 /// constant function per component above all, are not among them.
 class ManifoldHarmonics {
   public:
-    /// `laplacian` must outlive the object. Throws std::bad_alloc.
+    /// Throws std::bad_alloc.
     explicit ManifoldHarmonics(const Laplacian& laplacian);
     ~ManifoldHarmonics();
     ManifoldHarmonics(ManifoldHarmonics&&) noexcept;
@@ -53,7 +53,6 @@ class ManifoldHarmonics {
 
   private:
     struct Probe;
-    const Laplacian& laplacian_;
     std::unique_ptr<Probe> probe_;
     std::size_t count_ = 0;
 };
