@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include <geodisk/farthest.hpp>
+#include <geodisk/nearest.hpp>
 #include <geodisk/neighbours.hpp>
 
 #include "device_run.hpp"
@@ -358,6 +360,48 @@ TEST_SUITE("neighbours") {
         CHECK(found(cube, good).indices.size() == 676);
         CHECK(refusal(cube, good, [](const Progress&) { return false; }).status ==
               Status::cancelled);
+    }
+
+    TEST_CASE("distances that no float holds are refused") {
+        for (const double unit : {1e-60, 1e-12, 1e12, 1e39, 1e60}) {
+            CAPTURE(unit);
+            const bool is_right = unit == 1e-12 || unit == 1e12;
+            TestMesh square = flat_grid(1, 1, 1, 1);
+            for (double& coordinate : square.positions) {
+                coordinate *= unit;
+            }
+            const PreparedMesh mesh = prepared(square);
+            const std::vector<Sample> corners{{0, {1, 0, 0}}, {0, {0, 1, 0}}, {0, {0, 0, 1}}};
+            NeighbourQuery query;
+            query.sources = corners;
+            query.kind = NeighbourKind::sources;
+            query.within = 1.2 * unit;
+            const auto check = [&](const auto& result) {
+                REQUIRE(static_cast<bool>(result) == is_right);
+                if (!is_right) {
+                    CHECK(result.error().status == Status::mesh_rejected);
+                    CHECK(result.error().message.ends_with("; rescale the mesh"));
+                }
+            };
+            const auto pairs = find_neighbours(shared_runner(), mesh, query);
+            check(pairs);
+            query.within = 0;
+            query.nearest = 2;
+            const auto nearest = find_neighbours(shared_runner(), mesh, query);
+            check(nearest);
+            const auto order = farthest_order(shared_runner(), mesh, corners, 0);
+            check(order);
+            const auto samples = NearestSamples::create(shared_runner(), mesh, corners);
+            check(samples);
+            if (is_right) {
+                CHECK(pairs->indices.size() == 4);
+                CHECK(double{pairs->distances[0]} == doctest::Approx(unit));
+                CHECK(nearest->indices.size() == 6);
+                CHECK(double{order->distances[1]} == doctest::Approx(std::sqrt(2.0) * unit));
+                const auto found = expect(samples->of(std::vector<Sample>{{0, {0.75f, 0.25f, 0}}}));
+                CHECK(double{found[0].distance} == doctest::Approx(unit / 4));
+            }
+        }
     }
 }
 

@@ -12,7 +12,9 @@
 #include "engine/cells/grid_points.hpp"
 #include "engine/cells/near_lights.hpp"
 #include "engine/domain/given.hpp"
+#include "engine/neighbours/check_query.hpp"
 #include "engine/run/runner_impl.hpp"
+#include "mesh/extent.hpp"
 #include "support/blocks.hpp"
 #include "support/guard.hpp"
 #include "support/invalid.hpp"
@@ -136,6 +138,9 @@ Result<NearestSamples> NearestSamples::create(Runner& runner, const PreparedMesh
         auto lit = LitSamples::make(runner, mesh, samples, params, progress ? heard : nullptr);
         if (!lit) {
             return lit.error();
+        }
+        if (auto checked = check_range((*lit)->frame.unit, distance_bound(mesh)); !checked) {
+            return checked.error();
         }
         auto impl = std::make_unique<Impl>();
         impl->mesh = &mesh;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include "engine/domain/given.hpp"
@@ -9,6 +10,27 @@
 #include "support/number_text.hpp"
 
 namespace geodisk {
+namespace {
+
+// A float keeps the digits of distances from this part of the unit on.
+constexpr double kSmallest = 0x1p-24;
+// Room for the rounding of the longest distances.
+constexpr double kRoom = 1.01;
+
+} // namespace
+
+Result<Done> check_range(double unit, double longest) {
+    using Float = std::numeric_limits<float>;
+    const bool is_small = !(kSmallest * unit >= double{Float::min()});
+    const bool is_large = !(kRoom * longest <= double{Float::max()});
+    if (!is_small && !is_large) {
+        return Done{};
+    }
+    return Error{Status::mesh_rejected,
+                 "distances of about " + number_text(is_large ? longest : unit) + " are too " +
+                     (is_large ? "large" : "small") +
+                     " for the single precision of results; rescale the mesh"};
+}
 
 Result<Done> check_points(const PreparedMesh& mesh, const char* name,
                           std::span<const Sample> points) {

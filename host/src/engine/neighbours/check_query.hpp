@@ -21,4 +21,8 @@ Result<Done> check_points(const PreparedMesh& mesh, const char* name,
 /// Checks all that a query asks for, but for edges that are too long for its distances.
 Result<Done> check_query(const PreparedMesh& mesh, const NeighbourQuery& query);
 
+/// Refuses distances in units of `unit` and up to `longest` that single precision cannot hold in
+/// mesh units.
+Result<Done> check_range(double unit, double longest);
+
 } // namespace geodisk

@@ -11,6 +11,7 @@
 #include "engine/domain/stages.hpp"
 #include "engine/domain/surface_domain.hpp"
 #include "engine/domain/tolerances.hpp"
+#include "engine/neighbours/check_query.hpp"
 #include "mesh/edge_paths.hpp"
 #include "support/invalid.hpp"
 #include "support/number_text.hpp"
@@ -131,6 +132,9 @@ Result<SearchJobs> SearchJobs::create(const PreparedMesh& mesh, const NeighbourQ
         return frame.error();
     }
     jobs.frame_ = *frame;
+    if (auto checked = check_range(frame->unit, frame->unit); !checked) {
+        return checked.error();
+    }
     if (jobs.targets_per_source() * static_cast<double>(query.sources.size()) >
         static_cast<double>(query.most_pairs)) {
         if (auto checked = check_ahead(mesh, query); !checked) {
