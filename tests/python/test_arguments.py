@@ -79,6 +79,48 @@ def test_booleans_of_numpy_are_booleans():
     assert geodisk.Mesh(*far_apart, weld=np.bool_(False)).area > 0
 
 
+class Tensor:
+    """Fails with advice of its own, as tensors with gradients and on GPUs do."""
+
+    def __init__(self, error):
+        self.error = error
+
+    def __array__(self, *_, **__):
+        raise self.error
+
+    def __float__(self):
+        raise self.error
+
+
+@pytest.mark.parametrize("kind", [RuntimeError, TypeError])
+def test_the_advice_of_an_object_that_gives_no_array_is_shown(kind):
+    tensor = Tensor(kind("use tensor.detach().cpu() first"))
+    advice = r"cannot be read as an array: use tensor\.detach\(\)\.cpu\(\) first"
+    for call, name in (
+        (lambda: geodisk.sample(tensor, FACES, min_distance=0.3), "vertices"),
+        (lambda: geodisk.sample([tensor] * 3, FACES, min_distance=0.3), "vertices"),
+        (lambda: geodisk.sample(VERTICES, tensor, min_distance=0.3), "faces"),
+        (lambda: geodisk.sample(VERTICES, FACES, min_distance=0.3, density=tensor), "density"),
+        (lambda: geodisk.Samples(points=tensor), "points"),
+    ):
+        with pytest.raises(TypeError, match=f"^{name} {advice}") as raised:
+            call()
+        assert raised.value.__cause__ is tensor.error
+    with pytest.raises(TypeError, match=r"^min_distance is .*, not a number: use tensor"):
+        geodisk.sample(VERTICES, FACES, min_distance=tensor)
+    with pytest.raises(TypeError, match="^vertices has to be an array, with rows of one length"):
+        geodisk.sample([[0, 0, 0], [1, 0]], FACES, min_distance=0.3)
+
+
+def test_what_a_generator_of_meshes_raises_is_not_hidden():
+    def meshes():
+        yield MESH
+        raise KeyError("no such model")
+
+    with pytest.raises(KeyError, match="no such model"):
+        geodisk.sample_many(meshes(), min_distance=0.5)
+
+
 class Hostile:
     def __float__(self):
         raise RuntimeError

@@ -10,12 +10,22 @@ from numpy.typing import ArrayLike, NDArray
 from . import _errors as e
 
 
+def unreadable(name: str, error: Exception) -> TypeError:
+    """Returns the error for values that numpy does not read, which failed with `error`."""
+    if isinstance(error, ValueError) and "inhomogeneous" in str(error):
+        return TypeError(f"{name} has to be an array, with rows of one length")
+    return TypeError(f"{name} cannot be read as an array: {str(error) or type(error).__name__}")
+
+
 def array_of(values: ArrayLike, name: str) -> NDArray[Any]:
-    """As an array. Raises TypeError for rows of different lengths and masked values."""
+    """Returns an array. Raises TypeError for rows of different lengths and masked values, and with
+    its cause for an object that gives no array, such as a tensor with gradients or on a GPU."""
     try:
         array = np.asarray(values)
-    except Exception:  # Of numpy, or of the object.
-        raise TypeError(f"{name} has to be an array, with rows of one length") from None
+    except MemoryError:
+        raise
+    except Exception as error:  # Of numpy, or of the object.
+        raise unreadable(name, error) from error
     if isinstance(values, np.ma.MaskedArray) and np.any(values.mask):
         raise TypeError(f"{name} has masked values; fill them, such as by values.filled(0)")
     return array

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _errors as e
+from ._arrays import unreadable
 from ._polygons import Polygons, from_lists, from_padded, from_rows, from_strips, joined
 
 _WHAT_IS_TAKEN = (
@@ -58,6 +59,8 @@ def faces_of(faces: Any) -> NDArray[Any] | Polygons:
         array = np.asarray(faces)
     except ValueError:  # Rows of different lengths.
         return from_lists(faces)
+    except Exception as error:  # Of the object.
+        raise unreadable("faces", error) from error
     if array.dtype == object and array.ndim == 1 and array.size > 0:
         return from_lists(faces)
     if array.ndim == 2 and array.shape[1] > 3:

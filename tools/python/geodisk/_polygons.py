@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _errors as e
-from ._arrays import indices
+from ._arrays import array_of, indices
 
 
 @dataclass(frozen=True, eq=False)
@@ -53,7 +53,7 @@ def from_rows(faces: NDArray[Any]) -> Polygons:
 
 def from_lists(faces: Sequence[Any]) -> Polygons:
     """Returns faces of different sizes, a sequence each."""
-    rows = [np.asarray(face) for face in faces]
+    rows = [array_of(face, f"face {number}") for number, face in enumerate(faces)]
     for number, row in enumerate(rows):
         if row.ndim != 1 or (row.size > 0 and row.dtype.kind not in "iu"):
             raise TypeError(f"face {number} is not a sequence of integers")

@@ -36,24 +36,30 @@ def integer(value: Any, name: str, most: int, least: int = 0) -> int:
 
 def number(value: Any, name: str) -> float:
     """Returns a number as float. Raises TypeError for text, arrays of several and the like."""
+    is_plain = isinstance(value, (str, bytes, bool, np.bool_, complex))
+    if is_plain or not (hasattr(value, "__float__") or hasattr(value, "__index__")):
+        raise TypeError(f"{name} is {reprlib.repr(value)}, not a number")
     try:
-        if isinstance(value, (str, bytes, bool, np.bool_, complex)):
-            raise TypeError
         return float(value)
     except OverflowError:
         raise e.invalid(f"{name} is above 1e308, which is too large") from None
-    except Exception:  # Of any object.
-        raise TypeError(f"{name} is {reprlib.repr(value)}, not a number") from None
+    except Exception as error:  # Of any object.
+        why = f": {error}" if str(error) else ""
+        raise TypeError(f"{name} is {reprlib.repr(value)}, not a number{why}") from error
 
 
 def listed(values: Any) -> list[Any] | None:
-    """Returns what a sequence has; None for text, dicts and single values."""
+    """Returns what a sequence has; None for text, dicts and single values.
+
+    What a generator raises stays as it is.
+    """
     if isinstance(values, (str, bytes, dict, set)):
         return None
     try:
-        return list(values)
+        several = iter(values)
     except Exception:  # Of any object.
         return None
+    return list(several)
 
 
 def numbers_of(values: Any, name: str) -> tuple[float, ...]:
