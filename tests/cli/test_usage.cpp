@@ -1,6 +1,7 @@
 // Help, version, and every way to ask for something impossible.
 #include <doctest/doctest.h>
 
+#include <cstdlib>
 #include <set>
 #include <sstream>
 
@@ -371,6 +372,42 @@ TEST_CASE("a driver that variables name, and that is not there, is named") {
                 contains(outcome.err, std::string(variable) + " is '" + value + "', which leaves"));
         }
     }
+}
+
+TEST_CASE("a driver that does not load is named where only a CPU is left") {
+    const TemporaryFolder folder;
+    folder.write("lost.json", R"({"ICD":{"library_path":"liblost-driver.so.9"}})");
+    folder.write("other.json", R"({"ICD":{"library_path":"libm.so.6"}})");
+    if (contains(run(folder, {"info"}).out, " GPU\n")) {
+        return; // Where there is a GPU, nobody misses a driver.
+    }
+    Setting added;
+    const std::string both =
+        (folder / "lost.json").string() + ':' + (folder / "other.json").string();
+    for (const char* const variable : {"VK_DRIVER_FILES", "VK_ICD_FILENAMES"}) {
+        if (const char* const files = std::getenv(variable)) {
+            added.environment.emplace_back(variable, std::string(files) + ':' + both);
+        }
+    }
+    added.environment.emplace_back("VK_ADD_DRIVER_FILES", both);
+    const std::string lost =
+        (folder / "lost.json").string() + ", whose library liblost-driver.so.9 does not load (";
+    const std::string other =
+        (folder / "other.json").string() + ", whose library libm.so.6 is no Vulkan driver";
+    const std::string warning = "warning: the CPU is used, since a Vulkan driver is left out: ";
+    const Outcome info = run(folder, {"info"}, added);
+    CHECK(info.status == 0);
+    CHECK(contains(info.out, "drivers left out    " + lost));
+    CHECK(contains(info.out, other));
+    const Outcome made = run(folder, {"sample", "builtin:cube", "-n", "20", "-o", "a.csv"}, added);
+    CHECK(made.status == 0);
+    CHECK(contains(made.err, warning + lost));
+    CHECK(contains(made.err, warning + other));
+    const Outcome batch = run(folder, {"batch", "builtin:cube", "-n", "20", "-o", "out"}, added);
+    CHECK(contains(batch.err, warning + lost));
+    const Outcome chosen =
+        run(folder, {"sample", "builtin:cube", "-n", "20", "-o", "b.csv", "--device", "0"}, added);
+    CHECK(chosen.err.find("left out") == std::string::npos);
 }
 
 TEST_CASE("the distance must be given once and make sense") {

@@ -1,8 +1,10 @@
 #include "files/vulkan_environment.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <filesystem>
+#include <iterator>
 #include <string_view>
 #include <system_error>
 
@@ -24,6 +26,11 @@ constexpr char kBetweenFiles = ';';
 #else
 constexpr char kBetweenFiles = ':';
 #endif
+
+/// Functions that drivers have, by the interface that they have with the loader.
+constexpr std::array kEntryPoints{"vk_icdGetInstanceProcAddr",
+                                  "vk_icdNegotiateLoaderICDInterfaceVersion",
+                                  "vkGetInstanceProcAddr"};
 
 std::string value_of(const char* variable) {
     const char* const value = std::getenv(variable);
@@ -56,8 +63,10 @@ std::string fault_of_library(const Path& file, const std::string& library) {
     const bool is_path = library.find('/') != std::string::npos;
     const std::string name = is_path ? (file.parent_path() / Path(library)).string() : library;
     if (void* const handle = dlopen(name.c_str(), RTLD_LAZY | RTLD_LOCAL)) {
+        const bool is_driver = std::ranges::any_of(
+            kEntryPoints, [handle](const char* entry) { return dlsym(handle, entry) != nullptr; });
         dlclose(handle);
-        return "";
+        return is_driver ? "" : ", whose library " + library + " is no Vulkan driver";
     }
     std::error_code ignored;
     if (is_path && !std::filesystem::exists(Path(name), ignored)) {
@@ -69,14 +78,55 @@ std::string fault_of_library(const Path& file, const std::string& library) {
 #endif
 }
 
-bool holds_driver_files(const Path& folder) {
+/// The driver files of a folder, in order.
+std::vector<Path> driver_files_in(const Path& folder) {
+    std::vector<Path> files;
     std::error_code ignored;
     for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
         if (entry.path().extension() == ".json") {
-            return true;
+            files.emplace_back(entry.path());
         }
     }
-    return false;
+    std::ranges::sort(files);
+    return files;
+}
+
+/// The parts of a list that are not empty, each as a path.
+std::vector<Path> paths_in(std::string_view list) {
+    std::vector<Path> paths;
+    while (!list.empty()) {
+        const std::string part(list.substr(0, list.find(kBetweenFiles)));
+        list.remove_prefix(std::min(part.size() + 1, list.size()));
+        if (!part.empty()) {
+            paths.emplace_back(part);
+        }
+    }
+    return paths;
+}
+
+std::string value_or(const char* variable, const std::string& otherwise) {
+    const std::string value = value_of(variable);
+    return value.empty() ? otherwise : value;
+}
+
+/// The folders that the loader searches for driver files, as it documents them.
+std::vector<Path> driver_folders() {
+#ifdef _WIN32
+    return {};
+#else
+    const std::string home = value_of("HOME");
+    std::vector<Path> folders;
+    for (const std::string& bases :
+         {value_or("XDG_CONFIG_HOME", home.empty() ? "" : home + "/.config"),
+          value_or("XDG_CONFIG_DIRS", "/etc/xdg"), std::string("/etc"),
+          value_or("XDG_DATA_HOME", home.empty() ? "" : home + "/.local/share"),
+          value_or("XDG_DATA_DIRS", "/usr/local/share:/usr/share")}) {
+        for (const Path& base : paths_in(bases)) {
+            folders.emplace_back(base / "vulkan" / "icd.d");
+        }
+    }
+    return folders;
+#endif
 }
 
 /// What follows the name of the file or folder in a message.
@@ -86,7 +136,7 @@ std::string fault_of_file(const Path& file) {
         return ", which does not exist";
     }
     if (std::filesystem::is_directory(file, ignored)) {
-        return holds_driver_files(file) ? "" : ", a folder without driver files (*.json)";
+        return !driver_files_in(file).empty() ? "" : ", a folder without driver files (*.json)";
     }
     const std::string library = library_of(file);
     return library.empty() ? ", which is no driver file" : fault_of_library(file, library);
@@ -94,17 +144,44 @@ std::string fault_of_file(const Path& file) {
 
 /// The first fault of the files that `variable` names.
 std::string fault_of_files(const std::string& variable, std::string_view files) {
-    while (!files.empty()) {
-        const std::string file(files.substr(0, files.find(kBetweenFiles)));
-        files.remove_prefix(std::min(file.size() + 1, files.size()));
-        if (file.empty()) {
-            continue;
-        }
+    for (const Path& file : paths_in(files)) {
         if (const std::string fault = fault_of_file(file); !fault.empty()) {
-            return variable + " names " + file + fault + "; correct or unset it";
+            return variable + " names " + file.string() + fault + "; correct or unset it";
         }
     }
     return "";
+}
+
+/// Replaces folders by the driver files in them.
+std::vector<Path> with_files_of_folders(const std::vector<Path>& paths) {
+    std::vector<Path> files;
+    std::error_code ignored;
+    for (const Path& path : paths) {
+        if (std::filesystem::is_directory(path, ignored)) {
+            std::ranges::move(driver_files_in(path), std::back_inserter(files));
+        } else {
+            files.push_back(path);
+        }
+    }
+    return files;
+}
+
+/// The driver files that the loader takes: those that a variable names, or of the system with those
+/// that are added.
+std::vector<Path> all_driver_files() {
+    for (const char* const variable : {"VK_DRIVER_FILES", "VK_ICD_FILENAMES"}) {
+        if (const std::string files = value_of(variable); !files.empty()) {
+            return with_files_of_folders(paths_in(files));
+        }
+    }
+    std::vector<Path> all = paths_in(value_of("VK_ADD_DRIVER_FILES"));
+    std::error_code ignored;
+    for (const Path& folder : driver_folders()) {
+        if (std::filesystem::is_directory(folder, ignored)) {
+            all.push_back(folder);
+        }
+    }
+    return with_files_of_folders(all);
 }
 
 } // namespace
@@ -133,6 +210,25 @@ std::string driver_fault() {
         }
     }
     return fault_of_files("VK_ADD_DRIVER_FILES", value_of("VK_ADD_DRIVER_FILES"));
+}
+
+std::vector<std::string> left_out_drivers() {
+    std::vector<std::string> found;
+    for (const Path& file : all_driver_files()) {
+        const std::string fault = fault_of_file(file);
+        // Systems have drivers for programs of 32 bits too.
+        if (!fault.empty() && fault.find("wrong ELF class") == std::string::npos) {
+            found.push_back(file.string() + fault);
+        }
+    }
+    return found;
+}
+
+std::vector<std::string> missing_drivers(std::span<const DeviceReport> devices) {
+    const auto is_cpu = [](const DeviceReport& device) {
+        return device.type == VK_PHYSICAL_DEVICE_TYPE_CPU;
+    };
+    return std::ranges::all_of(devices, is_cpu) ? left_out_drivers() : std::vector<std::string>();
 }
 
 std::string with_driver_fault(const std::string& message) {

@@ -1,9 +1,12 @@
 // What the environment says of Vulkan devices and drivers. The library itself never reads it.
 #pragma once
 
+#include <span>
 #include <string>
 #include <utility>
+#include <vector>
 
+#include <geodisk/device.hpp>
 #include <geodisk/status.hpp>
 
 #include "program/failure.hpp"
@@ -20,6 +23,14 @@ std::string device_of_environment();
 /// (VK_DRIVER_FILES, VK_ICD_FILENAMES, VK_ADD_DRIVER_FILES, VK_LOADER_DRIVERS_SELECT and _DISABLE),
 /// and what to do; "" where nothing is. Only of use where no driver was found.
 std::string driver_fault();
+
+/// Returns the drivers that the Vulkan loader looks for and leaves out, each with its reason:
+/// "/a.json, whose library b.so does not load (...)". Those of the system and of variables. Empty
+/// on Windows, where they are in the registry.
+std::vector<std::string> left_out_drivers();
+
+/// Returns left_out_drivers() if all of these devices are CPUs, where a driver may be missing.
+std::vector<std::string> missing_drivers(std::span<const DeviceReport> devices);
 
 /// Returns `message`, of an error `no_device`, with driver_fault() in place of the advice to
 /// install a driver.

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "files/vulkan_environment.hpp"
+#include "geodisk/outputs/outputs.hpp"
 #include "program/failure.hpp"
 #include "program/interrupt.hpp"
 
@@ -15,8 +16,18 @@ Context open_device(const DeviceOptions& options, bool graphics, ProgressLine& p
     wanted.validation = options.validate;
     wanted.graphics = graphics;
     Context context = take_device(Context::create(wanted));
+    if (wanted.device.empty()) {
+        progress.clear();
+        warn_of_missing_drivers({&context.report(), 1});
+    }
     check_interrupted();
     return context;
+}
+
+void warn_of_missing_drivers(std::span<const DeviceReport> devices) {
+    for (const std::string& driver : missing_drivers(devices)) {
+        print_warning("the CPU is used, since a Vulkan driver is left out: " + driver);
+    }
 }
 
 std::string chosen_device(const std::string& given) {

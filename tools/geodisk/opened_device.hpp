@@ -1,6 +1,7 @@
 // The device of a command.
 #pragma once
 
+#include <span>
 #include <string>
 
 #include <geodisk/context.hpp>
@@ -10,9 +11,12 @@
 
 namespace geodisk::tools {
 
-/// As --device and --validate ask; with a queue that draws as well, where `graphics` is set. Throws
-/// UserError.
+/// As --device and --validate ask; with a queue that draws as well, where `graphics` is set. Warns
+/// of missing drivers if that is a CPU that nobody asked for. Throws UserError.
 Context open_device(const DeviceOptions& options, bool graphics, ProgressLine& progress);
+
+/// Prints a warning for each driver that is left out, if all devices are CPUs.
+void warn_of_missing_drivers(std::span<const DeviceReport> devices);
 
 /// Returns the device that --device, `given`, or else GEODISK_DEVICE chooses; "" where neither
 /// does. Throws UserError naming the variable for what matches no device that works.

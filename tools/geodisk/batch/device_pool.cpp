@@ -38,6 +38,7 @@ std::vector<std::string> chosen_devices(const std::vector<std::string>& options)
     }
     if (chosen.empty() && (all || given.empty())) {
         chosen.push_back(take(select_device(reports, "")));
+        warn_of_missing_drivers({&reports[chosen.front()], 1});
     }
     for (const std::string& name : given) {
         const std::size_t index =

@@ -115,22 +115,28 @@ Json to_json(std::size_t index, const DeviceReport& report) {
 }
 
 void print_text(std::ostream& out, const std::vector<DeviceReport>& reports,
-                std::optional<std::size_t> best) {
+                std::optional<std::size_t> best, const std::vector<std::string>& left_out) {
     for (std::size_t i = 0; i < reports.size(); ++i) {
         if (i > 0) {
             out << '\n';
         }
         print_device(out, i, reports[i], best == i);
     }
+    const char* label = "\ndrivers left out    ";
+    for (const std::string& driver : left_out) {
+        out << std::exchange(label, "                    ") << one_line(driver) << '\n';
+    }
 }
 
-std::string json_of_all(const std::vector<DeviceReport>& reports, std::optional<std::size_t> best) {
+std::string json_of_all(const std::vector<DeviceReport>& reports, std::optional<std::size_t> best,
+                        const std::vector<std::string>& left_out) {
     Json devices = Json::array();
     for (std::size_t i = 0; i < reports.size(); ++i)
         devices.push_back(to_json(i, reports[i]));
     const Json document{{"geodisk_version", GEODISK_VERSION_STRING},
                         {"default_device", json_of(best)},
-                        {"devices", std::move(devices)}};
+                        {"devices", std::move(devices)},
+                        {"left_out_drivers", left_out}};
     return text_of(document);
 }
 
@@ -142,8 +148,9 @@ void run_info(const OutputOptions& out) {
     const std::optional<std::size_t> best = chosen ? std::optional(*chosen) : std::nullopt;
 
     std::ostringstream text;
-    print_text(text, reports, best);
-    publish(out, json_of_all(reports, best), text.str());
+    const std::vector<std::string> left_out = missing_drivers(reports);
+    print_text(text, reports, best, left_out);
+    publish(out, json_of_all(reports, best, left_out), text.str());
     if (!listed) {
         take_device(Result<std::size_t>(listed.error()));
     }
