@@ -175,6 +175,52 @@ TEST_CASE("--texture auto gives the colours of materials") {
           {"-o", "a.csv", "--texture", "auto"});
 }
 
+TEST_CASE("no output replaces a file that a mesh names, however it is named") {
+    const TemporaryFolder folder;
+    std::filesystem::create_directory(folder / "in");
+    const char* const continued = "mtllib x.mtl \\\n m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\n"
+                                  "usemtl a\nf 1 2 3\n";
+    for (const char* const name : {"m.obj", "m.dat"}) {
+        folder.write(name, continued);
+    }
+    folder.write("n.dat", "v 0 0 0\nv 2 0 0\nv 0 1 0\nf 1 2 3\n");
+    folder.write("x.mtl", "");
+    const std::string materials = "newmtl a\nKd 1 0.5 0\n";
+    folder.write("m.mtl", materials);
+    const Arguments start{"sample", "m.obj", "-d", "0.2", "--texture", "auto"};
+    REQUIRE(run(folder, joined(start, {"-o", "s.csv"})).status == 0);
+    const auto fails = [&](int status, const char* part, const Arguments& arguments,
+                           const Setting& setting = {}) {
+        check_fails(folder, status, part, arguments, setting);
+        CHECK(bytes_of(folder / "m.mtl") == materials);
+    };
+    const char* const replaced = "m.mtl: the samples would replace a file that m.obj names";
+    fails(2, replaced, joined(start, {"-o", "m.mtl", "--format", "ply"}));
+    fails(2, "m.mtl: the report would replace a file that m.obj names",
+          joined(start, {"-o", "t.csv", "--json", "in/../m.mtl"}));
+    fails(2, "m.mtl: the samples would replace a file that m.dat names",
+          {"sample", "n.dat", "--from", "m.dat", "--mesh-format", "obj", "-d", "0.2", "-o", "m.mtl",
+           "--format", "ply"});
+    Setting piped;
+    piped.stdin_path = (folder / "m.obj").string();
+    fails(3, "'x.mtl' is not read, as a mesh from a stream has no folder",
+          {"sample", "-", "--mesh-format", "obj", "-d", "0.2", "--texture", "auto", "-o", "m.mtl",
+           "--format", "ply"},
+          piped);
+
+    // Beyond the folder of the mesh only where it is trusted, which a batch hands on.
+    folder.write("in/m.obj", "mtllib ../m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\n");
+    const Arguments outside{"sample", "in/m.obj", "-d", "0.2", "--texture", "auto", "-o", "u.csv"};
+    fails(3, "in/m.obj: its material file '../m.mtl' is not a file of its folder", outside);
+    CHECK(run(folder, joined(outside, {"--allow-outside"})).status == 0);
+    folder.write("list.txt", "in/m.obj --allow-outside\n");
+    const Outcome batch =
+        run(folder, {"batch", "list.txt", "-o", "out", "-d", "0.2", "--texture", "auto"});
+    INFO(batch.err);
+    CHECK(batch.status == 0);
+    CHECK(contains(bytes_of(folder / "out/batch.jsonl"), "--allow-outside"));
+}
+
 TEST_CASE("attributes that a mesh lacks, and formats that lack columns, are refused") {
     const TemporaryFolder folder;
     folder.write("roof.obj", kRoof);

@@ -224,6 +224,23 @@ def test_colours_of_materials(roof, tmp_path):
         geodisk.sample(roof, min_distance=0.2, texture="auto")
 
 
+def test_files_outside_of_the_folder_of_a_mesh_are_read_where_allowed(tmp_path):
+    (tmp_path / "in").mkdir()
+    (tmp_path / "m.mtl").write_text("newmtl a\nKd 1 0.5 0\n")
+    mesh = tmp_path / "in" / "m.obj"
+    mesh.write_text("mtllib ../m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\n")
+    given = dict(min_distance=0.3, texture="auto")
+    with pytest.raises(geodisk.MeshRejected, match=r"'\.\./m\.mtl' is not a file of its folder.*add allow_outside"):
+        geodisk.sample(mesh, **given)
+    samples = geodisk.sample(mesh, allow_outside=True, **given)
+    (many,) = geodisk.sample_many([mesh], allow_outside=True, **given)
+    bare = geodisk.sample(mesh, min_distance=0.3)
+    moved = geodisk.transfer(bare, mesh, texture="auto", allow_outside=True)
+    updated = geodisk.update(samples, mesh, allow_outside=True)
+    for other in (samples, many, moved, updated):
+        assert (other.attributes["color"] == [1, 0.5, 0]).all()
+
+
 def test_sample_transfer_and_many_have_one_record(roof, tmp_path):
     record = dict(texture=tmp_path / "ramp.png", normals="smooth", frames=True, attributes="all")
     samples = geodisk.sample(roof, min_distance=0.2, seed=5, **record)

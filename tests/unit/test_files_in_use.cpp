@@ -89,17 +89,21 @@ TEST_CASE("files that a mesh names are read") {
     folder.write("dos.obj", "mtllib .\\wood.mtl\r\nv 0 0 0\r\n");
     folder.write("mesh.ply", "ply\ncomment TextureFile old.tga\ncomment texture: tex.png\n"
                              "end_header\n");
-    const std::string json = R"({"buffers": [{"uri": "a%20b.bin"}, {"uri": "data:x,y"}],)"
-                             R"( "images": [{"extras": {"uri": "tex.png"}}]})";
+    const std::string json =
+        R"({"asset": {"version": "2.0"}, "buffers": [{"uri": "a%20b.bin"},)"
+        R"( {"uri": "data:x,y"}], "images": [{"extras": {"uri": "tex.png"}}]})";
     folder.write("mesh.gltf", json);
     const auto size = static_cast<char>(json.size());
-    folder.write("mesh.glb", std::string("glTF\2\0\0\0\0\0\0\0", 12) + size +
-                                 std::string("\0\0\0JSON", 7) + json + "binary");
+    const std::string header("glTF\2\0\0\0\0\0\0\0", 12), binary("\4\0\0\0BIN\0abcd", 12);
+    const std::string chunk = size + std::string("\0\0\0JSON", 7) + json;
+    folder.write("mesh.glb", header + chunk + binary);
+    folder.write("turned.glb", header + binary + chunk);
     CHECK(names_in(folder, "mesh.obj") == Names{"bump.jpg", "my wood.png", "sky.hdr", "wood.mtl"});
     CHECK(names_in(folder, "dos.obj") == Names{"bump.jpg", "my wood.png", "sky.hdr", "wood.mtl"});
     CHECK(names_in(folder, "mesh.ply") == Names{"old.tga", "tex.png"});
     CHECK(names_in(folder, "mesh.gltf") == Names{"a b.bin", "tex.png"});
     CHECK(names_in(folder, "mesh.glb") == Names{"a b.bin", "tex.png"});
+    CHECK(names_in(folder, "turned.glb") == Names{"a b.bin", "tex.png"});
     CHECK(names_in(folder, "missing.obj").empty());
     folder.write("deep.gltf", std::string(100000, '['));
     CHECK(names_in(folder, "deep.gltf").empty());
@@ -110,4 +114,36 @@ TEST_CASE("files that a mesh names are read") {
     check_fails(ExitCode::usage, "my wood.png: the picture would replace a file that ", [&] {
         files.add_written({"the picture", (folder / "my wood.png").string()});
     });
+}
+
+TEST_CASE("files that a mesh names are found as the readers find them") {
+    const TemporaryFolder folder;
+    for (const char* const name : {"a.bin", "my wood.png"}) {
+        folder.write(name, "");
+    }
+    const auto names_of_obj = [&](const std::string& obj, const std::string& mtl) {
+        folder.write("wood.mtl", mtl);
+        folder.write("mesh.obj", obj);
+        return names_in(folder, "mesh.obj");
+    };
+    const Names both{"my wood.png", "wood.mtl"};
+    const std::string plain = "newmtl m\nmap_Kd my wood.png\n";
+    CHECK(names_of_obj("mtllib missing.mtl \\\n wood.mtl\n", plain) == both);
+    CHECK(names_of_obj("mtl\\\r\nlib wo\\\r\nod.mtl # of oak\r\n", plain) == both);
+    CHECK(names_of_obj("mtllib wood.mtl\n", "newmtl m\nmap_Kd my wood.png # of oak\n") == both);
+    std::string options;
+    for (int i = 0; i < 50; ++i) {
+        options += "-blendu on ";
+    }
+    CHECK(names_of_obj("mtllib wood.mtl\n", "newmtl m\nmap_Kd " + options + "my wood.png\n") ==
+          both);
+
+    const auto names_of_gltf = [&](const std::string& before) {
+        folder.write("mesh.gltf", R"({"asset": {"version": "2.0"}, "extras": )" + before +
+                                      R"(, "buffers": [{"uri": "a.bin"}]})");
+        return names_in(folder, "mesh.gltf");
+    };
+    CHECK(names_of_gltf("\"K\xf6ln\"") == Names{"a.bin"});
+    CHECK(names_of_gltf("NaN") == Names{"a.bin"});
+    CHECK(names_of_gltf("-Infinity") == Names{"a.bin"});
 }

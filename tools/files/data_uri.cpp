@@ -24,6 +24,22 @@ constexpr std::array<std::uint8_t, 256> make_values() {
 
 constexpr std::array<std::uint8_t, 256> kValues = make_values();
 
+std::string percent_decoded(std::string_view text) {
+    std::string result;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        unsigned value = 0;
+        const char* const begin = text.data() + i + 1;
+        if (text[i] == '%' && i + 2 < text.size() &&
+            std::from_chars(begin, begin + 2, value, 16).ptr == begin + 2) {
+            result += static_cast<char>(value);
+            i += 2;
+        } else {
+            result += text[i];
+        }
+    }
+    return result;
+}
+
 /// Four digits make three bytes; '=' may fill up the last four.
 std::optional<std::string> from_base64(std::string_view text) {
     while (text.ends_with('=')) {
@@ -63,20 +79,8 @@ std::optional<std::string> data_of_uri(std::string_view uri) {
     return is_base64 ? from_base64(data) : std::optional(percent_decoded(data));
 }
 
-std::string percent_decoded(std::string_view text) {
-    std::string result;
-    for (std::size_t i = 0; i < text.size(); ++i) {
-        unsigned value = 0;
-        const char* const begin = text.data() + i + 1;
-        if (text[i] == '%' && i + 2 < text.size() &&
-            std::from_chars(begin, begin + 2, value, 16).ptr == begin + 2) {
-            result += static_cast<char>(value);
-            i += 2;
-        } else {
-            result += text[i];
-        }
-    }
-    return result;
+std::array<std::string, 2> uri_file_names(const std::string& uri) {
+    return {percent_decoded(uri), uri};
 }
 
 } // namespace geodisk::tools

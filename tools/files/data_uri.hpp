@@ -1,6 +1,7 @@
 // Bytes and names that are written in URIs.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -11,7 +12,8 @@ namespace geodisk::tools {
 /// be.
 std::optional<std::string> data_of_uri(std::string_view uri);
 
-/// Returns `text` with characters for "%20" and the like.
-std::string percent_decoded(std::string_view text);
+/// Returns the names that a URI may mean: with characters for "%20" and the like, and as it is, as
+/// some programs write it.
+std::array<std::string, 2> uri_file_names(const std::string& uri);
 
 } // namespace geodisk::tools

@@ -59,13 +59,6 @@ const GltfJson* meshopt_of(const GltfDocument& document, const GltfJson& view,
                             : document.find_extension(view, "KHR_meshopt_compression", name);
 }
 
-/// A file of the folder or of one below it.
-bool is_inside(const std::string& name) {
-    const Path path(name);
-    return !name.empty() && name.find_first_of(std::string_view(":\\\0", 3)) == std::string::npos &&
-           name.front() != '/' && std::find(path.begin(), path.end(), Path("..")) == path.end();
-}
-
 } // namespace
 
 bool GltfAccessor::is_whole() const {
@@ -114,19 +107,19 @@ std::string GltfData::uri_bytes(const std::string& uri, const std::string& what)
         }
         return std::move(*bytes);
     }
-    const Path folder = document_.path().parent_path();
-    const std::string plain = percent_decoded(uri);
-    for (const std::string& file : {plain, uri}) { // Some programs write '%' as it is.
-        if (!is_inside(file)) {
-            document_.fail(what + ": " + in_quotes(file) +
-                           " is not a file of its folder, so it is not read");
+    const std::array<std::string, 2> names = uri_file_names(uri);
+    for (const std::string& name : names) {
+        if (const std::string why = scope_.refusal(document_.path(), name); !why.empty()) {
+            document_.fail(what + ": " + why);
         }
+        const Path file = named_path(document_.path(), name);
         std::error_code ignored;
-        if (std::filesystem::exists(folder / Path(file), ignored)) {
-            return read_regular_file(folder / Path(file));
+        if (std::filesystem::exists(file, ignored)) {
+            return read_regular_file(file);
         }
     }
-    document_.fail(what + ": " + (folder / Path(plain)).string() + ": no such file");
+    document_.fail(what + ": " + named_path(document_.path(), names[0]).string() +
+                   ": no such file");
 }
 
 /// Empty for a buffer without data, which only compressed views may name.

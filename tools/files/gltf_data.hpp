@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "files/file_scope.hpp"
 #include "files/gltf_json.hpp"
 #include "geometry/mesh_warning.hpp"
 
@@ -27,13 +28,13 @@ struct GltfAccessor {
 };
 
 /// Reads accessors, and of the buffers only those that they need. Buffers and images are in the
-/// file, in the text of the document, or in files of the folder that the document is in. Throws
-/// UserError(bad_input); `where` begins messages, as "mesh 0, primitive 0".
+/// file, in the text of the document, or in files of its scope. Throws UserError(bad_input);
+/// `where` begins messages, as "mesh 0, primitive 0".
 class GltfData {
   public:
     /// `binary` is the binary chunk of a .glb file; it must outlive this.
-    GltfData(const GltfDocument& document, std::string_view binary)
-        : document_(document), binary_(binary) {}
+    GltfData(const GltfDocument& document, std::string_view binary, const FileScope& scope)
+        : document_(document), binary_(binary), scope_(scope) {}
 
     GltfAccessor describe(std::uint64_t accessor, const std::string& where) const;
     /// True if an accessor has numbers of its own, so that they are not all zero.
@@ -70,6 +71,7 @@ class GltfData {
 
     const GltfDocument& document_;
     std::string_view binary_;
+    const FileScope& scope_;
     std::map<std::uint64_t, std::string> loaded_;       ///< Buffers.
     std::map<std::uint64_t, std::string> decompressed_; ///< Views.
     std::vector<MeshWarning> warnings_;

@@ -109,8 +109,12 @@ bool is_major(std::string_view version, char digit) {
 
 } // namespace
 
+void clean_json(const Path& path, std::string& text) {
+    JsonCleaner(path, text).clean();
+}
+
 GltfDocument::GltfDocument(const Path& path, std::string text) : path_(path) {
-    JsonCleaner(path_, text).clean();
+    clean_json(path_, text);
     try {
         root_ = GltfJson::parse(text);
     } catch (const GltfJson::exception& error) {

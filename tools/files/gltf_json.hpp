@@ -17,12 +17,16 @@ namespace geodisk::tools {
 
 using GltfJson = nlohmann::json;
 
+/// Makes `text` of glTF the JSON that a parser reads: it may hold NaN, Infinity and bytes that are
+/// not UTF-8, as some programs write them into what nobody reads here. Throws UserError(bad_input)
+/// if it is nested deeply.
+void clean_json(const Path& path, std::string& text);
+
 /// The top-level document, and objects in it. Everything here throws UserError(bad_input) that
 /// names the file and the value.
 class GltfDocument {
   public:
-    /// Parses `text`, which must be glTF 2. It may hold NaN, Infinity and bytes that are not UTF-8,
-    /// as some programs write them into what nobody reads here; it may not be nested deeply.
+    /// Parses `text` after clean_json(); it must be glTF 2.
     GltfDocument(const Path& path, std::string text);
 
     const Path& path() const noexcept { return path_; }

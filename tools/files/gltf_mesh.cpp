@@ -27,7 +27,7 @@ constexpr const char* kNormals = "NORMAL";
 /// Types of accessors of 1 to 4 numbers.
 constexpr const char* kTypes[] = {"SCALAR", "VEC2", "VEC3", "VEC4"};
 
-std::size_t components_of(std::string_view type) {
+std::size_t draco_components(std::string_view type) {
     return static_cast<std::size_t>(std::ranges::find(kTypes, type) - std::begin(kTypes)) + 1;
 }
 
@@ -193,7 +193,7 @@ std::vector<double> GltfMeshReader::attribute(const Source& source, const std::s
     }
     const auto found =
         std::ranges::find(source.draco.attributes, id->second, &DracoMesh::Attribute::id);
-    if (found == source.draco.attributes.end() || found->components != components_of(type)) {
+    if (found == source.draco.attributes.end() || found->components != draco_components(type)) {
         document_.fail(place_ + ": its " + name + " in Draco's data is not of type " +
                        std::string(type));
     }

@@ -10,6 +10,8 @@
 
 #include <glm/mat4x4.hpp>
 
+#include "files/file_scope.hpp"
+#include "files/gltf_chunks.hpp"
 #include "files/gltf_data.hpp"
 #include "files/gltf_json.hpp"
 #include "files/gltf_materials.hpp"
@@ -23,67 +25,6 @@
 
 namespace geodisk::tools {
 namespace {
-
-/// The two parts of a glTF file; the second one of .glb alone.
-struct Chunks {
-    std::string json;
-    std::string_view binary;
-};
-
-std::uint32_t little_endian(std::string_view bytes, std::size_t at) {
-    std::uint32_t value = 0;
-    for (std::size_t i = 4; i-- > 0;) {
-        value = value << 8 | static_cast<unsigned char>(bytes[at + i]);
-    }
-    return value;
-}
-
-Chunks chunks_of_glb(const Path& path, std::string_view bytes) {
-    constexpr std::size_t kHeader = 12, kChunkHeader = 8;
-    constexpr std::uint32_t kJson = 0x4e4f534a, kBinary = 0x004e4942;
-    if (bytes.size() < kHeader + kChunkHeader) {
-        fail_input(path, "the file ends inside the header of glTF");
-    }
-    if (const std::uint32_t version = little_endian(bytes, 4); version != 2) {
-        fail_input(path, "is glTF " + std::to_string(version) + ".0; only 2.0 is read");
-    }
-    Chunks chunks;
-    bool has_json = false;
-    std::size_t at = kHeader;
-    while (bytes.size() - at >= kChunkHeader) {
-        const std::size_t size = little_endian(bytes, at);
-        const std::uint32_t type = little_endian(bytes, at + 4);
-        at += kChunkHeader;
-        if (size > bytes.size() - at) {
-            fail_input(path, "the file ends inside a chunk of " + std::to_string(size) + " bytes");
-        }
-        if (type == kJson && !has_json) {
-            chunks.json = bytes.substr(at, size);
-            has_json = true;
-        } else if (type == kBinary && chunks.binary.empty()) {
-            chunks.binary = bytes.substr(at, size);
-        }
-        at += size;
-    }
-    if (!has_json) {
-        fail_input(path, "is not a glTF file that can be read: it has no chunk of JSON");
-    }
-    drop_final_nuls(chunks.json);
-    return chunks;
-}
-
-Chunks chunks_of(const Path& path, const std::string& bytes) {
-    if (bytes.size() > std::numeric_limits<std::uint32_t>::max()) {
-        fail_input(path, "is larger than 4 GiB, which no glTF file may be");
-    }
-    if (bytes.starts_with("glTF")) {
-        return chunks_of_glb(path, bytes);
-    }
-    refuse_other_mesh(path, bytes, ".gltf");
-    Chunks chunks{bytes, {}};
-    drop_final_nuls(chunks.json);
-    return chunks;
-}
 
 enum class Extension { read, ignored, unknown };
 
@@ -173,8 +114,9 @@ class Placing {
 
 class GltfReader {
   public:
-    GltfReader(const Path& path, Chunks&& chunks, const WantedFields& fields)
-        : document_(path, std::move(chunks.json)), data_(document_, chunks.binary),
+    GltfReader(const Path& path, GltfChunks&& chunks, const WantedFields& fields,
+               const FileScope& scope)
+        : document_(path, std::move(chunks.json)), data_(document_, chunks.binary, scope),
           scene_(document_, data_), materials_(document_, data_),
           meshes_(document_, data_, fields, materials_), has_materials_(fields.materials) {}
 
@@ -393,9 +335,9 @@ class GltfReader {
 
 } // namespace
 
-PolygonMesh read_gltf(const Path& path, const WantedFields& fields) {
+PolygonMesh read_gltf(const Path& path, const WantedFields& fields, const FileScope& scope) {
     const std::string bytes = read_text(path);
-    return GltfReader(path, chunks_of(path, bytes), fields).read();
+    return GltfReader(path, gltf_chunks(path, bytes), fields, scope).read();
 }
 
 } // namespace geodisk::tools

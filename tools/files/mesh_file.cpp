@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "files/face_splitting.hpp"
+#include "files/file_scope.hpp"
 #include "files/input_file.hpp"
 #include "files/polygon_mesh.hpp"
 #include "files/sidecar_files.hpp"
@@ -399,12 +400,13 @@ MeshFile read_mesh(const MeshSources& sources) {
         }
         return mesh;
     }
+    const FileScope scope(path, sources.allows_outside);
     const std::string extension =
         sources.format.empty() ? lower_extension(path) : '.' + sources.format;
     if (extension == ".obj") {
         check_no_attributes(sources);
-        return to_triangles(sources,
-                            read_obj(path, sources.has_uvs, sources.fields, sources.progress));
+        return to_triangles(
+            sources, read_obj(path, sources.has_uvs, sources.fields, scope, sources.progress));
     }
     if (extension == ".ply") {
         const bool has_other_source = !sources.coordinates.empty() || !sources.edge_lengths.empty();
@@ -422,7 +424,7 @@ MeshFile read_mesh(const MeshSources& sources) {
         return to_triangles(with_weld, read_stl(path, sources.progress));
     }
     if (extension == ".gltf" || extension == ".glb") {
-        return to_triangles(sources, read_gltf(path, sources.fields));
+        return to_triangles(sources, read_gltf(path, sources.fields, scope));
     }
     if (!sources.format.empty()) {
         fail_usage("--mesh-format: " + in_quotes(sources.format) +

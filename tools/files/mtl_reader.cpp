@@ -11,8 +11,8 @@
 #include <utility>
 
 #include "files/input_file.hpp"
+#include "files/mtl_records.hpp"
 #include "files/text_file.hpp"
-#include "files/text_lines.hpp"
 #include "program/exact_text.hpp"
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
@@ -20,54 +20,16 @@
 namespace geodisk::tools {
 namespace {
 
-using Words = std::span<const std::string_view>;
-
-/// A name may hold blanks.
-std::string joined_text(Words words) {
-    return words.empty()
-               ? ""
-               : std::string(words.front().data(), words.back().data() + words.back().size());
-}
-
-/// Returns the path of a file that another one names.
-Path path_beside(const Path& file, std::string name) {
-    if (name.size() > 1 && name.starts_with('"') && name.ends_with('"')) {
-        name = name.substr(1, name.size() - 2);
-    }
-    std::ranges::replace(name, '\\', '/'); // As Windows writes them.
-    return file.parent_path() / Path(name);
-}
-
 bool is_file(const Path& path) {
     std::error_code ignored;
     return std::filesystem::is_regular_file(path, ignored);
 }
 
-/// Returns `line` up to a comment. Names of files may hold a '#', but not after a blank.
-std::string_view without_remark(std::string_view line) {
-    for (std::size_t at = line.find('#'); at != std::string_view::npos;
-         at = line.find('#', at + 1)) {
-        if (at == 0 || line[at - 1] == ' ' || line[at - 1] == '\t') {
-            return line.substr(0, at);
-        }
-    }
-    return line;
-}
-
-/// Number of words that follow an option of a map; those of a place or size are 1 to 3.
-const std::map<std::string_view, std::size_t>& option_sizes() {
-    static const std::map<std::string_view, std::size_t> kSizes{
-        {"-blendu", 1}, {"-blendv", 1},  {"-bm", 1},  {"-boost", 1}, {"-cc", 1},
-        {"-clamp", 1},  {"-imfchan", 1}, {"-mm", 2},  {"-o", 3},     {"-s", 3},
-        {"-t", 3},      {"-texres", 1},  {"-type", 1}};
-    return kSizes;
-}
-
 class MtlReader {
   public:
     MtlReader(const Path& obj, std::span<const std::optional<std::string>> names,
-              std::vector<MeshWarning>& warnings)
-        : obj_(obj), warnings_(warnings) {
+              const FileScope& scope, std::vector<MeshWarning>& warnings)
+        : obj_(obj), scope_(scope), warnings_(warnings) {
         result_.colours.resize(names.size());
         for (std::size_t i = 0; i < names.size(); ++i) {
             if (names[i]) {
@@ -78,19 +40,13 @@ class MtlReader {
 
     /// Reads the files behind `mtllib`: one whose name may hold blanks, or several.
     void read_library(const std::string& text) {
-        if (const Path whole = path_beside(obj_, text); is_file(whole)) {
-            read(whole);
+        const std::vector<std::string> names = library_names(text);
+        if (is_file(named_path(obj_, names[0]))) {
+            read(names[0]);
             return;
         }
-        std::vector<std::string_view> words;
-        split_tokens(text, words);
-        for (const std::string_view word : words) {
-            const Path file = path_beside(obj_, std::string(word));
-            if (!is_file(file)) {
-                fail_input(obj_, "its material file " + file.string() +
-                                     " is not there; correct mtllib, or add the file");
-            }
-            read(file);
+        for (const std::string& name : std::span(names).subspan(1)) {
+            read(name);
         }
     }
 
@@ -105,20 +61,25 @@ class MtlReader {
         fail_input(mtl_, "line " + std::to_string(line_) + ": " + message);
     }
 
-    void read(const Path& file) {
+    void read(const std::string& name) {
+        if (const std::string why = scope_.refusal(obj_, name); !why.empty()) {
+            fail_input(obj_, "its material file " + why);
+        }
+        const Path file = named_path(obj_, name);
+        if (!is_file(file)) {
+            fail_input(obj_, "its material file " + file.string() +
+                                 " is not there; correct mtllib, or add the file");
+        }
         if (!known_files_.insert(file.string()).second) {
             return;
         }
         mtl_ = file;
         current_ = nullptr;
         const std::string bytes = read_text(file);
-        TextLines lines(bytes);
-        for (std::string_view line; lines.next(line);) {
-            line_ = lines.number();
-            split_tokens(without_remark(line), words_);
-            if (!words_.empty()) {
-                take_record(lower_case(std::string(words_[0])), Words(words_).subspan(1));
-            }
+        MtlRecords records(bytes);
+        while (records.next(words_)) {
+            line_ = records.number();
+            take_record(lower_case(std::string(words_[0])), Words(words_).subspan(1));
         }
     }
 
@@ -158,33 +119,27 @@ class MtlReader {
         current_->transform = MaterialColour{}.transform;
         current_->wrap_u = current_->wrap_v = ImageWrap::repeat;
         current_->image.reset();
-        while (words.size() > 1 && option_sizes().contains(words[0])) {
-            words = words.subspan(take_option(words));
+        while (const std::size_t size = map_option_size(words)) {
+            take_option(words[0], words.subspan(1, size - 1));
+            words = words.subspan(size);
         }
         if (!words.empty()) {
             current_->image = image_of(joined_text(words));
         }
     }
 
-    /// Returns the number of words of the option that comes first. The last word is the image.
-    std::size_t take_option(Words words) {
-        const std::string_view option = words[0];
-        std::size_t size = std::min(option_sizes().at(option), words.size() - 2);
-        if (option == "-o" || option == "-s" || option == "-t") {
-            std::array<double, 2> given{option == "-s" ? 1.0 : 0.0, option == "-s" ? 1.0 : 0.0};
-            std::size_t count = 0;
-            for (; count < size && parse_real(words[count + 1]); ++count) {
-                if (count < given.size()) {
-                    given[count] = number(words[count + 1]);
-                }
-            }
-            if (count == 0) {
+    void take_option(std::string_view option, Words values) {
+        if (has_numbers(option)) {
+            if (values.empty()) {
                 fail(std::string(option) + " of map_Kd needs a number");
             }
-            size = count;
+            std::array<double, 2> given{option == "-s" ? 1.0 : 0.0, option == "-s" ? 1.0 : 0.0};
+            for (std::size_t i = 0; i < std::min(values.size(), given.size()); ++i) {
+                given[i] = number(values[i]);
+            }
             move_map(option, given);
         }
-        const bool is_on = size == 1 && words[1] == "on";
+        const bool is_on = values.size() == 1 && values[0] == "on";
         if (option == "-clamp" && is_on) {
             current_->wrap_u = current_->wrap_v = ImageWrap::clamp;
         }
@@ -194,7 +149,6 @@ class MtlReader {
                                  ? "material " + in_quotes(name_) + ": " + std::string(option)
                                  : ignored_place_;
         }
-        return size + 1;
     }
 
     void move_map(std::string_view option, const std::array<double, 2>& given) {
@@ -210,11 +164,14 @@ class MtlReader {
 
     /// Returns the index of an image, which is read the first time that a material names it.
     std::uint32_t image_of(const std::string& name) {
-        const Path path = path_beside(mtl_, name);
+        const Path path = named_path(mtl_, name);
         const auto next = static_cast<std::uint32_t>(result_.images.size());
         const auto [index, is_new] = images_.try_emplace(path.string(), next);
         if (is_new) {
             const std::string material = "material " + in_quotes(name_) + ": ";
+            if (const std::string why = scope_.refusal(mtl_, name); !why.empty()) {
+                fail(material + "its image " + why);
+            }
             if (!is_file(path)) {
                 fail(material + "its image " + path.string() +
                      " is not there; correct map_Kd, or add the file");
@@ -226,6 +183,7 @@ class MtlReader {
     }
 
     const Path& obj_;
+    const FileScope& scope_;
     std::vector<MeshWarning>& warnings_;
     MaterialColours result_;
     std::map<std::string, std::size_t> wanted_; ///< Numbers of materials by name.
@@ -244,8 +202,8 @@ class MtlReader {
 
 MaterialColours read_mtl_files(const Path& obj, std::span<const std::string> libraries,
                                std::span<const std::optional<std::string>> names,
-                               std::vector<MeshWarning>& warnings) {
-    MtlReader reader(obj, names, warnings);
+                               const FileScope& scope, std::vector<MeshWarning>& warnings) {
+    MtlReader reader(obj, names, scope, warnings);
     for (const std::string& library : libraries) {
         reader.read_library(library);
     }

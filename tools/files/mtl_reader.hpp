@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "files/file_scope.hpp"
 #include "geometry/material_colours.hpp"
 #include "geometry/mesh_warning.hpp"
 #include "program/path.hpp"
@@ -14,10 +15,10 @@ namespace geodisk::tools {
 
 /// Reads `Kd` and `map_Kd` of materials, and their images. `libraries` are the texts behind each
 /// `mtllib` of the file `obj`. `names` are those of the materials; nothing for those that no face
-/// uses. Of materials of the same name, the first one counts. Throws UserError(bad_input) naming
-/// the MTL file, and its line or material.
+/// uses. Files beyond `scope` are refused. Of materials of the same name, the first one counts.
+/// Throws UserError(bad_input) naming the MTL file, and its line or material.
 MaterialColours read_mtl_files(const Path& obj, std::span<const std::string> libraries,
                                std::span<const std::optional<std::string>> names,
-                               std::vector<MeshWarning>& warnings);
+                               const FileScope& scope, std::vector<MeshWarning>& warnings);
 
 } // namespace geodisk::tools

@@ -1,8 +1,8 @@
 #include "files/named_files.hpp"
 
 #include <algorithm>
-#include <cstdint>
-#include <cstring>
+#include <array>
+#include <iterator>
 #include <optional>
 #include <string_view>
 #include <system_error>
@@ -11,7 +11,13 @@
 #include <nlohmann/json.hpp>
 
 #include "files/data_uri.hpp"
+#include "files/file_scope.hpp"
+#include "files/gltf_chunks.hpp"
+#include "files/gltf_json.hpp"
 #include "files/input_file.hpp"
+#include "files/mtl_records.hpp"
+#include "files/obj_lines.hpp"
+#include "files/stream_path.hpp"
 #include "files/text_lines.hpp"
 #include "program/exact_text.hpp"
 #include "program/failure.hpp"
@@ -20,19 +26,6 @@ namespace geodisk::tools {
 namespace {
 
 using Names = std::vector<std::string>;
-
-/// The bytes, or none where the file is no regular one or cannot be read.
-std::string bytes_of(const Path& path) {
-    std::error_code ignored;
-    if (!std::filesystem::is_regular_file(path, ignored)) {
-        return {};
-    }
-    try {
-        return read_file(path);
-    } catch (const UserError&) { // Whoever needs the file says what is wrong.
-        return {};
-    }
-}
 
 /// Collects all values of the key "uri", at any depth.
 class UriCollector : public nlohmann::json_sax<nlohmann::json> {
@@ -46,8 +39,9 @@ class UriCollector : public nlohmann::json_sax<nlohmann::json> {
     bool number_float(number_float_t, const string_t&) override { return true; }
     bool string(string_t& value) override {
         if (is_uri_ && !value.starts_with("data:")) {
-            names.push_back(value);
-            names.push_back(percent_decoded(value));
+            for (std::string& name : uri_file_names(value)) {
+                names.push_back(std::move(name));
+            }
         }
         return true;
     }
@@ -68,22 +62,11 @@ class UriCollector : public nlohmann::json_sax<nlohmann::json> {
     bool is_uri_ = false;
 };
 
-/// The JSON of a glTF file, binary or not.
-std::string_view json_in(std::string_view bytes) {
-    constexpr std::size_t kBefore = 20; // Header of the file and of its first chunk.
-    if (!bytes.starts_with("glTF") || bytes.size() < kBefore) {
-        return bytes;
-    }
-    std::uint32_t size = 0;
-    std::memcpy(&size, bytes.data() + 12, sizeof size);
-    return bytes.substr(kBefore, size);
-}
-
-Names names_in_gltf(const std::string& bytes) {
+Names names_in_gltf(const Path& path, const std::string& bytes) {
+    std::string json = gltf_chunks(path, bytes).json;
+    clean_json(path, json);
     UriCollector collector;
-    const std::string_view json = json_in(bytes);
-    nlohmann::json::sax_parse(json.begin(), json.end(), &collector,
-                              nlohmann::json::input_format_t::json, false);
+    nlohmann::json::sax_parse(json, &collector, nlohmann::json::input_format_t::json, false);
     return std::move(collector.names);
 }
 
@@ -117,23 +100,30 @@ void add_words(std::string_view text, Names& names) {
 }
 
 Names names_in_obj(const std::string& bytes) {
-    constexpr std::string_view kKey = "mtllib";
     Names names;
-    for (std::size_t at = 0; (at = bytes.find(kKey, at)) != std::string::npos;) {
-        at += kKey.size();
-        const std::size_t end = std::min(bytes.find_first_of("\r\n", at), bytes.size());
-        add_words(std::string_view(bytes).substr(at, end - at), names);
+    std::vector<std::string_view> words;
+    ObjLines lines(bytes);
+    for (std::string_view line; lines.next(line);) {
+        split_tokens(line, words);
+        if (!words.empty() && words[0] == "mtllib") {
+            std::ranges::move(library_names(joined_text(Words(words).subspan(1))),
+                              std::back_inserter(names));
+        }
     }
     return names;
 }
 
-/// Every name of a line of a material may be that of a texture.
+/// Every record may name an image: as the reader takes it, or in another way.
 Names names_in_mtl(const std::string& bytes) {
     Names names;
-    TextLines lines(bytes);
-    for (std::string_view line; lines.next(line);) {
-        line = trimmed(line);
-        add_words(line.substr(std::min(line.find_first_of(" \t"), line.size())), names);
+    std::vector<std::string_view> words;
+    for (MtlRecords records(bytes); records.next(words);) {
+        Words rest = Words(words).subspan(1);
+        add_words(joined_text(rest), names);
+        while (const std::size_t size = map_option_size(rest)) {
+            rest = rest.subspan(size);
+        }
+        names.push_back(joined_text(rest));
     }
     return names;
 }
@@ -149,41 +139,41 @@ Names names_in_ply(const std::string& bytes) {
     return names;
 }
 
-/// Those of the names that are files, seen from the folder of `path`.
-std::vector<Path> existing(const Path& path, const Names& names) {
-    std::vector<Path> files;
-    for (std::string name : names) {
-        std::ranges::replace(name, '\\', '/'); // As Windows writes them.
-        const Path file = path.parent_path() / Path(name);
-        std::error_code ignored;
-        if (std::filesystem::is_regular_file(file, ignored)) {
-            files.push_back(file);
-        }
+Names names_in(const Path& path, const std::string& kind) {
+    const std::string bytes = read_file(path);
+    if (kind == ".gltf" || kind == ".glb") {
+        return names_in_gltf(path, bytes);
     }
-    return files;
+    if (kind == ".obj") {
+        return names_in_obj(bytes);
+    }
+    return kind == ".mtl" ? names_in_mtl(bytes) : names_in_ply(bytes);
 }
 
 } // namespace
 
 std::vector<Path> files_named_in(const Path& path, const std::string& format) {
     const std::string kind = format.empty() ? lower_extension(path) : '.' + format;
-    if (kind == ".gltf" || kind == ".glb") {
-        return existing(path, names_in_gltf(bytes_of(path)));
-    }
-    if (kind == ".ply") {
-        return existing(path, names_in_ply(bytes_of(path)));
-    }
-    if (kind == ".mtl") {
-        return existing(path, names_in_mtl(bytes_of(path)));
-    }
-    if (kind != ".obj") {
+    constexpr std::array<std::string_view, 5> kNaming{".gltf", ".glb", ".obj", ".ply", ".mtl"};
+    std::error_code ignored;
+    if (std::ranges::find(kNaming, kind) == kNaming.end() || input_stream(path) ||
+        !std::filesystem::is_regular_file(path, ignored)) {
         return {};
     }
-    std::vector<Path> files = existing(path, names_in_obj(bytes_of(path)));
-    const std::size_t materials = files.size();
-    for (std::size_t i = 0; i < materials; ++i) {
-        const std::vector<Path> textures = files_named_in(files[i], "mtl");
-        files.insert(files.end(), textures.begin(), textures.end());
+    std::vector<Path> files;
+    try {
+        for (const std::string& name : names_in(path, kind)) {
+            const Path file = named_path(path, name);
+            if (std::filesystem::is_regular_file(file, ignored)) {
+                files.push_back(file);
+            }
+        }
+    } catch (const UserError&) { // Whoever needs the file says what is wrong.
+        return {};
+    }
+    const std::size_t direct = files.size();
+    for (std::size_t i = 0; kind == ".obj" && i < direct; ++i) {
+        std::ranges::move(files_named_in(files[i], "mtl"), std::back_inserter(files));
     }
     return files;
 }

@@ -12,7 +12,7 @@ namespace geodisk::tools {
 /// reads them or not: `uri` of glTF, `mtllib` of OBJ with the textures of its materials, and the
 /// textures that MeshLab notes in PLY. A name that may be understood in several ways gives several
 /// paths; those of nothing are left out. `format` stands in for the extension unless it is "".
-/// Pipes, and files that cannot be read, name none.
+/// Streams, whose names are refused, and files that cannot be read name none.
 std::vector<Path> files_named_in(const Path& path, const std::string& format = {});
 
 } // namespace geodisk::tools

@@ -13,9 +13,10 @@
 #include <vector>
 
 #include "files/mtl_reader.hpp"
+#include "files/mtl_records.hpp"
+#include "files/obj_lines.hpp"
 #include "files/polygon_mesh.hpp"
 #include "files/text_file.hpp"
-#include "files/text_lines.hpp"
 #include "program/exact_text.hpp"
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
@@ -64,19 +65,19 @@ class UnusedIndices {
 class ObjParts {
   public:
     /// Takes the words of a record; ignores other records.
-    void take(std::span<const std::string_view> words) {
+    void take(Words words) {
         if (words.empty()) {
             return;
         }
         if (words[0] == "usemtl") {
-            material_ = number_of(materials_, names_.materials, rest_of(words));
+            material_ = number_of(materials_, names_.materials, joined_text(words.subspan(1)));
         } else if (words[0] == "g") {
             groups_.clear();
             for (const std::string_view name : words.subspan(1)) {
                 groups_.push_back(number_of(known_groups_, names_.groups, std::string(name)));
             }
         } else if (words[0] == "o") {
-            object_ = number_of(known_groups_, names_.groups, rest_of(words));
+            object_ = number_of(known_groups_, names_.groups, joined_text(words.subspan(1)));
         } else {
             return;
         }
@@ -100,16 +101,6 @@ class ObjParts {
             current_ = known->second;
         }
         return *current_;
-    }
-
-    /// Returns the words behind the first one. Names may hold blanks.
-    static std::string rest_of(std::span<const std::string_view> words) {
-        if (words.size() < 2) {
-            return {};
-        }
-        const char* const begin = words[1].data();
-        const std::string_view last = words.back();
-        return {begin, last.data() + last.size()};
     }
 
     /// Puts them into the mesh, if the file divides its faces at all.
@@ -148,8 +139,8 @@ class ObjParts {
 class ObjReader {
   public:
     ObjReader(const Path& path, std::string_view bytes, bool has_uvs, const WantedFields& fields,
-              const ReadingProgress& progress)
-        : path_(path), lines_(bytes, progress),
+              const FileScope& scope, const ReadingProgress& progress)
+        : path_(path), scope_(scope), lines_(bytes, progress),
           has_uvs_(has_uvs || fields.materials || fields.has(kUvField)),
           has_normals_(fields.normals), has_colours_(fields.has(kColourField)),
           has_materials_(fields.materials) {
@@ -158,7 +149,8 @@ class ObjReader {
 
     PolygonMesh read() && {
         std::string_view line;
-        while (next(line)) {
+        while (lines_.next(line)) {
+            line_ = lines_.number();
             if (line.find('\0') != std::string_view::npos) {
                 fail(lines_.nul_message());
             }
@@ -173,7 +165,7 @@ class ObjReader {
             } else if (keyword == "vn") {
                 add_normal();
             } else if (keyword == "mtllib") {
-                libraries_.push_back(ObjParts::rest_of(tokens_));
+                libraries_.push_back(joined_text(Words(tokens_).subspan(1)));
             } else {
                 parts_.take(tokens_);
             }
@@ -184,7 +176,8 @@ class ObjReader {
         give_fields();
         parts_.give(mesh_);
         if (has_materials_ && !libraries_.empty()) {
-            mesh_.materials = read_mtl_files(path_, libraries_, used_materials(), mesh_.warnings);
+            mesh_.materials =
+                read_mtl_files(path_, libraries_, used_materials(), scope_, mesh_.warnings);
         }
         return std::move(mesh_);
     }
@@ -193,37 +186,6 @@ class ObjReader {
     [[noreturn]] void fail(const std::string& message) const { fail_at(line_, message); }
     [[noreturn]] void fail_at(std::uint32_t line, const std::string& message) const {
         fail_input(path_, "line " + std::to_string(line) + ": " + message);
-    }
-
-    /// The next line without comment, joined with those that continue it.
-    bool next(std::string_view& line) {
-        if (!lines_.next(line)) {
-            return false;
-        }
-        line_ = lines_.number();
-        bool continues = take_comment(line);
-        if (!continues) {
-            return true;
-        }
-        joined_ = line;
-        std::string_view more;
-        while (continues && lines_.next(more)) {
-            continues = take_comment(more);
-            joined_ += more;
-        }
-        line = joined_;
-        return true;
-    }
-
-    /// Takes off a comment, or the backslash of a line that goes on: then true.
-    static bool take_comment(std::string_view& line) {
-        if (const std::string_view bare = without_comment(line); bare.size() < line.size()) {
-            line = bare;
-            return false;
-        }
-        const bool continues = line.ends_with('\\');
-        line.remove_suffix(continues ? 1 : 0);
-        return continues;
     }
 
     double number(std::string_view token) const {
@@ -420,8 +382,8 @@ class ObjReader {
     }
 
     const Path& path_;
-    TextLines lines_;
-    std::string joined_; ///< A line that is continued.
+    const FileScope& scope_;
+    ObjLines lines_;
     std::uint32_t line_ = 0;
     std::vector<std::string_view> tokens_;
     bool has_uvs_, has_normals_, has_colours_, has_materials_; ///< What to read.
@@ -439,14 +401,14 @@ class ObjReader {
 } // namespace
 
 PolygonMesh read_obj(const Path& path, bool has_uvs, const WantedFields& fields,
-                     const ReadingProgress& progress) {
+                     const FileScope& scope, const ReadingProgress& progress) {
     std::string bytes = read_text(path);
     const std::size_t nuls = drop_final_nuls(bytes);
     if (bytes.empty()) {
         fail_input(path, "is empty");
     }
     refuse_other_mesh(path, bytes, ".obj");
-    PolygonMesh mesh = ObjReader(path, bytes, has_uvs, fields, progress).read();
+    PolygonMesh mesh = ObjReader(path, bytes, has_uvs, fields, scope, progress).read();
     warn_of_final_nuls(mesh, nuls);
     return mesh;
 }

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "files/file_scope.hpp"
 #include "files/mesh_fields.hpp"
 #include "files/reading_progress.hpp"
 #include "geometry/mesh.hpp"
@@ -59,11 +60,12 @@ inline void warn_of_final_nuls(PolygonMesh& mesh, std::uint64_t count) {
 }
 
 /// Reads the `v`, `f`, `usemtl`, `g`, `o` and, where asked for, `vt`, `vn` and `mtllib` records of
-/// an OBJ file, for the last with the MTL files that it names; everything else in it is ignored.
-/// Understands every line end, line continuation, a byte order mark, relative indices and faces of
-/// any size. Throws UserError(bad_input) naming the line, like the readers of other texts below.
+/// an OBJ file, for the last with the MTL files of `scope` that it names; everything else in it is
+/// ignored. Understands every line end, line continuation, a byte order mark, relative indices and
+/// faces of any size. Throws UserError(bad_input) naming the line, like the readers of other texts
+/// below.
 PolygonMesh read_obj(const Path& path, bool has_uvs, const WantedFields& fields,
-                     const ReadingProgress& progress);
+                     const FileScope& scope, const ReadingProgress& progress);
 
 /// Reads an STL file, binary if its size is as it tells or it does not begin with "solid", else
 /// ascii: three vertices for each facet, so that no two facets hang together until vertices are
@@ -77,10 +79,10 @@ PolygonMesh read_off(const Path& path, const WantedFields& fields, const Reading
 /// Reads all triangles, strips and fans of the scene of a glTF 2.0 file, text or binary, one mesh
 /// and primitive after the other. Nodes place them, or joints and the default weights of morph
 /// targets, also several times as instances; a mirrored one is turned over. Primitives of a mesh
-/// with the same positions share vertices. Compressed ones are read as this build can. Buffers and
-/// images are read from the folder of the file alone, colours and images of materials only where
-/// asked for. Throws UserError(bad_input) naming mesh and primitive.
-PolygonMesh read_gltf(const Path& path, const WantedFields& fields);
+/// with the same positions share vertices. Compressed ones are read as this build can. Buffers are
+/// read, colours and images of materials only where asked for. Throws UserError(bad_input) naming
+/// mesh and primitive.
+PolygonMesh read_gltf(const Path& path, const WantedFields& fields, const FileScope& scope);
 
 /// What to read of element `vertex`.
 struct PlyWanted {

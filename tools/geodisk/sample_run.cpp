@@ -197,12 +197,8 @@ std::vector<NamedFile> files_read(const SampleJob& job) {
     job.mask.add_files(read);
     job.constraints.add_files(read);
     add_class_file(job.classes_option, read);
-    for (const auto& [what, path] :
-         {std::pair{"the mesh before", job.from}, {"the samples before", job.update}}) {
-        if (!path.empty()) {
-            read.push_back({what, path});
-        }
-    }
+    read.push_back({"the mesh before", job.from, job.mesh.format});
+    read.push_back({"the samples before", job.update});
     return read;
 }
 

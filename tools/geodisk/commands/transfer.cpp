@@ -265,8 +265,8 @@ void add_transfer_command(Command app) {
     add_mesh_argument(command, options->from, "Mesh that the samples were made on", "MESH_A");
     add_mesh_argument(command, options->to, "Mesh with identical faces to move them to", "MESH_B");
     add_output_argument(command, options->out);
-    add_format_option(command, options->from, "-a");
-    add_format_option(command, options->to, "-b");
+    add_reader_options(command, options->from, "-a");
+    add_reader_options(command, options->to, "-b");
     add_sidecar_options(command, options->from, "MESH_A", "-a");
     add_sidecar_options(command, options->to, "MESH_B", "-b");
     add_lift_option(command, options->to, "-b");

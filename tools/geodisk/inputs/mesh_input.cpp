@@ -59,6 +59,7 @@ MeshSources sources_of(const MeshOptions& options, std::span<const Lift> lifts,
     sources.has_uvs = density && density->kind == Kind::map;
     sources.keep_seams = options.keep_seams;
     sources.fields = options.fields;
+    sources.allows_outside = options.allows_outside;
     if (density && density->kind == Kind::attribute) {
         sources.attributes.push_back(density->name);
     }

@@ -103,13 +103,17 @@ void add_sidecar_options(Command command, MeshOptions& options, const std::strin
                        kSurfaceGroup);
 }
 
-void add_format_option(Command command, MeshOptions& options, const std::string& suffix) {
+void add_reader_options(Command command, MeshOptions& options, const std::string& suffix) {
     command
         .add_option("--mesh-format" + suffix, options.format, "NAME",
                     "Read the mesh as gltf, glb, obj, off, ply or stl, ignoring its\n"
                     "extension; MESH may then be - for standard input",
                     kSurfaceGroup)
         .offers(mesh_formats());
+    command.add_flag("--allow-outside" + suffix, options.allows_outside,
+                     "Read files that the mesh names outside of its folder too: names\n"
+                     "with .., whole paths, and links that lead out of it",
+                     kSurfaceGroup);
 }
 
 void add_lift_option(Command command, MeshOptions& options, const std::string& suffix) {
@@ -136,7 +140,7 @@ void add_weld_options(Command command, MeshOptions& options, const std::string& 
 }
 
 void add_mesh_options(Command command, MeshOptions& options) {
-    add_format_option(command, options);
+    add_reader_options(command, options);
     add_weld_options(command, options);
     add_sidecar_options(command, options, "MESH");
     add_lift_option(command, options);

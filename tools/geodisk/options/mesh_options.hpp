@@ -20,8 +20,9 @@ struct MeshOptions {
     std::vector<std::string> lifts;
     std::string weld; ///< A length, or what a flag without a value gets; "" for not at all.
     bool keep_seams = false;
-    WantedFields fields; ///< Attributes to read for samples.
-    std::string texture; ///< Image whose colours samples get, or "".
+    bool allows_outside = false; ///< As in MeshSources.
+    WantedFields fields;         ///< Attributes to read for samples.
+    std::string texture;         ///< Image whose colours samples get, or "".
 
     /// Throws UserError(usage) for what is no lift, and where there is nothing to lift.
     std::vector<Lift> parsed_lifts() const;
@@ -47,8 +48,8 @@ void add_mesh_arguments(Command command, std::vector<std::string>& meshes,
 void add_sidecar_options(Command command, MeshOptions& options, const std::string& mesh_name,
                          const std::string& suffix = "");
 
-/// Adds --mesh-format, with `suffix`.
-void add_format_option(Command command, MeshOptions& options, const std::string& suffix = "");
+/// Adds --mesh-format and --allow-outside, with `suffix`.
+void add_reader_options(Command command, MeshOptions& options, const std::string& suffix = "");
 
 /// Adds --lift, with `suffix`.
 void add_lift_option(Command command, MeshOptions& options, const std::string& suffix = "");

@@ -38,6 +38,7 @@ void add_mesh(ArgumentList& list, const MeshOptions& mesh) {
     }
     list.add_flag("--keep-seams", mesh.keep_seams);
     list.add("--mesh-format", mesh.format);
+    list.add_flag("--allow-outside", mesh.allows_outside);
     list.add("--coordinates", mesh.coordinates);
     list.add("--edge-lengths", mesh.edge_lengths);
     for (const std::string& lift : mesh.lifts) {

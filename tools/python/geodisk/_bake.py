@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from ._inputs import write_samples
 from ._program import folder, run
 from ._samples import Samples
-from ._values import path_of, pixels
+from ._values import flag, path_of, pixels
 
 
 @dataclass(frozen=True, eq=False)
@@ -45,7 +45,11 @@ class SampleMap:
 
 
 def bake(
-    mesh: str | os.PathLike[str], samples: Samples, *, size: int | tuple[int, int] = 1024
+    mesh: str | os.PathLike[str],
+    samples: Samples,
+    *,
+    size: int | tuple[int, int] = 1024,
+    allow_outside: bool = False,
 ) -> SampleMap:
     """Returns the sample that is nearest to each texel of a texture, along the surface.
 
@@ -57,6 +61,8 @@ def bake(
         Samples of the mesh, or points of other programs, which are put on the nearest triangle.
     size : int or (width, height)
         Texels, 1 to 16384 along each side.
+    allow_outside : bool
+        As for :class:`Mesh`.
 
     Returns
     -------
@@ -89,6 +95,8 @@ def bake(
     with folder() as place:
         files = [os.path.abspath(path), write_samples(place, samples)]
         options = ["--size", f"{width}x{height}", "--json", "report.json", "--output", "map.npz"]
+        if flag(allow_outside, "allow_outside"):
+            options.append("--allow-outside")
         run(place, ["bake", *files, *options])
         report = json.loads((place / "report.json").read_text("utf-8"))
         with np.load(place / "map.npz") as arrays:

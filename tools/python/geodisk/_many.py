@@ -159,6 +159,7 @@ def sample_many(
     normals: str = "face",
     frames: bool = False,
     mesh_format: str | None = None,
+    allow_outside: bool = False,
     device: DeviceLike | None = None,
     progress: bool | ProgressCallback = False,
     **others: object,
@@ -177,7 +178,7 @@ def sample_many(
     density, radius_factor, face_keys, face_mask, existing, avoid : sequence of one per mesh, or None
         As for :func:`sample`; None for a mesh without.
     exact, features, pool_ratio, weld, keep_seams, columns, attributes, texture, normals, frames,
-    mesh_format, device, progress
+    mesh_format, allow_outside, device, progress
         As for :func:`sample`, for all meshes. The other parameters of :func:`sample` are for single
         meshes.
 
@@ -224,7 +225,9 @@ def sample_many(
         distance = distance_of(*of_mesh)
         check_exact(exact, of_mesh[2])
         check_pool(of_mesh[2], pool_ratio)
-        mesh = _mesh_of(given[i], weld, keep_seams, columns, mesh_format, attributes, record)
+        mesh = _mesh_of(
+            given[i], weld, keep_seams, columns, mesh_format, attributes, record, allow_outside
+        )
         return _Job(
             mesh,
             distance,
@@ -326,6 +329,7 @@ def _mesh_of(
     mesh_format: str | None,
     attributes: str | Sequence[str],
     record: Record,
+    allow_outside: bool,
 ) -> Mesh:
     vertices, faces = given, None
     if isinstance(given, (tuple, list)):
@@ -333,7 +337,8 @@ def _mesh_of(
             raise TypeError("a mesh is a pair of vertices and faces, or brings its faces")
         vertices, faces = given
     return mesh_of(
-        vertices, faces, None, weld, keep_seams, columns, mesh_format, attributes, record
+        vertices, faces, None, weld, keep_seams, columns, mesh_format, attributes, record,
+        allow_outside,
     )
 
 

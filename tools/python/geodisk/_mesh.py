@@ -52,6 +52,8 @@ class Mesh:
         ``"node"``; 4294967295 for none. Samples have them as well.
     mesh_format : str, optional
         Read the file as gltf, glb, obj, off, ply or stl, ignoring its extension.
+    allow_outside : bool
+        Read files that the mesh names outside of its folder too, such as buffers and images.
 
     Attributes
     ----------
@@ -115,10 +117,12 @@ class Mesh:
         attributes: str | Sequence[str] = (),
         columns: str | Sequence[str] = (),
         mesh_format: str | None = None,
+        allow_outside: bool = False,
         _record: Record = NOTHING,
     ) -> None:
         source: Source | None = None
         weld, keep_seams = weld_of(weld), flag(keep_seams, "keep_seams")
+        allow_outside = flag(allow_outside, "allow_outside")
         attributes, columns = names(attributes, "attributes"), names(columns, "columns")
         if mesh_format is not None:
             text(mesh_format, "mesh_format")
@@ -135,6 +139,7 @@ class Mesh:
                     attributes=attributes,
                     columns=columns,
                     mesh_format=mesh_format,
+                    allow_outside=allow_outside,
                     has_normals=_record.normals == "file",
                     has_uvs=_record.texture is not None and not _record.has_materials(),
                     has_materials=_record.has_materials(),
@@ -291,6 +296,7 @@ def mesh_of(
     mesh_format: str | None = None,
     attributes: str | Sequence[str] = (),
     record: Record = NOTHING,
+    allow_outside: bool = False,
 ) -> Mesh:
     """Returns the mesh that the arguments of a function name, read for `record`."""
     if not isinstance(vertices, Mesh):
@@ -303,6 +309,7 @@ def mesh_of(
             columns=columns,
             mesh_format=mesh_format,
             attributes=attributes,
+            allow_outside=allow_outside,
             _record=record,
         )
     is_joined = weld_of(weld) is not False or flag(keep_seams, "keep_seams")

@@ -88,6 +88,7 @@ def neighbours(
     weld: bool | float = False,
     keep_seams: bool = False,
     mesh_format: str | None = None,
+    allow_outside: bool = False,
     device: DeviceLike | None = None,
     progress: bool | ProgressCallback = False,
 ) -> Neighbours:
@@ -95,7 +96,7 @@ def neighbours(
 
     Parameters
     ----------
-    vertices, faces, edge_lengths, weld, keep_seams, mesh_format
+    vertices, faces, edge_lengths, weld, keep_seams, mesh_format, allow_outside
         The mesh, as for :class:`Mesh`.
     sources : array_like of int, Samples, or a pair of face_index and barycentric, optional
         Vertices by their indices, or points. By default all vertices that a triangle uses. Samples
@@ -137,7 +138,10 @@ def neighbours(
     >>> float(near[0][1][1])
     1.0
     """
-    mesh = mesh_of(vertices, faces, edge_lengths, weld, keep_seams, mesh_format=mesh_format)
+    mesh = mesh_of(
+        vertices, faces, edge_lengths, weld, keep_seams,
+        mesh_format=mesh_format, allow_outside=allow_outside,
+    )
     params = s.NeighbourParams(
         nearest=integer(nearest, "nearest", 2**32 - 1),
         most_pairs=integer(most_pairs, "most_pairs", 2**64 - 1, 1),

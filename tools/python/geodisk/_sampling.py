@@ -67,6 +67,7 @@ def sample(
     normals: str = "face",
     frames: bool = False,
     mesh_format: str | None = None,
+    allow_outside: bool = False,
     device: DeviceLike | None = None,
     progress: bool | ProgressCallback = False,
 ) -> Samples:
@@ -141,7 +142,7 @@ def sample(
         ``columns["feature"]`` is 2, 1 and 0.
     metric : {"geodesic", "euclidean", "approximate"}
         Distance to use; the last two are for comparison.
-    edge_lengths, weld, keep_seams, columns, attributes, mesh_format
+    edge_lengths, weld, keep_seams, columns, attributes, mesh_format, allow_outside
         Parameters of :class:`Mesh`.
     texture : str or path-like, optional
         PNG or JPEG image whose colours to add, as ``attributes["color"]``, at the texture
@@ -211,7 +212,8 @@ def sample(
     choice(order, "order", ("dart", "progressive", "farthest"))
     record = Record(texture, normals, frames)
     mesh = mesh_of(
-        vertices, faces, edge_lengths, weld, keep_seams, columns, mesh_format, attributes, record
+        vertices, faces, edge_lengths, weld, keep_seams, columns, mesh_format, attributes, record,
+        allow_outside,
     )
     if order == "farthest" and existing is not None:
         raise e.invalid("order='farthest' takes no existing samples, which come first")

@@ -61,6 +61,7 @@ def read_file(
     attributes: Sequence[str],
     columns: Sequence[str],
     mesh_format: str | None,
+    allow_outside: bool = False,
     has_normals: bool = False,
     has_uvs: bool = False,
     has_materials: bool = False,
@@ -90,6 +91,7 @@ def read_file(
         has_normals=has_normals,
         has_uvs=has_uvs,
         has_materials=has_materials,
+        allow_outside=allow_outside,
     )
     return _read(params, stop, weld, keep_seams, joined.split(",") if joined else ())
 

@@ -305,6 +305,7 @@ class SourceParams(_Sized):
         ("has_normals", c_int32),
         ("has_uvs", c_int32),
         ("has_materials", c_int32),
+        ("allow_outside", c_int32),
     ]
 
 

@@ -38,6 +38,7 @@ def transfer(
     edge_lengths: ArrayLike | None = None,
     weld: bool | float = False,
     keep_seams: bool = False,
+    allow_outside: bool = False,
     tolerance: float | None = None,
 ) -> Samples:
     """Returns the same samples on another pose of their mesh, with identical faces.
@@ -62,6 +63,8 @@ def transfer(
         normal, after a random angle about z. By default if the samples have them.
     vertices, faces, edge_lengths, weld, keep_seams
         Mesh of the samples, as for :func:`sample`. Needed for samples that were read from a file.
+    allow_outside : bool
+        As for :class:`Mesh`, of the file `to`.
     tolerance : float, optional
         Maximum distance of points of other programs from the mesh, by default a thousandth of the
         bounding-box diagonal.
@@ -104,7 +107,9 @@ def transfer(
 
     def make(record: Record, read: Sequence[str]) -> Mesh:
         if is_mesh(to):
-            return mesh_of(to, None, None, False, attributes=read, record=record)
+            return mesh_of(
+                to, None, None, False, attributes=read, record=record, allow_outside=allow_outside
+            )
         if read:
             raise TypeError("attributes are for meshes from files")
         return Mesh(to, own_faces, weld=own_weld, keep_seams=own_seams, _record=record)
@@ -116,7 +121,9 @@ def transfer(
         corners = None if path is None else source.own_corners()
         from_mesh, from_options = write_surface(place, source, "mesh", "-a", corners=corners)
         to_mesh, to_options = (
-            write_surface(place, target, "pose", "-b") if path is None else (path, [])
+            write_surface(place, target, "pose", "-b")
+            if path is None
+            else (path, ["--allow-outside-b"] if allow_outside else [])
         )
         files = [write_samples(place, samples), from_mesh, to_mesh]
         outputs = ["--output", "there.npz", "--json", "report.json"]

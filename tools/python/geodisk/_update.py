@@ -55,6 +55,7 @@ def update(
     faces: Faces | None = None,
     weld: bool | float = False,
     keep_seams: bool = False,
+    allow_outside: bool = False,
     device: DeviceLike | None = None,
     progress: bool | ProgressCallback = False,
 ) -> Samples:
@@ -87,6 +88,8 @@ def update(
         attributes and colours are those of the mesh before.
     vertices, faces, weld, keep_seams
         Mesh before the edit, as for :func:`sample`. Needed for samples that were read from a file.
+    allow_outside : bool
+        As for :class:`Mesh`, of both meshes.
     device, progress
         As for :func:`sample`. A callback is called on another thread.
 
@@ -126,7 +129,9 @@ def update(
     """
     wanted = Wanted(texture, normals, frames, attributes)
     wanted.given()  # Raises for what is wrong.
-    before_edit = _mesh_before(samples, vertices, faces, weld, keep_seams, wanted)
+    before_edit = _mesh_before(
+        samples, vertices, faces, weld, keep_seams, allow_outside, wanted
+    )
     if samples.seed is None or not samples.min_distance > 0:
         raise e.invalid("these samples do not know their seed and minimum distance")
     job = _job_of(samples, before)
@@ -146,7 +151,7 @@ def update(
         edited = dataclasses.replace(edited, existing=old.existing)
     if avoid is None:
         edited = dataclasses.replace(edited, avoid=old.avoid)
-    mesh, record, is_moved = _edited_mesh(samples, old.mesh, to, to_faces, wanted)
+    mesh, record, is_moved = _edited_mesh(samples, old.mesh, to, to_faces, allow_outside, wanted)
     _check_inherited(old.mesh, mesh, job, chosen)
     new = _Side(mesh, edited, samples, old)
     points = points_of(old.mesh._surface, samples, "samples", True)
@@ -335,6 +340,7 @@ def _mesh_before(
     faces: Faces | None,
     weld: bool | float,
     keep_seams: bool,
+    allow_outside: bool,
     wanted: Wanted,
 ) -> Mesh:
     """Returns the mesh before, with what its file has for samples."""
@@ -345,7 +351,8 @@ def _mesh_before(
             samples,
             tuple(name for name in samples.attributes if name not in ("frames", "cover")),
             lambda record, read: mesh_of(
-                path, None, None, weld, keep_seams, attributes=read, record=record
+                path, None, None, weld, keep_seams, attributes=read, record=record,
+                allow_outside=allow_outside,
             ),
         )
         return mesh
@@ -367,6 +374,7 @@ def _edited_mesh(
     old: Mesh,
     to: ArrayLike | MeshLike | None,
     to_faces: Faces | None,
+    allow_outside: bool,
     wanted: Wanted,
 ) -> tuple[Mesh, Record, bool]:
     """Returns the edited mesh, what to add to samples, and whether only positions are given."""
@@ -378,7 +386,10 @@ def _edited_mesh(
 
     def make(record: Record, read: Sequence[str]) -> Mesh:
         if to is not None and is_mesh(to):
-            return mesh_of(to, to_faces, None, False, attributes=read, record=record)
+            return mesh_of(
+                to, to_faces, None, False, attributes=read, record=record,
+                allow_outside=allow_outside,
+            )
         own = _named(source, read)
         if to is None:
             check_record(old, record)

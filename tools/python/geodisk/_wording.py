@@ -8,7 +8,7 @@ import re
 _PARAMETERS = {
     option: option.replace("-", "_")
     for option in (
-        "attributes avoid background columns count cut density device edge-lengths face-keys keep-seams mesh-format "
+        "allow-outside attributes avoid background columns count cut density device edge-lengths face-keys keep-seams mesh-format "
         "metric min-distance tolerance pool-ratio radius radius-factor seed size stop-count style up view weld"
     ).split()
 } | {"darts": "throws"}

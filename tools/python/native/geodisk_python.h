@@ -38,6 +38,7 @@ typedef struct geodisk_source_params {
     int32_t has_normals;       /* Not 0 to read the file's normals, for geodisk_source_record(). */
     int32_t has_uvs;           /* Not 0 to read texture coordinates, for a texture. */
     int32_t has_materials;     /* Not 0 to read materials, for the texture "auto". */
+    int32_t allow_outside;     /* As --allow-outside of the program. */
 } geodisk_source_params;
 
 /* Reads a mesh. Fails with GEODISK_MESH_REJECTED for a file that cannot be read or used. */

@@ -54,6 +54,7 @@ MeshFile mesh_of(const geodisk_source_params& params) {
         sources.weld = Length{params.weld_distance, false};
     }
     sources.keep_seams = params.keep_seams != 0;
+    sources.allows_outside = params.allow_outside != 0;
     if (params.path == nullptr) {
         sources.mesh = "mesh";
         return split_into_triangles(sources, polygons_of(params));
