@@ -39,6 +39,18 @@ TEST_CASE("a long run of which nothing is done yet is told of, and its time once
     CHECK_FALSE(time.is_long_already());
 }
 
+TEST_CASE("what passes before the work begins is no part of it") {
+    TimeEstimate time;
+    time.wait(22.5); // The driver compiles.
+    time.note(22.5, 0);
+    CHECK_FALSE(time.is_long_already());
+    time.note(23.5, 0.01);
+    CHECK(time.seconds() == 1);
+    CHECK_FALSE(time.is_long_already());
+    time.note(43, 0.01);
+    CHECK(time.is_long_already());
+}
+
 TEST_CASE("a small part of the work says little of the rest") {
     TimeEstimate time(0.1);
     time.note(1, 0.1);

@@ -28,24 +28,28 @@ constexpr double kFewDisks = 4;
 /// signal.
 ProgressCallback show_progress(ProgressLine& progress, DeviceLog& log, double expected,
                                std::size_t avoided) {
-    return [&progress, &log, expected, avoided, watch = Stopwatch(),
+    return [&progress, &log, expected, avoided, watch = Stopwatch(), is_first = true,
             time = TimeEstimate(std::min(0.05, kFewDisks / std::max(1.0, expected)))](
                const Progress& state) mutable {
         log.tell_progress(state);
         const double part = state.disks < avoided ? 0 : part_done(state, expected);
+        const std::uint64_t windows = state.windows / std::max(1u, state.disks);
+        // The first submission is short. If its disks are small, the driver has compiled kernels.
+        if (std::exchange(is_first, false) && state.disks > 0 && windows < kManyWindows) {
+            time.wait(watch.seconds());
+        }
         time.note(watch.seconds(), part);
         if (const auto seconds = time.long_run()) {
             progress.clear();
             print_warning("sampling takes about " + seconds_text(*seconds) + " on this device");
         } else if (time.is_long_already()) {
             progress.clear();
-            print_warning("sampling takes more than " + seconds_text(watch.seconds()) +
+            print_warning("sampling takes more than " + seconds_text(time.seconds()) +
                           " on this device: disks cover very many triangles");
         }
         std::string text = grouped(state.accepted) + " samples" + time.left_text();
-        if (const std::uint64_t each = state.windows / std::max(1u, state.disks);
-            each >= kManyWindows) {
-            text += ", " + grouped(each) + " windows in each disk";
+        if (windows >= kManyWindows) {
+            text += ", " + grouped(windows) + " windows in each disk";
         }
         progress.update(part, text);
         return !is_interrupted();

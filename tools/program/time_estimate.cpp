@@ -13,6 +13,7 @@ constexpr double kTrial = 2;
 } // namespace
 
 void TimeEstimate::note(double seconds, double part) {
+    seconds -= waited_;
     seconds_ = seconds;
     if (part > 0 && !first_) { // Drawing candidates says little of the disks.
         first_ = seconds;

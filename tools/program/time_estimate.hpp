@@ -15,8 +15,13 @@ class TimeEstimate {
     /// `least_part`: less of the work than that says little of the rest.
     explicit TimeEstimate(double least_part = 0) : least_part_(least_part) {}
 
+    /// Notes that the work has not begun after so many seconds, as kernels are compiled. What is
+    /// told below is from then on.
+    void wait(double seconds) { waited_ = seconds; }
     /// Notes that so much of the work, 0 to 1, is done after so many seconds.
     void note(double seconds, double part);
+    /// Seconds of work so far.
+    double seconds() const { return seconds_; }
     /// Seconds that are left; none while too little is known.
     std::optional<double> left() const { return left_; }
     /// The same as ", about 5 s left"; "" for less than a second and while too little is known.
@@ -28,7 +33,7 @@ class TimeEstimate {
 
   private:
     double least_part_;
-    double start_seconds_ = 0, start_part_ = 0, seconds_ = 0;
+    double waited_ = 0, start_seconds_ = 0, start_part_ = 0, seconds_ = 0;
     bool is_told_ = false, is_told_already_ = false;
     std::optional<double> first_, left_; ///< Seconds when work began; and that are left.
 };

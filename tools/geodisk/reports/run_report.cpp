@@ -36,6 +36,14 @@ const char* stopped_by(const Drawn& drawn) {
                                        : "pool";
 }
 
+/// Less is usual where the driver has kept the shaders.
+constexpr double kNotedCompiling = 1;
+
+/// Seconds of compiling before the runs and in them.
+double compile_seconds(const DeviceRun& done) {
+    return done.compile_seconds + done.run.seconds.compile;
+}
+
 } // namespace
 
 Json tuning_json(const Tuning& tuning) {
@@ -100,7 +108,7 @@ std::pair<std::string, std::string> candidates_entry(const Drawn& drawn) {
 SecondsByStage stage_seconds(SecondsByStage before, const DeviceRun& done,
                              const SecondsByStage& after) {
     before.insert(before.end(), {{"device", done.open_seconds},
-                                 {"pipelines", done.compile_seconds},
+                                 {"pipelines", compile_seconds(done)},
                                  {"upload", done.run.seconds.upload},
                                  {"sample", done.run.seconds.sample},
                                  {"readback", done.run.seconds.readback}});
@@ -130,9 +138,14 @@ std::string run_text(const DeviceRun& done, const SecondsByStage& seconds,
     for (const auto& [stage, value] : seconds) {
         total += value;
     }
-    return "time          " + seconds_text(done.run.seconds.sample) + ' ' + work + ", " +
-           seconds_text(total) + " in all\ndevice        " + one_line(done.device.name) +
-           "\nfile          " + one_line(output) + '\n';
+    std::string text = "time          " + seconds_text(done.run.seconds.sample) + ' ' + work +
+                       ", " + seconds_text(total) + " in all\n";
+    if (const double compiling = compile_seconds(done); compiling >= kNotedCompiling) {
+        text += "compiling     " + seconds_text(compiling) +
+                " for the shaders, which the driver keeps for later runs\n";
+    }
+    return text + "device        " + one_line(done.device.name) + "\nfile          " +
+           one_line(output) + '\n';
 }
 
 } // namespace geodisk::tools
