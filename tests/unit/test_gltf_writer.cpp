@@ -32,6 +32,18 @@ TEST_CASE("frames of samples are instances in glTF, which the reader places") {
         CHECK(mesh.positions[10] == doctest::Approx(4));
     }
     CHECK(contains(bytes_of(folder / "a.gltf"), "COLOR_0"));
+    const std::vector<SampleField> grey{
+        {"color", {"red", "green", "blue", "alpha"}, false, true, {0.5, 0.5, 0.5, 0.5}}};
+    AtomicFile light(folder / "grey.gltf");
+    write_samples(light, sample_target(folder / "grey.gltf"), {}, std::vector{row}, 3, {{}, grey});
+    light.commit();
+    const std::string text = bytes_of(folder / "grey.gltf");
+    std::size_t encoded = 0;
+    for (std::size_t at = text.find("0.214041"); at < text.size();
+         at = text.find("0.214041", at + 1)) {
+        ++encoded;
+    }
+    CHECK(encoded == 6); // As least and most of red, green and blue; alpha is no light.
     const std::vector<SampleField> large{{"label", {"label"}, true, false, {16777217}}};
     AtomicFile file(folder / "b.glb");
     check_fails(ExitCode::usage, "the attribute 'label' has a 16777217", [&] {

@@ -236,7 +236,7 @@ TEST_CASE("attributes become columns behind all others") {
                     "bary_w,red,green,blue,label,heat\n0,0,0,0,0,0,0,1,0,0,1,0.5,0,-1,0.5\n"},
           {"a.ply", "property uchar red\nproperty uchar green\nproperty uchar blue\n"
                     "property int label\nproperty double heat\n"},
-          {"a.pcd", "red green blue label heat\n"},
+          {"a.pcd", " rgb label heat\nSIZE"},
           {"a.npz", "label.npy"}}) {
         const std::string name = file_name;
         CAPTURE(name);
@@ -247,7 +247,61 @@ TEST_CASE("attributes become columns behind all others") {
     }
     CHECK(contains(bytes_of(folder / "a.ply"), "1 0 0 255 128 0 -1 0.5\n"));
     CHECK(contains(bytes_of(folder / "a.ply"), "0 1 0 0 0 255 70000 1e+300\n"));
+    CHECK(contains(bytes_of(folder / "a.pcd"), "\nTYPE F F F F F F U F F F U I F\n"));
+    CHECK(contains(bytes_of(folder / "a.pcd"), " 0 1 0 255 70000 1e+300\n")); // 0x0000ff.
+    CHECK(contains(bytes_of(folder / "a.pcd"), " 1 0 0 16744448 -1 0.5\n"));  // 0xff8000.
     CHECK(read_samples(folder / "a.csv").rows.size() == 2);
+}
+
+TEST_CASE("colours have one unit, whatever the types of PLY") {
+    const auto values_of = [](const std::string& type, const std::string& colours) {
+        const std::string properties =
+            "property T red\nproperty T green\nproperty T blue\nproperty T alpha\n";
+        std::string head;
+        for (const char c : properties) {
+            head += c == 'T' ? type : std::string(1, c);
+        }
+        return mesh_with("m.ply", ply_of(head, {colours, colours, colours}), "color")
+            .fields.front()
+            .values;
+    };
+    const Values half{1, 0.2, 0, 0.4};
+    for (const auto& [type, colours] : {std::pair{"uchar", "255 51 0 102"},
+                                        {"int", "255 51 0 102"},
+                                        {"ushort", "65535 13107 0 26214"},
+                                        {"double", "255 51 0 102"},
+                                        {"double", "1 0.2 0 0.4"}}) {
+        CAPTURE(type);
+        Values expected;
+        for (int i = 0; i < 3; ++i) {
+            expected.insert(expected.end(), half.begin(), half.end());
+        }
+        CHECK(values_of(type, colours) == expected);
+    }
+}
+
+TEST_CASE("binary PCD has the bits of a colour in a float, as the Point Cloud Library") {
+    const TemporaryFolder folder;
+    const std::vector<SampleField> opaque{
+        {"color", {"red", "green", "blue"}, false, true, {1, 0.5, 0}}};
+    const std::vector<SampleField> clear{
+        {"color", {"red", "green", "blue", "alpha"}, false, true, {1, 0.5, 0, 0.2}},
+        {"face_color", {"face_red", "face_green", "face_blue"}, false, true, {0, 1, 0}}};
+    const auto bytes_with = [&](const std::vector<SampleField>& fields) {
+        AtomicFile file(folder / "a.pcd");
+        write_samples(file, sample_target(folder / "a.pcd"), {}, std::vector{row_at(0, 1, 0, 0)}, 3,
+                      {{}, fields});
+        file.commit();
+        return bytes_of(folder / "a.pcd");
+    };
+    const std::string packed = bytes_with(opaque);
+    CHECK(contains(packed, " bary_w rgb\n"));
+    CHECK(contains(packed, " F F F F\nCOUNT"));
+    CHECK(packed.ends_with(std::string_view("\0\x80\xff\0", 4)));
+    const std::string with_alpha = bytes_with(clear);
+    CHECK(contains(with_alpha, " bary_w rgba face_red face_green face_blue\n"));
+    CHECK(contains(with_alpha, " F U U U U\nCOUNT"));
+    CHECK(with_alpha.ends_with(std::string_view("\0\x80\xff\x33\0\xff\0", 7)));
 }
 
 TEST_CASE("frames turn z to the normal, by an angle that other samples do not change") {
@@ -303,7 +357,7 @@ TEST_CASE("USD has an instance for each sample") {
           "quath[] orientations = [(0, 0, 0, 1), (1, 0, 0, 0)]\n",
           "float3[] scales = [(0.25, 0.25, 0.25), (0.25, 0.25, 0.25)]\n",
           "int[] protoIndices = [0, 0]\n", "uint[] primvars:face_index = [3, 4] (",
-          "color3f[] primvars:displayColor = [(1, 0.5, 0), (0, 0, 1)] (",
+          "color3f[] primvars:displayColor = [(1, 0.21404114, 0), (0, 0, 1)] (", // As light.
           "float[] primvars:displayOpacity = [1, 0.25] (",
           "texCoord2f[] primvars:st = [(0, 1), (0.5, 0.5)] (",
           "int[] primvars:_8_label = [-1, 7] (", "uint[] primvars:part = [4294967295, 0] (",

@@ -56,6 +56,7 @@ MeshField field_of(std::string_view name, const GltfAccessor& about) {
     if (name.starts_with("COLOR_")) {
         MeshField field = make_colours(MeshField::Of::corners, 4);
         field.name = called;
+        field.is_light = true;
         for (std::string& component : field.components) {
             component += set;
         }

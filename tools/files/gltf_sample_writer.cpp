@@ -205,7 +205,7 @@ void add_surface(Points& points, std::span<const SampleRow> rows, const SampleLa
         check_values(field);
         const std::size_t size = field.components.size();
         points.add(attribute_name(field.name), size, [&](std::size_t i, std::size_t k) {
-            return finite_float(field.values[i * size + k]);
+            return finite_float(field_value(field, i, k, layout.colours));
         });
     }
 }

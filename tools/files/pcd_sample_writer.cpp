@@ -20,6 +20,7 @@ void write_pcd(AtomicFile& file, const SampleHeader& header, std::span<const Sam
                const SampleTarget& target, const SampleLayout& exact) {
     SampleLayout layout = exact;
     layout.has_float_positions = true; // Doubles are read as something else.
+    layout.is_text = target.is_text;
     layout.origin = origin_for_float(rows, layout.dimension);
     check_float_range(target, rows, layout.origin);
     SampleHeader all = header;

@@ -15,13 +15,8 @@ bool is_whole(PlyType type) {
     return type != PlyType::float32 && type != PlyType::float64;
 }
 
-/// What integers of colours are divided by; 1 for floats.
-double colour_divisor(PlyType type) {
-    if (type == PlyType::uint16) {
-        return std::numeric_limits<std::uint16_t>::max();
-    }
-    return is_whole(type) ? std::numeric_limits<std::uint8_t>::max() : 1;
-}
+constexpr double kMostByte = std::numeric_limits<std::uint8_t>::max(),
+                 kMostShort = std::numeric_limits<std::uint16_t>::max();
 
 /// Returns the columns of these names, or none if one is not there.
 std::vector<std::size_t> find_columns(const PlyElement& element, Names names) {
@@ -52,10 +47,36 @@ std::vector<std::size_t> find_uv_columns(const PlyElement& element) {
     return find_first(element, {{"s", "t"}, {"u", "v"}, {"texture_u", "texture_v"}});
 }
 
+PlyColours::PlyColours(const PlyElement& element)
+    : columns_(find_first(element, {{"red", "green", "blue", "alpha"},
+                                    {"red", "green", "blue"},
+                                    {"diffuse_red", "diffuse_green", "diffuse_blue"},
+                                    {"r", "g", "b"}})) {
+    if (!columns_.empty()) {
+        const PlyType type = element.properties[columns_[0]].type;
+        scale_ = type == PlyType::uint16 ? kMostShort : kMostByte;
+        is_scaled_ = is_whole(type);
+    }
+}
+
+void PlyColours::add(const PlyRecord& record) {
+    for (const std::size_t column : columns_) {
+        is_scaled_ = is_scaled_ || record.scalars[column] > 1;
+    }
+}
+
+void PlyColours::scale(std::size_t column, std::vector<double>& values) const {
+    if (is_scaled_ && std::ranges::find(columns_, column) != columns_.end()) {
+        for (double& value : values) {
+            value /= scale_;
+        }
+    }
+}
+
 PlyFieldReader::PlyFieldReader(const PlyFile& file, const PlyElement& element,
                                const WantedFields& wanted, PolygonMesh& mesh)
     : file_(file), element_(element), wanted_(wanted), mesh_(mesh),
-      of_faces_(element.name == "face") {
+      of_faces_(element.name == "face"), colours_(element) {
     if (wanted.are_given() || wanted.normals) {
         find();
     }
@@ -80,13 +101,8 @@ void PlyFieldReader::find() {
     if (wanted_.normals && !normals_.empty()) {
         mesh_.normals = make_field("normal", of, 3);
     }
-    const auto colours = use(find_first(element_, {{"red", "green", "blue", "alpha"},
-                                                   {"red", "green", "blue"},
-                                                   {"diffuse_red", "diffuse_green", "diffuse_blue"},
-                                                   {"r", "g", "b"}}));
-    if (!colours.empty()) {
-        list(make_colours(of, colours.size(), prefix_for(kColourField)), colours,
-             colour_divisor(element_.properties[colours[0]].type));
+    if (const auto colours = use(colours_.columns()); !colours.empty()) {
+        list(make_colours(of, colours.size(), prefix_for(kColourField)), colours);
     }
     find_uvs(used);
     for (std::size_t i = 0; i < used.size(); ++i) {
@@ -94,7 +110,7 @@ void PlyFieldReader::find() {
         if (!used[i] && !property.count_type) {
             MeshField field = make_field(prefix_for(property.name) + property.name, of);
             field.is_whole = is_whole(property.type);
-            list(std::move(field), {i}, 1);
+            list(std::move(field), {i});
         }
     }
 }
@@ -123,18 +139,18 @@ std::string PlyFieldReader::prefix_for(std::string_view name) const {
     return is_known ? element_.name + '_' : "";
 }
 
-void PlyFieldReader::list(MeshField field, const std::vector<std::size_t>& columns,
-                          double divisor) {
+void PlyFieldReader::list(MeshField field, const std::vector<std::size_t>& columns) {
     if (wanted_.has(field.name)) {
-        columns_.push_back({mesh_.fields.size(), columns, divisor});
+        columns_.push_back({mesh_.fields.size(), columns});
     }
     mesh_.fields.push_back(std::move(field));
 }
 
 void PlyFieldReader::add(std::uint64_t index, const PlyRecord& record, std::size_t corners) {
+    colours_.add(record);
     for (const Columns& columns : columns_) {
         for (const std::size_t column : columns.columns) {
-            mesh_.fields[columns.field].values.push_back(record.scalars[column] / columns.divisor);
+            mesh_.fields[columns.field].values.push_back(record.scalars[column]);
         }
     }
     if (mesh_.normals) {
@@ -164,6 +180,9 @@ void PlyFieldReader::add_corner_uvs(std::uint64_t index, const PlyRecord& record
 }
 
 void PlyFieldReader::finish() {
+    for (const Columns& columns : columns_) {
+        colours_.scale(columns.columns[0], mesh_.fields[columns.field].values);
+    }
     if (corner_uvs_) {
         mesh_.uvs = std::move(uvs_);
         mesh_.corner_uvs = std::move(uv_indices_);

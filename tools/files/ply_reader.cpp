@@ -149,6 +149,13 @@ void add_properties(const std::vector<PropertyColumn>& columns, const PlyRecord&
     }
 }
 
+void scale_colours(const PlyColours& colours, const std::vector<PropertyColumn>& columns,
+                   PolygonMesh& mesh) {
+    for (const auto& [index, column] : columns) {
+        colours.scale(column, mesh.properties[index].values);
+    }
+}
+
 void read_vertices(const Path& path, PlyFile& file, const PlyElement& element,
                    const PlyWanted& wanted, PolygonMesh& mesh) {
     const std::vector<std::size_t> columns =
@@ -176,6 +183,11 @@ void read_vertices(const Path& path, PlyFile& file, const PlyElement& element,
         add_properties(properties, record, mesh);
         fields.add(index, record);
     });
+    for (std::size_t i = 0; i < attributes.size(); ++i) {
+        fields.colours().scale(attributes[i], mesh.attributes[i]);
+    }
+    scale_colours(fields.colours(), properties, mesh);
+    fields.finish();
 }
 
 std::size_t index_column(const PlyFile& file, const PlyElement& element) {
@@ -214,6 +226,7 @@ void read_faces(PlyFile& file, const PlyElement& element, const PlyWanted& wante
         add_properties(properties, record, mesh);
         fields.add(index, record, record.lists[column].size());
     });
+    scale_colours(fields.colours(), properties, mesh);
     fields.finish();
 }
 

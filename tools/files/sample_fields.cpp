@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "files/block_writer.hpp"
+#include "files/colour_encoding.hpp"
 #include "files/mesh_fields.hpp"
 
 namespace geodisk::tools {
@@ -69,7 +70,11 @@ std::vector<SampleField> sample_fields(const MeshFile& mesh, std::span<const Sam
             SampleField{field.name, field.components, field.is_whole, field.is_colour,
                         std::vector<double>(rows.size() * size)});
         for_rows(rows.size(), [&](std::size_t i) {
-            interpolate(mesh, field, rows[i], &result.values[i * size]);
+            double* const value = &result.values[i * size];
+            interpolate(mesh, field, rows[i], value);
+            if (field.is_light) {
+                encode_colour({value, size});
+            }
         });
         result.is_whole = field.is_whole && fit_integers(result.values);
     }

@@ -12,7 +12,8 @@
 namespace geodisk::tools {
 
 /// Returns MeshFile::fields at `rows`: numbers by the weights of corners, whole numbers and labels
-/// of the corner with the largest weight.
+/// of the corner with the largest weight. Colours are those of sRGB; amounts of light are encoded
+/// after they are interpolated.
 std::vector<SampleField> sample_fields(const MeshFile& mesh, std::span<const SampleRow> rows);
 
 /// Returns the colours of textures and materials at `rows`, by MeshFile::texture_uvs; white without

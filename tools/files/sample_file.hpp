@@ -88,7 +88,7 @@ struct SampleField {
     std::string name;
     std::vector<std::string> components; ///< Names of columns.
     bool is_whole = false;               ///< All fit in 32 bits with sign.
-    bool is_colour = false;              ///< From 0 to 1.
+    bool is_colour = false;              ///< From 0 to 1, as sRGB encodes them.
     std::vector<double> values;
     bool is_float = false; ///< Files hold it in single precision.
 };

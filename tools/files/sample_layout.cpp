@@ -59,7 +59,7 @@ SampleLayout layout_in(SampleFormat format, std::uint32_t dimension, bool is_flo
     const bool is_exact = is_for_programs(format);
     const bool is_named = is_exact ? dimension == 3 : dimension >= 3;
     SampleLayout layout{dimension, is_named ? 3u : 0u, !is_exact && is_float_enough, false};
-    layout.has_byte_colours = format == SampleFormat::ply;
+    layout.colours = colour_encoding(format);
     return layout;
 }
 

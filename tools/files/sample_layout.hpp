@@ -3,13 +3,15 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string>
 #include <string_view>
 
+#include "files/colour_encoding.hpp"
+#include "files/mesh_fields.hpp"
 #include "files/output_file.hpp"
 #include "files/sample_columns.hpp"
 #include "files/sample_file.hpp"
@@ -27,16 +29,12 @@ struct SampleLayout {
     FurtherColumns further = {};
     std::array<double, 3> origin{}; ///< What x, y and z are relative to.
     bool has_float_numbered = has_float_positions;
-    bool has_byte_colours = false; ///< Colours are integers from 0 to 255.
+    ColourEncoding colours = ColourEncoding::srgb;
+    bool is_text = false; ///< Numbers are written as text.
 
     std::size_t numbered() const { return dimension > 3 ? dimension : 0; }
     bool has_normals() const { return is_on_surface && dimension == 3; }
 };
-
-/// Returns a colour from 0 to 255.
-inline std::uint8_t colour_byte(double value) {
-    return static_cast<std::uint8_t>(std::lround(255 * std::clamp(value, 0.0, 1.0)));
-}
 
 /// Returns the frames among the attributes, or null.
 inline const SampleField* find_frames(const FurtherColumns& further) {
@@ -44,18 +42,48 @@ inline const SampleField* find_frames(const FurtherColumns& further) {
     return found == further.fields.end() ? nullptr : &*found;
 }
 
+/// Returns component k of row i of an attribute in a format where colours are of that encoding.
+inline double field_value(const SampleField& field, std::size_t i, std::size_t k,
+                          ColourEncoding encoding) {
+    const double value = field.values[i * field.components.size() + k];
+    return field.is_colour && encoding == ColourEncoding::light ? colour_light(value, k) : value;
+}
+
+/// Calls visit(name, value) for a colour in one number: "rgb", in binary a float with those bits,
+/// or "rgba".
+template <typename Visit>
+void visit_packed(const SampleField& field, std::size_t index, const SampleLayout& layout,
+                  const Visit& visit) {
+    const std::size_t size = field.components.size();
+    const bool is_known = (index + 1) * size <= field.values.size();
+    const std::uint32_t packed =
+        is_known ? packed_colour(std::span(field.values).subspan(index * size, size)) : 0;
+    if (size > kAlpha || layout.is_text) {
+        visit(std::string_view(size > kAlpha ? "rgba" : "rgb"), packed);
+    } else {
+        visit(std::string_view("rgb"), std::bit_cast<float>(packed));
+    }
+}
+
 /// Calls visit(name, value) for each component of an attribute.
 template <typename Visit>
-void visit_field(const SampleField& field, std::size_t index, bool has_byte_colours,
+void visit_field(const SampleField& field, std::size_t index, const SampleLayout& layout,
                  const Visit& visit) {
+    const bool has_bytes = field.is_colour && (layout.colours == ColourEncoding::bytes ||
+                                               layout.colours == ColourEncoding::packed);
+    if (layout.colours == ColourEncoding::packed && field.name == kColourField) {
+        visit_packed(field, index, layout, visit);
+        return;
+    }
     const std::size_t size = field.components.size();
     for (std::size_t k = 0; k < size; ++k) {
         const std::string_view name = field.components[k];
-        const std::size_t place = index * size + k;
-        const double value = place < field.values.size() ? field.values[place] : 0;
+        const double value = (index + 1) * size <= field.values.size()
+                                 ? field_value(field, index, k, layout.colours)
+                                 : 0;
         if (field.is_whole) {
             visit(name, static_cast<std::int32_t>(value));
-        } else if (field.is_colour && has_byte_colours) {
+        } else if (has_bytes) {
             visit(name, colour_byte(value));
         } else if (field.is_float) {
             visit(name, static_cast<float>(value));
@@ -106,7 +134,7 @@ void visit_columns(const SampleRow& row, std::size_t index, const SampleLayout& 
               index < column.values.size() ? column.values[index] : 0);
     }
     for (const SampleField& field : layout.further.fields) {
-        visit_field(field, index, layout.has_byte_colours, visit);
+        visit_field(field, index, layout, visit);
     }
 }
 

@@ -62,7 +62,8 @@ std::string transforms(const SampleTarget& target, const std::array<double, 3>& 
 /// Writes the properties of a PointInstancer, one array after the other.
 class Properties {
   public:
-    Properties(AtomicFile& file, std::size_t rows) : file_(file), rows_(rows) {}
+    Properties(AtomicFile& file, std::size_t rows, ColourEncoding colours)
+        : file_(file), rows_(rows), colours_(colours) {}
 
     /// Writes an array; `value(i, k)` is component k of row i. Primvars have a value per instance.
     template <class Value>
@@ -86,8 +87,11 @@ class Properties {
 
     void add_field(const SampleField& field) {
         const std::size_t size = field.components.size();
+        const auto exact = [&](std::size_t i, std::size_t k) {
+            return field_value(field, i, k, colours_);
+        };
         const auto value = [&](std::size_t i, std::size_t k) {
-            return static_cast<float>(field.values[i * size + k]);
+            return static_cast<float>(exact(i, k));
         };
         if (field.name == kColourField) {
             add_primvar("color3f", "displayColor", 3, value);
@@ -103,8 +107,7 @@ class Properties {
                             return static_cast<std::int32_t>(field.values[i * size + k]);
                         });
         } else if (std::ranges::any_of(field.values, is_lost_in_float)) {
-            add_primvar("double" + number_of(size), field.name, size,
-                        [&](std::size_t i, std::size_t k) { return field.values[i * size + k]; });
+            add_primvar("double" + number_of(size), field.name, size, exact);
         } else {
             add_primvar("float" + number_of(size), field.name, size, value);
         }
@@ -127,6 +130,7 @@ class Properties {
 
     AtomicFile& file_;
     std::size_t rows_;
+    ColourEncoding colours_;
 };
 
 void add_surface(Properties& properties, std::span<const SampleRow> rows,
@@ -225,7 +229,7 @@ void write_usd(AtomicFile& file, const SampleHeader& header, std::span<const Sam
                exact_text(target.metres_per_unit) + "\n    upAxis = \"" +
                (target.up == Up::y ? "Y" : "Z") + "\"\n)\n\ndef PointInstancer \"Samples\"\n{\n" +
                transforms(target, origin));
-    Properties properties(file, rows.size());
+    Properties properties(file, rows.size(), layout.colours);
     properties.add("point3f[] positions", 3, [&](std::size_t i, std::size_t k) {
         return static_cast<float>(rows[i].position[k] - origin[k]);
     });

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "files/ply_fields.hpp"
 #include "files/ply_file.hpp"
 #include "parts/ranges/talk.hpp"
 #include "program/failure.hpp"
@@ -113,6 +114,26 @@ PlyFile read_header(const Path& path) {
     }
 }
 
+/// Refuses colours: whether numbers of files are from 0 to 255 all of them tell together.
+void check_no_colour(const PlyElement& element, const std::string& name) {
+    const PlyColours colours(element);
+    if (std::ranges::any_of(colours.columns(), [&](std::size_t column) {
+            return element.properties[column].name == name;
+        })) {
+        throw NeedsWhole{"its colours have a unit that the whole file tells"};
+    }
+}
+
+/// Refuses a density or a mask of colours.
+void check_no_colours(const PlyElement& element, const RangeWants& wants) {
+    if (wants.density) {
+        check_no_colour(element, wants.density->name);
+    }
+    for (const MaskRule& rule : wants.mask) {
+        check_no_colour(element, rule.name);
+    }
+}
+
 /// Returns the vertices behind `offset`, and notes where coordinates stand.
 Records vertex_records(const PlyElement& element, std::uint64_t offset, PlyLayout& layout) {
     Records records{element.count, offset, 0, {}};
@@ -197,6 +218,7 @@ PlyLayout layout_of(const Path& path, std::uint64_t file_size, const RangeWants&
     std::uint64_t offset = file.position();
     bool has_vertices = false, has_faces = false;
     for (const PlyElement& element : file.elements()) {
+        check_no_colours(element, wants);
         if (element.name == "vertex" && !std::exchange(has_vertices, true)) {
             layout.vertices = vertex_records(element, offset, layout);
             offset = layout.vertices.end();

@@ -54,8 +54,9 @@ struct MeshField {
     std::string name;                    ///< As --attributes names it.
     std::vector<std::string> components; ///< Names of the numbers of each value.
     Of of = Of::vertices;
-    bool is_whole = false; ///< Integers and labels, which are not interpolated.
-    bool is_colour = false;
+    bool is_whole = false;      ///< Integers and labels, which are not interpolated.
+    bool is_colour = false;     ///< From 0 to 1.
+    bool is_light = false;      ///< Colours are amounts of light; else as sRGB encodes them.
     bool is_from_top = false;   ///< Of texture coordinates: v = 0 is the upper edge of an image.
     std::vector<double> values; ///< All components of each vertex, index of a corner, or face.
     /// Index of the value of each corner, or kNone. Empty unless corners have values.

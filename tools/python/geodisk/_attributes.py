@@ -26,6 +26,8 @@ class Attribute:
         True if the values are those of the vertices, in order.
     is_whole : bool
         True for integers, which are not interpolated.
+    is_light : bool
+        True for colours that are amounts of light, which sRGB encodes once they are interpolated.
     polygons : ndarray of uint32, shape (f,), or None
         The face of each triangle, where the numbers differ.
     """
@@ -34,15 +36,17 @@ class Attribute:
     corners: NDArray[np.uint32] | None
     of_vertices: bool
     is_whole: bool
+    is_light: bool
     polygons: NDArray[np.uint32] | None
 
     def array(self) -> NDArray[np.float64]:
         """Returns the values of vertices, of the corners of triangles, or of triangles."""
+        values = _encoded(self.values) if self.is_light else self.values
         if self.of_vertices:
-            return self.values
+            return values
         if self.corners is not None:
-            return self.values[self.corners]
-        return self.values if self.polygons is None else self.values[self.polygons]
+            return values[self.corners]
+        return values if self.polygons is None else values[self.polygons]
 
     def at(self, faces: NDArray[Any], weights: NDArray[Any]) -> NDArray[Any]:
         """Returns the values at samples: int32 for integers that fit, else float64."""
@@ -50,8 +54,17 @@ class Attribute:
             found = self.array()[faces]
         else:
             found = interpolated(self.values[self.corners[faces]], weights, self.is_whole)
+            found = _encoded(found) if self.is_light else found
         fits = self.is_whole and bool((np.abs(found) < 2**31).all())
         return np.asarray(found, np.int32 if fits else np.float64)
+
+
+def _encoded(light: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Returns colours as sRGB encodes them, of amounts of light."""
+    bright = 1 + 1.055 * (np.maximum(light, 0.0031308) ** (1 / 2.4) - 1)
+    found = np.where(light <= 0.0031308, 12.92 * light, bright)
+    found[..., 3:] = light[..., 3:]
+    return found
 
 
 def interpolated(
@@ -86,11 +99,33 @@ def check_finite(corners: NDArray[Any], faces: NDArray[Any]) -> None:
 
 #: Names of the columns of attributes of several numbers, by name and width.
 _COMPONENTS = {
-    ("color", 3): ("red", "green", "blue"),
-    ("color", 4): ("red", "green", "blue", "alpha"),
     ("uv", 2): ("u", "v"),
     ("frames", 4): ("qx", "qy", "qz", "qw"),
 }
+
+_COLOUR = re.compile(r"(face_|vertex_|)color(\d*)")
+
+
+def _components(name: str, width: int) -> tuple[str, ...] | None:
+    """Returns the columns of an attribute of several numbers that has names for them."""
+    if width in (3, 4) and (match := _COLOUR.fullmatch(name)):
+        parts = ("red", "green", "blue", "alpha")[:width]
+        return tuple(f"{match[1]}{part}{match[2]}" for part in parts)
+    return _COMPONENTS.get((name, width))
+
+
+def with_bytes(attributes: dict[str, NDArray[Any]]) -> dict[str, NDArray[Any]]:
+    """Returns attributes with colours as integers from 0 to 255, as viewers expect them in PLY."""
+    found = dict(attributes)
+    for name, array in attributes.items():
+        is_colour = array.ndim == 2 and array.shape[1] in (3, 4) and _COLOUR.fullmatch(name)
+        if not is_colour or array.dtype.kind not in "fui":
+            continue
+        if array.dtype.kind == "f" and not np.isfinite(array).all():
+            raise e.invalid(f"attributes[{name!r}] has a colour that is not finite")
+        steps = np.floor(255 * np.clip(array, 0, 1) + 0.5) if array.dtype.kind == "f" else array
+        found[name] = np.clip(steps, 0, 255).astype(np.uint8)
+    return found
 
 
 def columns_of_attributes(attributes: dict[str, NDArray[Any]]) -> dict[str, NDArray[Any]]:
@@ -101,7 +136,7 @@ def columns_of_attributes(attributes: dict[str, NDArray[Any]]) -> dict[str, NDAr
         own = tuple(f"{name}_{i}" for i in range(width)) if array.ndim == 2 else (name,)
         # Files have no other characters in names.
         own = tuple(re.sub(r"[^\w.-]", "_", one, flags=re.ASCII) for one in own)
-        own = _COMPONENTS.get((name, width), own)
+        own = _components(name, width) or own
         if twice := columns.keys() & set(own):
             raise e.invalid(f"two attributes have the column {twice.pop()!r}; rename one of them")
         columns.update(zip(own, array.reshape(len(array), width).T))
@@ -112,12 +147,16 @@ def attributes_of_columns(columns: dict[str, NDArray[Any]]) -> dict[str, NDArray
     """Returns the attributes that columns of one number each were made of."""
     left = dict(columns)
     found: dict[str, NDArray[Any]] = {}
-    for (name, _), parts in sorted(_COMPONENTS.items(), key=lambda entry: -len(entry[1])):
-        if all(part in left for part in parts):
-            tables = [left.pop(part) for part in parts]
-            bytes_ = name == "color" and all(x.dtype == np.uint8 for x in tables)
-            table = np.stack(tables, axis=1).astype(np.float64)
-            found[name] = table / 255 if bytes_ else table
+    colours = [re.sub(r"red(?=\d*$)", "color", name) for name in columns]
+    names = [name for name in colours if _COLOUR.fullmatch(name)]
+    tables = [(name, width) for name in names for width in (4, 3)] + list(_COMPONENTS)
+    for name, width in tables:
+        parts = _components(name, width)
+        if parts is not None and all(part in left for part in parts):
+            own = [left.pop(part) for part in parts]
+            is_bytes = _COLOUR.fullmatch(name) and all(x.dtype == np.uint8 for x in own)
+            table = np.stack(own, axis=1).astype(np.float64)
+            found[name] = table / 255 if is_bytes else table
     for name, column in left.items():
         found[name] = np.ascontiguousarray(column.astype(column.dtype.newbyteorder("=")))
     return {name: found[name] for name in sorted(found, key=lambda name: _place(name, columns))}
@@ -125,5 +164,6 @@ def attributes_of_columns(columns: dict[str, NDArray[Any]]) -> dict[str, NDArray
 
 def _place(name: str, columns: dict[str, NDArray[Any]]) -> int:
     """Returns where an attribute begins among columns."""
-    first = next((parts[0] for (key, _), parts in _COMPONENTS.items() if key == name), name)
+    parts = (_components(name, width) for width in (2, 3, 4))
+    first = next((part[0] for part in parts if part), name)
     return list(columns).index(name if name in columns else first)

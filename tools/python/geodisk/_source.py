@@ -170,6 +170,7 @@ def _attribute(
         corners=view_of(found.corners, (triangles, 3), handle) if found.corners else None,
         of_vertices=bool(found.of_vertices),
         is_whole=bool(found.is_whole),
+        is_light=bool(found.is_light),
         polygons=polygons,
     )
 

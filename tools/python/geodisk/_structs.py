@@ -355,6 +355,7 @@ class SourceAttribute(_Sized):
         ("corners", POINTER(c_uint32)),
         ("of_vertices", c_int32),
         ("is_whole", c_int32),
+        ("is_light", c_int32),
     ]
 
 

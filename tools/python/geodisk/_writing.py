@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from . import _errors as e
 from . import _library as c
-from ._attributes import columns_of_attributes
+from ._attributes import columns_of_attributes, with_bytes
 
 if TYPE_CHECKING:
     from ._samples import Samples
@@ -169,15 +169,17 @@ def _format_of(name: str, column: NDArray[Any]) -> str:
 
 def write_ply(file: BinaryIO, samples: Samples, header: Header) -> None:
     columns = columns_of(samples, as_box=False)
+    columns.update(columns_of_attributes(with_bytes(samples.attributes)))
     kinds = {"f": ("double", "<f8"), "u": ("uint", "<u4"), "i": ("int", "<i4")}
+    types = [
+        ("uchar", "u1") if x.dtype == np.uint8 else kinds[x.dtype.kind] for x in columns.values()
+    ]
     lines = ["ply", "format binary_little_endian 1.0"]
     lines += [f"comment {key}: {value}" for key, value in header.items()]
     lines += [f"element vertex {len(samples)}"]
-    lines += [f"property {kinds[x.dtype.kind][0]} {name}" for name, x in columns.items()]
+    lines += [f"property {kind} {name}" for name, (kind, _) in zip(columns, types)]
     file.write("\n".join([*lines, "end_header\n"]).encode())
-    records = np.empty(
-        len(samples), [(name, kinds[x.dtype.kind][1]) for name, x in columns.items()]
-    )
+    records = np.empty(len(samples), [(name, scalar) for name, (_, scalar) in zip(columns, types)])
     for name, column in columns.items():
         records[name] = column
     file.write(records.tobytes())

@@ -75,6 +75,7 @@ typedef struct geodisk_source_attribute {
     const uint32_t *corners; /* The value of each triangle's corner; NULL for values of faces. */
     int32_t of_vertices;     /* Not 0 if there is a value for each vertex. */
     int32_t is_whole;        /* Not 0 for integers, which are not interpolated. */
+    int32_t is_light;        /* Not 0 for colours that are amounts of light. */
 } geodisk_source_attribute;
 
 GEODISK_C_API geodisk_status geodisk_source_get_attribute(const geodisk_source *source, size_t index,

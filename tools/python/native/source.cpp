@@ -166,6 +166,7 @@ geodisk_status geodisk_source_get_attribute(const geodisk_source* source, size_t
                                                              : nullptr;
         value.of_vertices = field.of == MeshField::Of::vertices ? 1 : 0;
         value.is_whole = field.is_whole ? 1 : 0;
+        value.is_light = field.is_light ? 1 : 0;
         return give(attribute, "attribute", value);
     });
 }
