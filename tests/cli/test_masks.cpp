@@ -160,6 +160,43 @@ TEST_CASE("samples lie where a property holds") {
                 {"sample", "m.ply", "-o", "a.ply", "-d", "0.1", "--columns", "group"});
 }
 
+TEST_CASE("a mask of colours goes by values from 0 to 1, and one that leaves out nothing warns") {
+    const TemporaryFolder folder;
+    const auto colours_of = [](const std::string& type, const std::string& full) {
+        return "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
+               "property float z\nproperty " +
+               type + " red\nproperty " + type + " green\nproperty " + type +
+               " blue\nelement face 2\n"
+               "property list uchar int vertex_indices\nend_header\n0 0 0 0 " +
+               full + " 0\n1 0 0 0 " + full + " 0\n1 1 0 0 " + full +
+               " 0\n0 1 0 0 0 0\n3 0 1 2\n3 0 2 3\n";
+    };
+    for (const auto& [type, full] :
+         {std::pair{"uchar", "255"}, {"ushort", "65535"}, {"float", "255"}, {"float", "1"}}) {
+        CAPTURE(type);
+        folder.write("c.ply", colours_of(type, full));
+        check_faces(folder, "c.ply", {"--mask", "green>0.4"}, {0});
+        check_faces(folder, "c.ply", {"--radius-factor", "green", "--radius-factor-floor", "0.5"},
+                    {0, 1});
+    }
+    const auto told = [&](const Arguments& where) {
+        return run(folder, joined({"sample", "c.ply", "-o", "a.csv", "-d", "0.1"}, where));
+    };
+    const Outcome whole = told({"--mask", "green>=0", "--only", "part:0"});
+    CHECK(whole.status == 0);
+    CHECK(contains(whole.err, "--mask green>=0 leaves out no face: 'green' is from 0 to 1"));
+    CHECK(contains(whole.err, "--only leaves out no face"));
+    CHECK_FALSE(contains(told({"--mask", "green>0.4"}).err, "leaves out"));
+    const Outcome none = told({"--mask", "green>100"});
+    CHECK(none.status == 3);
+    CHECK(contains(none.err, "so no samples fit: 'green' is from 0 to 1"));
+    CHECK(contains(told({"--density", "red"}).err, "the density is 0 everywhere"));
+    folder.write("ones.txt", "3\n3\n3\n3\n");
+    const Outcome even = told({"--density", "file:ones.txt"});
+    CHECK(even.status == 0);
+    CHECK(contains(even.err, "the density is 3 everywhere, so it leaves out nothing"));
+}
+
 TEST_CASE("a mask goes by any coordinate of R^n") {
     const TemporaryFolder folder;
     folder.write("r4.ply", "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x0\n"

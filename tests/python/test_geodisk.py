@@ -258,6 +258,18 @@ def test_sets_are_warned_of_as_the_program_does():
         geodisk.sample_many([(VERTICES, FACES), TETRAHEDRON], min_distance=[0.5, 99])
 
 
+def test_what_leaves_out_nothing_is_warned_of():
+    for kind, how in [
+        ("mask_of_all", {"face_mask": np.ones(len(FACES), bool)}),
+        ("constant_density", {"density": np.full(len(VERTICES), 7)}),
+    ]:
+        with pytest.warns(geodisk.GeodiskWarning) as heard:
+            geodisk.sample(VERTICES, FACES, min_distance=0.4, **how)
+            many = {name: [values] for name, values in how.items()}
+            geodisk.sample_many([(VERTICES, FACES)], min_distance=0.4, **many)
+        assert [one.message.kind for one in heard].count(kind) == 2
+
+
 def test_density():
     x = VERTICES[:, 0] - VERTICES[:, 0].min()
     with warnings.catch_warnings():

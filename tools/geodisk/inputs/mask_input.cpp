@@ -1,7 +1,9 @@
 #include "geodisk/inputs/mask_input.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
+#include <ranges>
 #include <set>
 
 #include "files/image.hpp"
@@ -41,7 +43,7 @@ const std::vector<std::string>& names_of(const MeshFile& mesh, RuleKind kind) {
     const PartNames& names = mesh.part_names;
     return kind == RuleKind::material ? names.materials
            : kind == RuleKind::group  ? names.groups
-                                  : names.nodes;
+                                      : names.nodes;
 }
 
 Numbers numbers_of(const MeshFile& mesh, const MeshPart& part, RuleKind kind) {
@@ -171,71 +173,114 @@ Mask chosen_by(const std::string& path, const MeshFile& mesh, const std::vector<
     return chosen;
 }
 
-/// Takes out of the mask what the rule does not hold for, by values of the corners.
-void require_at_corners(const MaskRule& rule, const std::vector<std::uint32_t>& corners,
-                        const std::vector<double>& values, Mask& mask) {
-    for (std::size_t i = 0; i < corners.size(); ++i) {
-        if (!rule.holds(values[corners[i]])) {
-            mask[i / 3] = 0;
-        }
+/// Values that a rule compares, of vertices or triangles.
+struct RuleValues {
+    std::vector<double> values;
+    const std::vector<std::uint32_t>* corners =
+        nullptr; ///< Vertex of each corner; null: triangles.
+};
+
+std::vector<double> coordinates_for(const MaskRule& rule, std::size_t axis, const MeshFile& mesh) {
+    if (axis >= mesh.dimension && !mesh.positions.empty()) {
+        fail_usage("--mask " + rule.name + ": the mesh has " + std::to_string(mesh.dimension) +
+                   " coordinates per vertex");
     }
+    std::vector<double> coordinates;
+    for (std::size_t i = axis; i < mesh.positions.size(); i += mesh.dimension) {
+        coordinates.push_back(mesh.positions[i]);
+    }
+    if (coordinates.empty()) {
+        fail_usage("--mask " + rule.name + " needs a mesh with coordinates");
+    }
+    return coordinates;
 }
 
-void require(const MaskRule& rule, const MeshFile& mesh, const MeshProperty* property, Mask& mask) {
+RuleValues values_for(const MaskRule& rule, const MeshFile& mesh, const MeshProperty* property) {
     if (const auto axis = rule.axis()) {
-        if (*axis >= mesh.dimension && !mesh.positions.empty()) {
-            fail_usage("--mask " + rule.name + ": the mesh has " + std::to_string(mesh.dimension) +
-                       " coordinates per vertex");
-        }
-        std::vector<double> coordinates;
-        for (std::size_t i = *axis; i < mesh.positions.size(); i += mesh.dimension) {
-            coordinates.push_back(mesh.positions[i]);
-        }
-        if (coordinates.empty()) {
-            fail_usage("--mask " + rule.name + " needs a mesh with coordinates");
-        }
-        require_at_corners(rule, mesh.triangles, coordinates, mask);
-        return;
+        return {coordinates_for(rule, *axis, mesh), &mesh.triangles};
     }
     if (property == nullptr) {
         const std::size_t count = std::size_t{1} + *std::ranges::max_element(mesh.triangles);
-        require_at_corners(rule, mesh.triangles,
-                           map_values(GreyImage(rule.name), mesh,
-                                      std::max(count, mesh.positions.size() / mesh.dimension)),
-                           mask);
-        return;
+        return {map_values(GreyImage(rule.name), mesh,
+                           std::max(count, mesh.positions.size() / mesh.dimension)),
+                &mesh.triangles};
     }
-    if (!property->of_faces) {
-        require_at_corners(rule, mesh.corners_in_file(), property->values, mask);
-        return;
-    }
-    for (std::size_t t = 0; t < mask.size(); ++t) {
-        if (!rule.holds(property->values[t])) {
-            mask[t] = 0;
+    return {property->values, property->of_faces ? nullptr : &mesh.corners_in_file()};
+}
+
+/// What a rule left out, and the values that it found.
+class RuleEffect {
+  public:
+    /// Takes out of the mask what the rule does not hold for.
+    RuleEffect(const MaskRule& rule, const MeshFile& mesh, const MeshProperty* property, Mask& mask)
+        : rule_(rule) {
+        const RuleValues found = values_for(rule, mesh, property);
+        for (std::size_t t = 0; t < mask.size(); ++t) {
+            const bool holds = found.corners == nullptr
+                                   ? regard(found.values[t])
+                                   : regard(found.values[(*found.corners)[3 * t]]) &
+                                         regard(found.values[(*found.corners)[3 * t + 1]]) &
+                                         regard(found.values[(*found.corners)[3 * t + 2]]);
+            mask[t] = holds ? mask[t] : 0;
+            leaves_out_ = leaves_out_ || (!holds && mesh.takes_part(t));
         }
     }
+
+    bool leaves_out() const { return leaves_out_; }
+    /// Returns the range of the values, such as "'green' is from 0 to 1".
+    std::string range() const {
+        return in_quotes(rule_.name) + " is from " + rounded(least_, 6) + " to " +
+               rounded(most_, 6);
+    }
+
+  private:
+    bool regard(double value) {
+        least_ = std::min(least_, value);
+        most_ = std::max(most_, value);
+        return rule_.holds(value);
+    }
+
+    MaskRule rule_;
+    bool leaves_out_ = false;
+    double least_ = HUGE_VAL, most_ = -HUGE_VAL;
+};
+
+MeshWarning warning_of_all(const std::string& option, const std::string& range) {
+    return {"mask_of_all", 1, "",
+            option + " leaves out no face" + (range.empty() ? "" : ": " + range), ""};
 }
 
 } // namespace
 
-std::vector<std::uint8_t> load_mask(const MaskOptions& options, const std::string& path,
-                                    const MeshFile& mesh) {
+LoadedMask load_mask(const MaskOptions& options, const std::string& path, const MeshFile& mesh) {
     if (!options.is_given()) {
         return {};
     }
-    Mask mask = chosen_by(path, mesh, options.only_rules());
+    LoadedMask loaded{chosen_by(path, mesh, options.only_rules()), {}};
+    Mask& mask = loaded.faces;
+    const auto is_left_out = [&](std::size_t t) { return mask[t] == 0 && mesh.takes_part(t); };
+    const auto triangles = std::views::iota(std::size_t{0}, mask.size());
+    if (!options.only.empty() && std::ranges::none_of(triangles, is_left_out)) {
+        loaded.warnings.push_back(warning_of_all("--only", ""));
+    }
+    std::string ranges;
     auto property = mesh.properties.begin();
-    for (const MaskRule& rule : options.mask_rules()) {
-        const bool has_property = !rule.is_map && !rule.axis();
-        require(rule, mesh, has_property ? &*property++ : nullptr, mask);
+    const std::vector<MaskRule> rules = options.mask_rules();
+    for (std::size_t i = 0; i < rules.size(); ++i) {
+        const bool has_property = !rules[i].is_map && !rules[i].axis();
+        const RuleEffect effect(rules[i], mesh, has_property ? &*property++ : nullptr, mask);
+        ranges += (ranges.empty() ? "" : ", ") + effect.range();
+        if (!effect.leaves_out()) {
+            loaded.warnings.push_back(warning_of_all("--mask " + options.masks[i], effect.range()));
+        }
     }
     if (std::ranges::count(mask, 1) == 0) {
         fail_input(path,
                    "has no face that " + options.names() +
                        (options.only.empty() || options.masks.empty() ? " allows" : " allow") +
-                       ", so no samples fit");
+                       ", so no samples fit" + (ranges.empty() ? "" : ": " + ranges));
     }
-    return mask;
+    return loaded;
 }
 
 } // namespace geodisk::tools

@@ -10,12 +10,16 @@
 
 namespace geodisk::tools {
 
-/// Returns a byte per triangle of the mesh at `path`, 1 where it takes samples; empty without
-/// options. The mesh must have been read with the properties and texture coordinates of the rules.
+struct LoadedMask {
+    std::vector<std::uint8_t> faces; ///< A byte per triangle, 1 where it takes samples.
+    std::vector<MeshWarning> warnings;
+};
+
+/// Returns the mask of the mesh at `path`; empty without options. The mesh must have been read with
+/// the properties and texture coordinates of the rules. Warns of a rule that leaves out nothing.
 ///
 /// Throws UserError(bad_input) for a part that the mesh does not have, naming those that it has,
 /// and if no triangle is left.
-std::vector<std::uint8_t> load_mask(const MaskOptions& options, const std::string& path,
-                                    const MeshFile& mesh);
+LoadedMask load_mask(const MaskOptions& options, const std::string& path, const MeshFile& mesh);
 
 } // namespace geodisk::tools

@@ -146,10 +146,11 @@ MeshInput load_silently(const MeshOptions& options, ProgressLine& progress,
             }
         }
     }
-    std::vector<std::uint8_t> face_mask = load_mask(mask, path, file);
-    MeshInput mesh{std::move(file),      std::move(prepared), std::move(radii),
-                   std::move(face_mask), distance_part,       {},
-                   load_seconds,         watch.seconds()};
+    LoadedMask loaded_mask = load_mask(mask, path, file);
+    MeshInput mesh{std::move(file),  std::move(prepared),
+                   std::move(radii), std::move(loaded_mask.faces),
+                   distance_part,    {},
+                   load_seconds,     watch.seconds()};
     if (mesh.file.materials) {
         mesh.textures.emplace(*mesh.file.materials);
         mesh.file.materials->images = {}; // Which are decoded now.
@@ -158,6 +159,8 @@ MeshInput load_silently(const MeshOptions& options, ProgressLine& progress,
     }
     collect_warnings(path, mesh, lift_attributes(lifts).size() < lifts.size());
     mesh.warnings.insert(mesh.warnings.end(), density_warnings.begin(), density_warnings.end());
+    mesh.warnings.insert(mesh.warnings.end(), loaded_mask.warnings.begin(),
+                         loaded_mask.warnings.end());
     check_interrupted();
     return mesh;
 }

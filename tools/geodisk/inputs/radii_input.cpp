@@ -1,6 +1,7 @@
 #include "geodisk/inputs/radii_input.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <utility>
@@ -69,6 +70,24 @@ std::string density_hint(const DensitySource& of) {
     return "; for a density, where 0 means no samples, give --density " + of.text();
 }
 
+/// Warns of a density that is the same at all vertices of faces.
+std::optional<MeshWarning> warning_of_constant(const Values& density, const PreparedMesh& mesh) {
+    double least = HUGE_VAL, most = -HUGE_VAL;
+    for (std::size_t v = 0; v < density.values.size(); ++v) {
+        if (mesh.fans()[v].corner_count > 0) {
+            least = std::min(least, density.values[v]);
+            most = std::max(most, density.values[v]);
+        }
+    }
+    if (least < most) {
+        return std::nullopt;
+    }
+    return MeshWarning{"constant_density", 1, "",
+                       "the density is " + rounded(most, 6) +
+                           " everywhere, so it leaves out nothing",
+                       density.source};
+}
+
 RadiusField field_of(const DensitySource& of, Values& values, const PreparedMesh& mesh,
                      std::optional<MeshWarning>& warning) {
     // Curvature as a density is that of its factors.
@@ -77,6 +96,7 @@ RadiusField field_of(const DensitySource& of, Values& values, const PreparedMesh
         if (!field && field.error().status == Status::invalid_argument) {
             fail_input(values.source, field.error().message);
         }
+        warning = warning_of_constant(values, mesh);
         return take(std::move(field));
     }
     const bool all_zero = std::all_of(values.values.begin(), values.values.end(),

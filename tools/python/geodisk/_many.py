@@ -19,7 +19,7 @@ from ._devices import DeviceLike
 from ._existing import AvoidLike, ExistingLike, avoided_of, existing_of
 from ._features import Features
 from ._mesh import Mesh, keys_of, mask_of, mesh_of
-from ._oddities import oddities_of_set, warn
+from ._oddities import oddities_of_set, warn, warn_of_whole_mask
 from ._protocols import MeshLike
 from ._radii import radii_of
 from ._record import Record, recorded
@@ -53,6 +53,7 @@ class _Job:
         self.distance_part = 1.0 if self._radii is None else self._radii.distance_part
         self._keys = None if face_keys is None else keys_of(mesh, face_keys)
         self._mask = None if face_mask is None else mask_of(mesh._surface, face_mask)
+        warn_of_whole_mask(self._mask)
         self._settled: object = None  # What the library reads.
         self.existing = existing_of(mesh._surface, existing)
         self._avoided, self._avoided_radii = avoided_of(mesh._surface, avoid)

@@ -67,6 +67,12 @@ def _listed(found: c.Handle) -> Iterator[tuple[str, str, int]]:
         yield in_python(one.message.decode("utf-8", "replace")), one.kind.decode(), one.count
 
 
+def warn_of_whole_mask(mask: NDArray[np.uint8] | None) -> None:
+    """Warns of a mask that takes every triangle."""
+    if mask is not None and mask.size and mask.all():
+        warn([GeodiskWarning("face_mask leaves out no triangle", "mask_of_all", 1)])
+
+
 def warn(found: Sequence[GeodiskWarning]) -> None:
     """Shows warnings at the line that called this package."""
     for one in found:

@@ -13,6 +13,7 @@ from . import _errors as e
 from . import _library as c
 from . import _structs as s
 from ._mesh import Mesh
+from ._oddities import warn
 
 _MEANING = (
     "density= is the density of samples now: more where it is larger, none where it is 0, and "
@@ -62,6 +63,9 @@ def radii_of(
         s.FLOAT32 if values.dtype == np.float32 else s.FLOAT64,
         len(values),
     )
+    if name == "density" and len(values) and (values == values[0]).all():
+        text = f"the density is {values[0]:g} everywhere, so it leaves out nothing"
+        warn([e.GeodiskWarning(text, "constant_density", 1)])
     part = c.radii_least_factor(handle.value) if name == "density" else 1.0
     return Radii(handle, part)
 

@@ -23,7 +23,7 @@ from ._features import Features
 from ._job import Job, JobFrame
 from ._levels import levels_of, run_levels
 from ._mesh import keys_of, mask_of, mesh_of
-from ._oddities import oddities_of_set, warn
+from ._oddities import oddities_of_set, warn, warn_of_whole_mask
 from ._protocols import Faces, MeshLike
 from ._radii import radii_of
 from ._record import Record, recorded
@@ -229,6 +229,7 @@ def sample(
     part = 1.0 if radii is None else radii.distance_part
     keys = None if face_keys is None else keys_of(mesh, face_keys)
     mask = None if face_mask is None else mask_of(mesh._surface, face_mask)
+    warn_of_whole_mask(mask)
     kept = existing_of(mesh._surface, existing)
     points, point_radii = avoided_of(mesh._surface, avoid)
     if count is not None and len(kept) >= count:
