@@ -1,6 +1,7 @@
 // `geodisk neighbours`: files, sources, targets, and what it refuses.
 #include <doctest/doctest.h>
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
@@ -105,7 +106,7 @@ TEST_CASE("where seams are joined, neighbours name all vertices of the file") {
           "source,target,distance\n0,0,0\n0,3,0\n1,1,0\n2,2,0\n2,4,0\n3,0,0\n3,3,0\n"
           "4,2,0\n4,4,0\n5,5,0\n");
     CHECK(found(folder, {"split.obj", "--within", "2", "--vertices", "0", "--nearest", "3"}) ==
-          "source,target,distance\n0,0,0\n0,3,0\n0,1,1\n");
+          "source,target,distance\n0,0,0\n0,1,1\n0,5,1\n"); // A place counts once.
     CHECK(found(folder, {"split.obj", "--within", "2", "--vertices", "0", "--keep-seams"}) ==
           "source,target,distance\n0,0,0\n0,1,1\n0,2,1.4142\n");
     const auto message = [&](const char* vertex) {
@@ -118,6 +119,50 @@ TEST_CASE("where seams are joined, neighbours name all vertices of the file") {
     CHECK(message("6").find("--vertices: no face uses vertex 6") != std::string::npos);
     CHECK(message("0-4000000000").find("there is no vertex 4000000000") != std::string::npos);
     CHECK(message("7").find("there is no vertex 7, since the mesh has 7") != std::string::npos);
+}
+
+TEST_CASE("the nearest vertices are places, however the file repeats them") {
+    const TemporaryFolder folder;
+    const std::vector<std::array<int, 3>> faces{{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4},
+                                                {1, 0, 5}, {2, 1, 5}, {3, 2, 5}, {0, 3, 5}};
+    const char* const places[] = {"1 0 0", "0 1 0", "-1 0 0", "0 -1 0", "0 0 1", "0 0 -1"};
+    std::string shared, flat, stl = "solid o\n", shared_faces, flat_faces;
+    for (const char* const place : places) {
+        shared += std::string("v ") + place + '\n';
+    }
+    int last = 0;
+    for (const auto& face : faces) {
+        stl += "facet normal 0 0 0\nouter loop\n";
+        shared_faces += 'f', flat_faces += 'f';
+        for (const int corner : face) {
+            flat += std::string("v ") + places[corner] + '\n';
+            stl += std::string("vertex ") + places[corner] + '\n';
+            shared_faces += ' ' + std::to_string(corner + 1);
+            flat_faces += ' ' + std::to_string(++last);
+        }
+        shared_faces += '\n', flat_faces += '\n';
+        stl += "endloop\nendfacet\n";
+    }
+    write(folder, "octa.obj", shared + shared_faces);
+    write(folder, "flat.obj", flat + flat_faces);
+    write(folder, "octa.stl", stl + "endsolid o\n");
+    const std::string own = "source,target,distance\n0,0,0\n0,1,1.4142\n0,3,1.4142\n0,4,1.4142\n"
+                            "0,5,1.4142\n";
+    CHECK(found(folder, {"octa.obj", "--nearest", "5", "--vertices", "0"}) == own);
+    // STL numbers places as they come: 1 0 0, 0 1 0, 0 0 1, -1 0 0, 0 -1 0, 0 0 -1.
+    CHECK(found(folder, {"octa.stl", "--nearest", "5", "--vertices", "0"}) ==
+          "source,target,distance\n0,0,0\n0,1,1.4142\n0,2,1.4142\n0,4,1.4142\n0,5,1.4142\n");
+    CHECK(found(folder, {"flat.obj", "--nearest", "5", "--vertices", "10"}) ==
+          "source,target,distance\n10,0,0\n10,1,1.4142\n10,2,1.4142\n10,7,1.4142\n"
+          "10,14,1.4142\n");
+    CHECK(found(folder, {"flat.obj", "--nearest", "2", "--among", "sources"}) ==
+          "source,target,distance\n0,1,1.4142\n0,2,1.4142\n1,0,1.4142\n1,2,1.4142\n"
+          "2,0,1.4142\n2,1,1.4142\n4,1,1.4142\n4,2,1.4142\n7,0,1.4142\n7,2,1.4142\n"
+          "14,0,1.4142\n14,1,1.4142\n");
+    CHECK(contains(
+        run(folder, {"neighbours", "octa.stl", "--nearest", "1", "--vertices", "6", "-o", "no.csv"})
+            .err,
+        "there is no vertex 6, since the mesh has 6"));
 }
 
 TEST_CASE("neighbours go to archives and streams") {

@@ -59,6 +59,26 @@ def test_all_vertices_of_a_seam_are_found():
     assert apart[3][0].tolist() == [3, 5]
 
 
+def test_the_nearest_vertices_are_places():
+    places = np.array(
+        [[1, 0, 0], [0, 1, 0], [-1, 0, 0], [0, -1, 0], [0, 0, 1], [0, 0, -1]], float
+    )
+    faces = np.array(
+        [[0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4], [1, 0, 5], [2, 1, 5], [3, 2, 5], [0, 3, 5]]
+    )
+    flat = places[faces.ravel()]
+    own = geodisk.neighbours(places, faces, nearest=5)
+    split = geodisk.neighbours(flat, np.arange(24).reshape(8, 3), nearest=5)
+    assert len(split.sources) == 24
+    for row, vertex in enumerate(split.sources):
+        found, place = flat[split[row][0]], faces.ravel()[vertex]
+        assert {tuple(at) for at in found} == {tuple(at) for at in places[own[place][0]]}
+        assert np.allclose(split[row][1], own[place][1])
+    others = geodisk.neighbours(flat, np.arange(24).reshape(8, 3), among="sources", nearest=2)
+    assert others.sources.tolist() == [0, 1, 2, 4, 7, 14]
+    assert (others.distances > 1).all()
+
+
 def test_files_have_seams_as_well(tmp_path):
     path = tmp_path / "split.obj"
     path.write_text(

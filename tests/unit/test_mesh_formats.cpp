@@ -52,8 +52,9 @@ TEST_CASE("STL facets hang together where their vertices lie in one place") {
          {ascii_stl(std::string(kFacet) + std::string(kOther)), binary_stl("made by a test"),
           binary_stl("solid that is binary all the same")}) {
         const MeshFile mesh = mesh_of("a.STL", bytes);
-        CHECK(mesh.positions.size() == 18);
-        CHECK(mesh.triangles == FormatCorners{0, 1, 2, 0, 2, 5});
+        CHECK(mesh.positions.size() == 12); // Of places.
+        CHECK(mesh.triangles == FormatCorners{0, 1, 2, 0, 2, 3});
+        CHECK(mesh.joined.empty());
         CHECK(mesh.polygons.empty());
         CHECK(mesh.warnings.empty());
         CHECK(mesh.weld->merged_vertices == 2);
@@ -63,7 +64,7 @@ TEST_CASE("STL facets hang together where their vertices lie in one place") {
 TEST_CASE("binary STL that begins with solid is told by the zeros of its head") {
     std::string bytes = binary_stl("solid part") + "more"; // Not of the size that it tells.
     const MeshFile mesh = mesh_of("a.stl", bytes);
-    CHECK(mesh.triangles == FormatCorners{0, 1, 2, 0, 2, 5});
+    CHECK(mesh.triangles == FormatCorners{0, 1, 2, 0, 2, 3});
     CHECK(warning_of(mesh).kind == "trailing_data");
     const MeshFile apart =
         mesh_of("a.stl", "solid x\nfacet\nouter loop\nvertex 0 0 0\nvertex 1 0 0\n"

@@ -236,16 +236,19 @@ void take_lengths(EdgeLengths& lengths, MeshFile& mesh) {
                 "lengths of edges that no face has ignored");
 }
 
-void take_coordinates(const MeshSources& sources, PolygonMesh& polygons) {
+/// Replaces the coordinates of a mesh, of either kind.
+template <class Mesh>
+void take_coordinates(const MeshSources& sources, Mesh& mesh) {
     Coordinates given = read_coordinates(sources.coordinates);
     const std::size_t count = given.positions.size() / given.dimension;
-    if (!polygons.positions.empty() && count != polygons.vertex_count()) {
+    const std::size_t vertices = mesh.positions.size() / mesh.dimension;
+    if (vertices != 0 && count != vertices) {
         fail_input(sources.coordinates, "has the coordinates of " + std::to_string(count) +
                                             " vertices, but " + sources.mesh + " has " +
-                                            std::to_string(polygons.vertex_count()));
+                                            std::to_string(vertices));
     }
-    polygons.positions = std::move(given.positions);
-    polygons.dimension = given.dimension;
+    mesh.positions = std::move(given.positions);
+    mesh.dimension = given.dimension;
 }
 
 /// Every corner must have texture coordinates, finite ones.
@@ -275,7 +278,33 @@ void take_uvs(const Path& path, const PolygonMesh& polygons, MeshFile& mesh) {
     mesh.uvs.erase(std::unique(mesh.uvs.begin(), mesh.uvs.end()), mesh.uvs.end());
 }
 
-MeshFile to_triangles(const MeshSources& sources, PolygonMesh&& polygons) {
+/// Numbers vertices by their places, in the order of the corners.
+void number_places(const std::string& path, MeshFile& mesh) {
+    weld_mesh(path, mesh, {});
+    constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+    std::vector<std::uint32_t> numbers(mesh.positions.size() / 3, kNone);
+    std::vector<double> positions;
+    std::vector<std::uint32_t> lines;
+    for (std::uint32_t& vertex : mesh.triangles) {
+        std::uint32_t& number = numbers[vertex];
+        if (number == kNone) {
+            number = static_cast<std::uint32_t>(positions.size() / 3);
+            const double* const point = &mesh.positions[std::size_t{3} * vertex];
+            positions.insert(positions.end(), point, point + 3);
+            if (!mesh.names.vertex_lines.empty()) {
+                lines.push_back(mesh.names.vertex_lines[vertex]);
+            }
+        }
+        vertex = number;
+    }
+    mesh.names.vertex_lines = std::move(lines);
+    mesh.positions = std::move(positions);
+    mesh.joined = {};
+    mesh.file_triangles = {};
+}
+
+MeshFile to_triangles(const MeshSources& sources, PolygonMesh&& polygons,
+                      bool has_places_alone = false) {
     const Path path = sources.mesh;
     const bool has_lengths = !sources.edge_lengths.empty();
     MeshFile mesh;
@@ -283,7 +312,7 @@ MeshFile to_triangles(const MeshSources& sources, PolygonMesh&& polygons) {
     if (polygons.face_ends.empty()) {
         fail_input(path, "has no faces");
     }
-    if (!sources.coordinates.empty()) {
+    if (!sources.coordinates.empty() && !has_places_alone) {
         take_coordinates(sources, polygons);
     }
     if (has_lengths) {
@@ -306,6 +335,12 @@ MeshFile to_triangles(const MeshSources& sources, PolygonMesh&& polygons) {
     mesh.dimension = polygons.dimension;
     mesh.attributes = std::move(polygons.attributes);
     mesh.names = std::move(polygons.names);
+    if (has_places_alone) {
+        number_places(sources.mesh, mesh);
+        if (!sources.coordinates.empty()) {
+            take_coordinates(sources, mesh);
+        }
+    }
     if (sources.weld) {
         weld_mesh(sources.mesh, mesh, *sources.weld);
     } else if (!has_lengths && !sources.keep_seams) {
@@ -354,16 +389,14 @@ void check_no_uvs(const MeshSources& sources) {
     }
 }
 
-/// For a file that has no indices: its vertices are joined if only by place.
-MeshSources joined(MeshSources sources) {
+/// Refuses options that need numbers of vertices, for a file that has places alone.
+void check_no_numbers(const MeshSources& sources) {
     if (!sources.edge_lengths.empty()) {
         fail_usage("--edge-lengths needs numbers of vertices, which " + sources.mesh + " has not");
     }
     if (sources.keep_seams) {
         fail_usage("--keep-seams needs numbers of vertices, which " + sources.mesh + " has not");
     }
-    sources.weld = sources.weld.value_or(Length{});
-    return sources;
 }
 
 } // namespace
@@ -420,8 +453,8 @@ MeshFile read_mesh(const MeshSources& sources) {
         return to_triangles(sources, read_off(path, sources.fields, sources.progress));
     }
     if (extension == ".stl") {
-        const MeshSources with_weld = joined(sources);
-        return to_triangles(with_weld, read_stl(path, sources.progress));
+        check_no_numbers(sources);
+        return to_triangles(sources, read_stl(path, sources.progress), true);
     }
     if (extension == ".gltf" || extension == ".glb") {
         return to_triangles(sources, read_gltf(path, sources.fields, scope));

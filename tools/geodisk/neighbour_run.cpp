@@ -11,6 +11,11 @@
 #include "program/stopwatch.hpp"
 
 namespace geodisk::tools {
+NumberedPoints places_of(const MeshInput& mesh) {
+    VertexPoints places = take(vertex_points(mesh.prepared));
+    return {std::move(places.points), std::move(places.vertices)};
+}
+
 NumberedPoints vertices_of(const MeshInput& mesh, const std::vector<VertexRange>& wanted) {
     VertexPoints all = take(vertex_points(mesh.prepared, mesh.file.joined));
     if (wanted.empty()) {

@@ -26,6 +26,9 @@ struct VertexRange {
     std::uint32_t first, last;
 };
 
+/// Returns the places of vertices that faces use, each by the lowest of those that are joined.
+NumberedPoints places_of(const MeshInput& mesh);
+
 /// Returns the vertices of the mesh that faces use, or those of `wanted` in that order. Of vertices
 /// that are joined, each has the place of all. Throws UserError(usage) for one that there is not,
 /// or that no face uses.
@@ -49,7 +52,8 @@ struct NeighbourResult {
 };
 
 /// Opens the device where need be and searches. Targets that are vertices are those of the file:
-/// where some are joined, all of them. Throws UserError.
+/// where some are joined, all of them, or the lowest where the nearest are wanted. Throws
+/// UserError.
 NeighbourResult search_neighbours(const NeighbourJob& job, const MeshInput& mesh, RunDevice& device,
                                   bool is_bounded, ProgressLine& progress);
 

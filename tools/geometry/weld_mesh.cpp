@@ -46,7 +46,9 @@ void weld_mesh(const std::string& path, MeshFile& mesh, const Length& distance) 
     const double epsilon =
         distance.is_percent ? distance.in_mesh_units(diagonal_of(mesh)) : distance.value;
     WeldedMesh welded = take(weld({mesh.positions, mesh.triangles, mesh.dimension}, epsilon), path);
-    mesh.weld = {welded.merged_vertices, welded.degenerate_faces, 0};
+    const WeldCounts before = mesh.weld.value_or(WeldCounts{});
+    mesh.weld = {before.merged_vertices + welded.merged_vertices,
+                 before.degenerate_faces + welded.degenerate_faces, 0};
     take_welded(std::move(welded), mesh);
 }
 

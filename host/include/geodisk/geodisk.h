@@ -589,7 +589,8 @@ GEODISK_C_API void geodisk_samples_release(geodisk_samples *samples);
 /* Where to look for the neighbours of a source. */
 typedef int32_t geodisk_neighbour_kind;
 enum {
-    GEODISK_AMONG_VERTICES = 0, /* Vertices of the mesh. Where vertices are joined, all of them. */
+    GEODISK_AMONG_VERTICES = 0, /* Vertices of the mesh. Where vertices are joined, all of them, or
+                                 * with `nearest` the lowest. */
     GEODISK_AMONG_POINTS = 1,   /* geodisk_neighbour_params.points. */
     GEODISK_AMONG_SOURCES = 2   /* The other sources. */
 };
@@ -597,7 +598,8 @@ enum {
 /* Which neighbours to find. Lengths are in mesh units. */
 typedef struct geodisk_neighbour_params {
     size_t struct_size;
-    /* Sources: points, or vertices of the mesh. NULL both for all vertices that a face uses. */
+    /* Sources: points, or vertices of the mesh. NULL both for all vertices that a face uses; for
+     * GEODISK_AMONG_SOURCES, for the lowest of those that are joined. */
     const geodisk_surface_point *sources;
     const uint32_t *source_vertices;
     size_t source_count;
@@ -607,10 +609,11 @@ typedef struct geodisk_neighbour_params {
     geodisk_neighbour_kind kind;
     const geodisk_surface_point *points; /* To find, for GEODISK_AMONG_POINTS. */
     size_t point_count;
-    uint32_t nearest;     /* Not 0: keep only so many of each source, the nearest ones. */
+    uint32_t nearest;     /* Not 0: keep only so many of each source, the nearest ones; vertices that
+                           * are joined count once. */
     uint64_t most_pairs;  /* Most pairs to find in all; 0 for 2^30. */
     /* Lowest vertex that each vertex is joined with, if the caller has joined vertices; NULL for
-     * those that geodisk_mesh_create joined. Sources and neighbours are all vertices of a place. */
+     * those that geodisk_mesh_create joined. */
     const uint32_t *joined;
 } geodisk_neighbour_params;
 

@@ -37,10 +37,10 @@ struct NeighbourQuery {
     NeighbourKind kind = NeighbourKind::vertices;
     std::span<const Sample> points{}; ///< At least one if `kind` asks for them, up to 2^28.
     /// WeldedMesh::vertices if vertices of the mesh are joined. The lists then have all vertices of
-    /// a place. Without it they have only the lowest one, which the mesh uses.
+    /// a place. Without it, and with `nearest`, they have only the lowest one, which the mesh uses.
     std::span<const std::uint32_t> joined{};
-    /// Maximum number of neighbours per source, the nearest ones; 0 for all. Ties go to the lower
-    /// index.
+    /// Maximum number of neighbours per source, the nearest ones; 0 for all. Vertices that are
+    /// joined count once. Ties go to the lower index.
     std::uint32_t nearest = 0;
     /// Maximum number of pairs in all. The call fails as soon as it expects more.
     std::uint64_t most_pairs = std::uint64_t{1} << 30;

@@ -34,7 +34,11 @@ Result<NeighbourSources> sources_of(const Mesh& mesh, const geodisk_neighbour_pa
     if (params.sources != nullptr) {
         return NeighbourSources{samples_of(params.sources, params.source_count), {}};
     }
-    auto all = vertex_points(mesh.prepared, joined_of(mesh, params));
+    // Other sources at the place of a source would be its nearest.
+    const bool are_places =
+        params.kind == GEODISK_AMONG_SOURCES && params.source_vertices == nullptr;
+    auto all = vertex_points(mesh.prepared, are_places ? std::span<const std::uint32_t>()
+                                                       : joined_of(mesh, params));
     if (!all) {
         return all.error();
     }

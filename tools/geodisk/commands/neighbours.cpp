@@ -144,7 +144,8 @@ NeighbourJob make_job(const NeighbourOptions& options, const Within& within,
                       std::vector<MeshWarning>& warnings, ProgressLine& progress) {
     NeighbourJob job;
     if (options.points.empty()) {
-        job.sources = vertices_of(mesh, vertices);
+        job.sources = options.among == "sources" && vertices.empty() ? places_of(mesh)
+                                                                     : vertices_of(mesh, vertices);
     } else {
         const SampleFile file =
             read_points(options, options.points, within.column, mesh, warnings, progress);
@@ -229,8 +230,9 @@ void add_neighbours_command(Command app) {
                        "What to find: vertices (the default), sources (all\n"
                        "others), or the points of a file");
     command.add_option("--nearest", options->nearest, "K",
-                       "Keep only the K nearest per source, nearest first; without\n"
-                       "--within, search as far as needed");
+                       "Keep only the K nearest per source, nearest first, and of\n"
+                       "vertices in one place the lowest; without --within, search\n"
+                       "as far as needed");
     command.add_option("--most-pairs", options->most_pairs, "N",
                        "Stop if more than N pairs are expected (default 2^30)");
     add_mesh_options(command, options->mesh);

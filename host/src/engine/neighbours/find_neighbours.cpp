@@ -17,8 +17,8 @@ Task<Result<Neighbours>> search(Runner::Impl& runner, const PreparedMesh& mesh,
     auto searched = query.has_distances() ? search_within(runner, mesh, query)
                                           : search_nearest(runner, mesh, query);
     auto found = co_await searched;
-    if (found && query.kind == NeighbourKind::vertices && !query.joined.empty()) {
-        name_joined(query.joined, query.nearest, *found);
+    if (found && lists_joined(query)) {
+        name_joined(query.joined, *found);
     }
     co_return found;
 }

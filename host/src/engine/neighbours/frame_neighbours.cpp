@@ -166,7 +166,7 @@ Result<Done> FrameNeighbours::Impl::take_inputs(const Domain& all, const Prepare
     }
     std::vector<std::vector<std::uint32_t>> numbers;
     if (query.kind == NeighbourKind::vertices) {
-        if (query.joined.empty()) {
+        if (!lists_joined(query)) {
             return Done{};
         }
         numbers.resize(mesh.vertex_count());

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <numeric>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -34,8 +33,11 @@ class Places {
 
 } // namespace
 
-void name_joined(std::span<const std::uint32_t> joined, std::uint32_t nearest,
-                 Neighbours& neighbours) {
+bool lists_joined(const NeighbourQuery& query) {
+    return query.kind == NeighbourKind::vertices && !query.joined.empty() && query.nearest == 0;
+}
+
+void name_joined(std::span<const std::uint32_t> joined, Neighbours& neighbours) {
     const Places places(joined);
     std::vector<std::uint64_t> offsets{0};
     std::vector<std::uint32_t> indices;
@@ -48,10 +50,7 @@ void name_joined(std::span<const std::uint32_t> joined, std::uint32_t nearest,
                 row.emplace_back(vertex, neighbours.distances[at]);
             }
         }
-        std::ranges::sort(row, {}, [nearest](const auto& pair) {
-            return std::tuple(nearest == 0 ? 0.0f : pair.second, pair.first);
-        });
-        row.resize(nearest == 0 ? row.size() : std::min<std::size_t>(row.size(), nearest));
+        std::ranges::sort(row);
         for (const auto& [vertex, distance] : row) {
             indices.push_back(vertex);
             distances.push_back(distance);
