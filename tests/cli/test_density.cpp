@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <string>
@@ -359,6 +360,131 @@ TEST_CASE("radii that cannot be are refused, naming file and vertex") {
                 {"sample", "mesh.ply", "-o", "a.ply", "-n", "9", "--density", "file:g.txt",
                  "--json", "g.txt"});
     check_fails(folder, 3, "no property 'w'", {"verify", "mesh.ply", "g.txt", "--density", "w"});
+}
+
+namespace {
+
+/// A plane of two triangles, and images of 64 pixels a side: a black disc on white in hole.png, the
+/// reverse in disc.png, of a radius of 20 pixels; in fine.png 1,000 stripes.
+void write_plane(const TemporaryFolder& folder) {
+    folder.write("two.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n"
+                            "f 1/1 2/2 3/3\nf 1/1 3/3 4/4\n");
+    std::string hole, disc, fine;
+    for (int y = 0; y < 64; ++y) {
+        for (int x = 0; x < 64; ++x) {
+            const bool is_in = std::hypot(x - 31.5, y - 31.5) < 20;
+            hole += is_in ? '\0' : '\xff';
+            disc += is_in ? '\xff' : '\0';
+        }
+    }
+    for (int x = 0; x < 1000; ++x) {
+        fine += x % 2 == 0 ? '\0' : '\xff';
+    }
+    folder.write("hole.png", tools::png_bytes(64, 64, hole));
+    folder.write("disc.png", tools::png_bytes(64, 64, disc));
+    folder.write("fine.png", tools::png_bytes(1000, 1, fine));
+}
+
+/// Samples, verifies with the same options, and returns how many samples lie nearer to the middle
+/// than 18 pixels, between, and farther than 22.
+std::array<std::size_t, 3> rings_of(const TemporaryFolder& folder, const Arguments& how) {
+    const Outcome made =
+        run(folder, joined({"sample", "two.obj", "-o", "a.ply", "-d", "0.02", "-q"}, how));
+    INFO(made.err);
+    REQUIRE(made.status == 0);
+    CHECK(made.err.empty());
+    const Outcome verified = run(folder, joined({"verify", "two.obj", "a.ply"}, how));
+    INFO(verified.out, verified.err);
+    CHECK(verified.status == 0);
+    const Outcome plain = run(folder, {"verify", "two.obj", "a.ply"}); // On whole faces.
+    INFO(plain.out, plain.err);
+    CHECK(plain.status == 0);
+    std::array<std::size_t, 3> rings{};
+    for (const tools::SampleRow& row : tools::read_samples(folder / "a.ply").rows) {
+        CHECK(row.face < 2);
+        const double pixels = 64 * std::hypot(row.position[0] - 0.5, row.position[1] - 0.5);
+        ++rings[pixels < 18 ? 0 : pixels < 22 ? 1 : 2];
+    }
+    return rings;
+}
+
+} // namespace
+
+TEST_CASE("an image is read within faces, as a density and as a mask") {
+    const TemporaryFolder folder;
+    write_plane(folder);
+    const std::size_t all = [&] {
+        const auto rings = rings_of(folder, {});
+        return rings[0] + rings[1] + rings[2];
+    }();
+    constexpr double kInner = 3.14159 * 18 * 18 / 4096, kOuter = 1 - 3.14159 * 22 * 22 / 4096;
+    for (const Arguments& how : {Arguments{"--density", "map:hole.png"},
+                                 {"--mask", "map:hole.png"},
+                                 {"--mask", "map:disc.png<0.5"}}) {
+        CAPTURE(how[1]);
+        const auto rings = rings_of(folder, how);
+        CHECK(rings[0] == 0);
+        CHECK(rings[2] > 0.96 * kOuter * static_cast<double>(all));
+        CHECK(rings[2] < 1.06 * kOuter * static_cast<double>(all));
+    }
+    for (const Arguments& how :
+         {Arguments{"--density", "map:disc.png"}, {"--mask", "map:disc.png"}}) {
+        CAPTURE(how[1]);
+        const auto rings = rings_of(folder, how);
+        CHECK(rings[2] == 0);
+        // A fade has larger radii beside the disc.
+        CHECK(rings[0] > 0.88 * kInner * static_cast<double>(all));
+        CHECK(rings[0] < 1.07 * kInner * static_cast<double>(all));
+    }
+}
+
+TEST_CASE("samples drawn on parts of faces go with the other options") {
+    const TemporaryFolder folder;
+    write_plane(folder);
+    const Arguments mask{"--mask", "map:hole.png"};
+    const auto made = [&](const Arguments& how) {
+        return run(folder, joined(joined({"sample", "two.obj", "-q"}, how), mask));
+    };
+    REQUIRE(made({"-o", "a.ply", "-d", "0.05"}).status == 0);
+    REQUIRE(made({"-o", "again.ply", "-d", "0.05", "--memory", "64M"}).status == 0);
+    CHECK(tools::read_samples(folder / "a.ply").header.find("digest") != nullptr);
+    CHECK(*tools::read_samples(folder / "a.ply").header.find("digest") ==
+          *tools::read_samples(folder / "again.ply").header.find("digest"));
+    // Kept samples stay where they are.
+    REQUIRE(made({"-o", "more.ply", "-d", "0.04", "--existing", "a.ply"}).status == 0);
+    const auto before = tools::read_samples(folder / "a.ply").rows;
+    const auto after = tools::read_samples(folder / "more.ply").rows;
+    REQUIRE(after.size() > before.size());
+    for (std::size_t i = 0; i < before.size(); ++i) {
+        CHECK(before[i].face == after[i].face);
+        CHECK(before[i].bary[1] == after[i].bary[1]);
+        CHECK(before[i].bary[2] == after[i].bary[2]);
+    }
+    for (const Arguments& how : {Arguments{"-d", "0.05", "--maximal"},
+                                 {"-n", "200", "--exact"},
+                                 {"-d", "0.1", "--classes", "2"},
+                                 {"-d", "0.05", "--metric", "euclidean"},
+                                 {"-n", "100", "--order", "progressive"}}) {
+        CAPTURE(how.back());
+        const Outcome outcome = made(joined({"-o", "b.ply"}, how));
+        INFO(outcome.err);
+        CHECK(outcome.status == 0);
+        CHECK(run(folder, joined({"verify", "two.obj", "b.ply", "-q"}, mask)).status == 0);
+    }
+    CHECK(run(folder, joined({"analyze", "two.obj", "a.ply"}, mask)).status == 0);
+    const Outcome refused = made({"-o", "c.ply", "-d", "0.05", "--features", "30"});
+    CHECK(refused.status == 2);
+    CHECK(contains(refused.err, "--features goes with no image that shows more than the corners"));
+}
+
+TEST_CASE("an image that is finer than faces are split says how fine it was read") {
+    const TemporaryFolder folder;
+    write_plane(folder);
+    const Outcome made =
+        run(folder, {"sample", "two.obj", "-o", "a.ply", "-d", "0.1", "--density", "map:fine.png"});
+    CHECK(made.status == 0);
+    CHECK(contains(made.err, "fine.png: is finer than faces are split for it: on large faces it is "
+                             "read every 4 pixels"));
 }
 
 } // namespace geodisk::test

@@ -11,6 +11,8 @@
 namespace geodisk::tools {
 namespace {
 
+constexpr double kWhite = 65535; ///< Of a component.
+
 /// Returns the place from 0 to 1 that has the colour of another one.
 double folded(double at, ImageWrap wrap) {
     switch (wrap) {
@@ -61,6 +63,10 @@ ColourImage::ColourImage(const Path& path) : Image(path, read_file(path), PixelK
 
 ColourImage::ColourImage(const ImageFile& file) : Image(file.name, file.bytes, PixelKind::colour) {}
 
+double Image::largest_component() const {
+    return static_cast<double>(*std::ranges::max_element(pixels_)) / kWhite;
+}
+
 double Image::component(double u, double v, std::size_t index, ImageWrap wrap_u,
                         ImageWrap wrap_v) const {
     // Where in units of pixels, from the centre of the upper left one.
@@ -71,7 +77,7 @@ double Image::component(double u, double v, std::size_t index, ImageWrap wrap_u,
         const std::int64_t i =
             wrapped(row, height_, wrap_v) * width_ + wrapped(column, width_, wrap_u);
         return static_cast<double>(pixels_[static_cast<std::size_t>(i) * components_ + index]) /
-               65535;
+               kWhite;
     };
     const auto across = [&](double row) {
         return pixel(left, row) + (x - left) * (pixel(left + 1, row) - pixel(left, row));

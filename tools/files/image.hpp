@@ -14,6 +14,10 @@
 namespace geodisk::tools {
 
 class Image {
+  public:
+    std::int64_t width() const { return width_; }
+    std::int64_t height() const { return height_; }
+
   protected:
     /// `bytes` are those of the file `name`, as messages call it.
     Image(const Path& name, const std::string& bytes, PixelKind kind);
@@ -21,6 +25,8 @@ class Image {
     /// Returns a component of the colour, see GreyImage::at().
     double component(double u, double v, std::size_t index, ImageWrap wrap_u = ImageWrap::repeat,
                      ImageWrap wrap_v = ImageWrap::repeat) const;
+    /// Returns the largest component of all pixels.
+    double largest_component() const;
 
   private:
     std::int64_t width_ = 0, height_ = 0;
@@ -30,6 +36,8 @@ class Image {
 
 class GreyImage : Image {
   public:
+    using Image::height, Image::width;
+
     /// Reads a PNG or JPEG file. Colours become their luminance, transparency does
     /// not matter. Throws UserError(bad_input) naming the file and the cause.
     explicit GreyImage(const Path& path);
@@ -37,6 +45,8 @@ class GreyImage : Image {
     /// From 0 (black) to 1, bilinear between the centres of pixels. v = 0 is the lower edge; the
     /// image repeats in both directions. Both must be finite.
     double at(double u, double v) const { return component(u, v, 0); }
+    /// Returns the largest grey of all pixels.
+    double largest() const { return largest_component(); }
 };
 
 class ColourImage : Image {

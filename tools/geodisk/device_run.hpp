@@ -109,6 +109,7 @@ class RunDevice {
 
     /// From now on, samples surfaces by this, which must outlive it; null for its runner alone.
     void sample_by(SurfaceSampler* sampler) { sampler_ = sampler; }
+    bool has_sampler() const { return sampler_ != nullptr; }
 
     /// Opens the device and checks that it computes as it must, where that is not done or the
     /// device was lost since, also by a run beside. Throws UserError.

@@ -24,12 +24,39 @@
 namespace geodisk::tools {
 namespace {
 
+/// Refuses what goes by the faces of the file, where samples are drawn on parts of them.
+void check_split(const SampleJob& job, const MeshInput& mesh, const RunDevice& device) {
+    const char* const what = job.features           ? "--features goes"
+                             : !job.from.empty()    ? "--from goes"
+                             : device.has_sampler() ? "geodisk_mpi goes"
+                                                    : nullptr;
+    if (mesh.split && what != nullptr) {
+        fail_usage(std::string(what) + " with no image that shows more than the corners of faces; "
+                                       "split the faces where it has detail");
+    }
+}
+
 void check_space(const SampleJob& job, const MeshInput& mesh) {
     if (!job.is_geodesic() && mesh.dimension() != 3) {
         fail_usage("--metric " + metric_name(job.metric) +
                    " needs three coordinates per vertex; the mesh has " +
                    (mesh.dimension() == 0 ? "none" : std::to_string(mesh.dimension())));
     }
+}
+
+/// Returns the frame of parts of faces. Its guard allows for the steps of weights on the faces of
+/// the file, to which samples are moved.
+JobFrame frame_of_parts(const MeshInput& mesh, const SampleParams& params) {
+    JobFrame frame = take(frame_of(mesh.sampled(), params));
+    SampleParams plain;
+    plain.min_distance = params.min_distance;
+    const JobFrame whole = take(frame_of(mesh.prepared, plain));
+    frame.longest_edge = std::max(frame.longest_edge, whole.longest_edge * whole.unit / frame.unit);
+    // A step is 2^-16 of the edges of the smallest parts, where radii change fourfold at most.
+    constexpr double kOfRadii = 6 * 0x1p-16;
+    frame.error_bound = 2 * std::max(frame.error_bound, whole.error_bound) +
+                        (params.radii != nullptr ? kOfRadii : 0);
+    return frame;
 }
 
 /// In the frame of another mesh, unless it is null.
@@ -39,17 +66,18 @@ Domain domain_of(const SampleJob& job, const MeshInput& mesh, const SampleParams
         return take(Domain::surface(mesh.prepared, params, *frame), edit_text(job));
     }
     if (job.is_geodesic()) {
-        return take(Domain::surface(mesh.prepared, params));
+        return mesh.split
+                   ? take(Domain::surface(mesh.sampled(), params, frame_of_parts(mesh, params)))
+                   : take(Domain::surface(mesh.prepared, params));
     }
-    const MeshView view{mesh.file.positions, mesh.file.triangles, mesh.file.dimension};
-    return take(Domain::surface_in_space(view, mesh.prepared, params, *job.metric));
+    return take(Domain::surface_in_space(mesh.sampled_view(), mesh.sampled(), params, *job.metric));
 }
 
 std::vector<SampleRow> to_rows(const MeshInput& mesh, double min_distance,
                                const std::vector<Sample>& samples) {
     std::vector<SampleRow> rows(samples.size());
     for_rows(rows.size(), [&](std::size_t i) {
-        const Sample& sample = samples[i];
+        const Sample sample = mesh.in_file(samples[i]);
         SampleRow& row = rows[i];
         row.face = sample.face;
         std::copy_n(sample.weights, 3, row.bary);
@@ -63,7 +91,7 @@ Task task_of(const SampleJob& job, const MeshInput& mesh, const SampleParams& pa
              double expected, const JobFrame* frame = nullptr) {
     Task task{domain_of(job, mesh, params, frame), expected};
     if (job.is_geodesic()) {
-        task.surface = SurfaceTask{&mesh.prepared, params};
+        task.surface = SurfaceTask{&mesh.sampled(), params};
     }
     return task;
 }
@@ -110,7 +138,7 @@ void check_settled(const SampleJob& job, std::size_t settled, std::size_t given)
 Task level_task(const SampleJob& job, const MeshInput& mesh, const SampleParams& last,
                 const Levels& levels, std::uint32_t level, const std::vector<Sample>& before) {
     const SampleParams params = take(params_of_level(last, levels, level, before));
-    const double area = effective_area(mesh.prepared, params);
+    const double area = effective_area(mesh.sampled(), params);
     Task task = task_of(job, mesh, params, expected_count(area, params.min_distance));
     if (level + 1 < levels.count) {
         task.next = [&job, &mesh, last, levels, level](const std::vector<Sample>& samples) {
@@ -123,7 +151,7 @@ Task level_task(const SampleJob& job, const MeshInput& mesh, const SampleParams&
 /// The levels that --order asks for, where `last` are the parameters of the last one.
 Levels levels_of(const Method& method, const MeshInput& mesh, const SampleParams& last) {
     return method.levels.count > 0 ? method.levels
-                                   : levels_for(mesh.prepared, last, method.levels.factor);
+                                   : levels_for(mesh.sampled(), last, method.levels.factor);
 }
 
 /// The columns that the file has besides those that all have.
@@ -216,6 +244,7 @@ RunDevice device_for(const SampleJob& job) {
 SampleResult sample_mesh(const SampleJob& job, const MeshInput& mesh, RunDevice& device,
                          ProgressLine& progress) {
     check_space(job, mesh);
+    check_split(job, mesh, device);
     check_record(job.out.record, mesh);
     check_parts(job.mesh.mesh, mesh.file, job.columns);
     GivenInput given = load_given(job, mesh, progress);
@@ -239,7 +268,7 @@ SampleResult sample_mesh(const SampleJob& job, const MeshInput& mesh, RunDevice&
         if (job.method.has_levels) {
             return level_task(job, mesh, params, levels_of(job.method, mesh, params), 0, {});
         }
-        const double room = expected_count(effective_area(mesh.prepared, params), min_distance);
+        const double room = expected_count(effective_area(mesh.sampled(), params), min_distance);
         return task_of(job, mesh, params, job.method.expected(room),
                        update ? &update->frame() : nullptr);
     };
@@ -284,9 +313,9 @@ SampleResult sample_mesh(const SampleJob& job, const MeshInput& mesh, RunDevice&
     result.scene = scene_frame(job.out, job.mesh, mesh);
     std::vector<std::uint32_t> faces;
     for (const SampleRow& row : result.rows) {
-        faces.push_back(row.face);
+        faces.push_back(mesh.sampled_of(row).face);
     }
-    result.bare = parts_without(mesh.prepared, faces, params.face_mask);
+    result.bare = parts_without(mesh.sampled(), faces, params.face_mask);
     result.warnings = run_warnings(job, mesh, result);
     result.warnings.insert(result.warnings.begin(), given.warnings.begin(), given.warnings.end());
     if (update && update->warning()) {
@@ -323,6 +352,7 @@ void write_sample_file(AtomicFile& file, const SampleJob& job, const MeshInput& 
 DryRun try_sampling(const SampleJob& job, const MeshInput& mesh, RunDevice& device,
                     ProgressLine& progress) {
     check_space(job, mesh);
+    check_split(job, mesh, device);
     check_record(job.out.record, mesh);
     check_parts(job.mesh.mesh, mesh.file, job.columns);
     const GivenInput given = load_given(job, mesh, progress);
@@ -330,7 +360,7 @@ DryRun try_sampling(const SampleJob& job, const MeshInput& mesh, RunDevice& devi
     params.given = given.samples;
     params.given_classes = given.classes;
     params.avoid = given.avoided;
-    const double room = expected_count(effective_area(mesh.prepared, params), params.min_distance);
+    const double room = expected_count(effective_area(mesh.sampled(), params), params.min_distance);
     return dry_run_on_device(device, {domain_of(job, mesh, params), job.method.expected(room)},
                              params.min_distance, params.seed, progress);
 }

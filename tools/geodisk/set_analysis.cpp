@@ -35,8 +35,26 @@ std::optional<double> rho_of(const MeshInput& mesh, std::span<const SurfaceDisk>
     SampleParams params;
     params.face_mask = mesh.face_mask;
     params.class_factors = factors;
-    return packing_density(effective_area(mesh.prepared, params), min_distance,
+    return packing_density(mesh.effective_area(params), min_distance,
                            static_cast<double>(disks.size()));
+}
+
+/// Returns disks on the parts of split faces, where there are such.
+std::vector<SurfaceDisk> disks_on_sampled(const MeshInput& mesh,
+                                          std::span<const SurfaceDisk> of_file) {
+    std::vector<SurfaceDisk> disks(of_file.begin(), of_file.end());
+    for (SurfaceDisk& disk : disks) {
+        if (mesh.split) {
+            const Sample at = mesh.on_sampled(
+                {disk.face,
+                 {static_cast<float>(1 - disk.weight1 - disk.weight2),
+                  static_cast<float>(disk.weight1), static_cast<float>(disk.weight2)}});
+            disk.face = at.face;
+            disk.weight1 = double{at.weights[1]};
+            disk.weight2 = double{at.weights[2]};
+        }
+    }
+    return disks;
 }
 
 /// Measures samples, not none, but no class alone.
@@ -54,14 +72,14 @@ SetAnalysis measure_disks(const MeshInput& mesh, std::span<const SurfaceDisk> di
     for (const SurfaceDisk& disk : disks) {
         faces.push_back(disk.face);
     }
-    set.bare_components = parts_without(mesh.prepared, faces, mesh.face_mask).count;
+    set.bare_components = parts_without(mesh.sampled(), faces, mesh.face_mask).count;
     progress.begin_stage("measuring distances");
     const auto tell = [&](double part) {
         check_interrupted();
         progress.update(part, grouped(set.samples) + " samples");
     };
     set.found =
-        analysis::measure(mesh.prepared, mesh.face_mask, disks, probes, seed, tell, classes);
+        analysis::measure(mesh.sampled(), mesh.face_mask, disks, probes, seed, tell, classes);
     return set;
 }
 
@@ -87,7 +105,7 @@ std::uint32_t probes_for(const std::string& probes, std::size_t samples) {
 
 SetAnalysis analyze_disks(const MeshInput& mesh, const SampleDisks& samples,
                           const std::string& probes, std::uint64_t seed, ProgressLine& progress) {
-    const std::span<const SurfaceDisk> disks = samples.disks;
+    const std::vector<SurfaceDisk> disks = disks_on_sampled(mesh, samples.disks);
     const ClassDistances& classes = samples.classes;
     SetAnalysis set =
         measure_disks(mesh, disks, classes, probes_for(probes, disks.size()), seed, progress);

@@ -27,7 +27,7 @@ std::vector<double> corner_radii(const MeshInput& mesh, double largest) {
 }
 
 bool takes_samples(const MeshInput& mesh, std::uint32_t face) {
-    const HalfEdge& edge = mesh.prepared.half_edges()[std::size_t{3} * face];
+    const HalfEdge& edge = mesh.sampled().half_edges()[std::size_t{3} * face];
     return edge.length * edge.apex_y > 0 && (mesh.face_mask.empty() || mesh.face_mask[face] != 0);
 }
 
@@ -38,8 +38,8 @@ GapCheck find_gaps(const MeshInput& mesh, std::span<const SampleRow> rows,
                    std::span<const KeepOut> avoided, ProgressLine& progress) {
     SampleParams params = mesh.with_fields({});
     params.min_distance = min_distance;
-    const double allowed = 1 + 2 * ref::frame_of(mesh.prepared, params).tolerances().guard;
-    ref::Surface<double> surface(mesh.prepared, min_distance);
+    const double allowed = 1 + 2 * ref::frame_of(mesh.sampled(), params).tolerances().guard;
+    ref::Surface<double> surface(mesh.sampled(), min_distance);
     const double unit = surface.frame.unit;
     surface.one_cell_each = true; // They hold no points.
     ref::CoverageCheck check(surface, corner_radii(mesh, min_distance / 2 / unit), allowed);
@@ -49,7 +49,8 @@ GapCheck find_gaps(const MeshInput& mesh, std::span<const SampleRow> rows,
             check_interrupted();
             progress.update(static_cast<double>(i) / static_cast<double>(rows.size()) / 2,
                             grouped(i) + " samples");
-            check.add_sample({rows[i].face, rows[i].bary[1], rows[i].bary[2]}, radii[i] / unit);
+            const Sample at = mesh.sampled_of(rows[i]);
+            check.add_sample({at.face, at.weights[1], at.weights[2]}, radii[i] / unit);
         }
         for (const auto& [center, radius] : avoided) {
             check_interrupted();
@@ -59,7 +60,7 @@ GapCheck find_gaps(const MeshInput& mesh, std::span<const SampleRow> rows,
         throw UserError(ExitCode::bad_input, error.what());
     }
     check.sort();
-    const std::uint32_t faces = mesh.prepared.face_count();
+    const std::uint32_t faces = mesh.sampled().face_count();
     for (std::uint32_t face = 0; face < faces; ++face) {
         if (face % kFacesPerUpdate == 0) {
             check_interrupted();
@@ -74,9 +75,11 @@ GapCheck find_gaps(const MeshInput& mesh, std::span<const SampleRow> rows,
 }
 
 std::string uncovered_text(const GapCheck& gaps, const MeshInput& mesh) {
-    const auto& [face, weight1, weight2] = *gaps.found.uncovered;
-    const float weights[3] = {static_cast<float>(1 - weight1 - weight2),
-                              static_cast<float>(weight1), static_cast<float>(weight2)};
+    const auto& [part, weight1, weight2] = *gaps.found.uncovered;
+    const auto [face, weights] =
+        mesh.in_file({part,
+                      {static_cast<float>(1 - weight1 - weight2), static_cast<float>(weight1),
+                       static_cast<float>(weight2)}});
     std::string text = "triangle " + std::to_string(face) + ", weights";
     for (const float weight : weights) {
         text += ' ' + rounded(double{weight}, 6);

@@ -27,7 +27,7 @@ std::vector<Intrusion> find_intrusions(const MeshInput& mesh, std::span<const Sa
         return {};
     }
     progress.begin_stage("verifying points to avoid");
-    const double longest = 2 * ref::longest_path(mesh.prepared);
+    const double longest = 2 * ref::longest_path(mesh.sampled());
     const auto radius_of = [&](std::size_t point) {
         return std::min(avoided[point].radius, longest);
     };
@@ -38,13 +38,14 @@ std::vector<Intrusion> find_intrusions(const MeshInput& mesh, std::span<const Sa
 
     std::vector<ref::FacePoint<double>> points;
     for (const SampleRow& row : rows) {
-        points.push_back({row.face, row.bary[1], row.bary[2]});
+        const Sample at = mesh.sampled_of(row);
+        points.push_back({at.face, at.weights[1], at.weights[2]});
     }
     for (const auto& [center, radius] : avoided) {
         points.push_back({center.face, center.weights[1], center.weights[2]});
     }
-    const double unit = ref::suitable_unit(mesh.prepared, radius_of(order.front()), kMaxCells);
-    const ref::Surface<double> surface(mesh.prepared, unit);
+    const double unit = ref::suitable_unit(mesh.sampled(), radius_of(order.front()), kMaxCells);
+    const ref::Surface<double> surface(mesh.sampled(), unit);
     const ref::Bins<double> bins(surface, points);
     ref::Detector<double> detector(surface, bins, ref::double_tolerances(), 1);
     detector.trim_all(); // The disks are large.

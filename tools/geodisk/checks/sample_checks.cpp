@@ -140,13 +140,13 @@ std::vector<StrayRow> find_strays(const SampleFile& samples, const MeshInput& me
 
 std::vector<std::uint32_t> masked_samples(const SampleFile& samples, const MeshInput& mesh) {
     const auto given = samples.extra_values(kGivenColumn);
-    const auto edges = mesh.prepared.half_edges();
-    const auto is_beside_mask = [&](const SampleRow& row) {
+    const auto edges = mesh.sampled().half_edges();
+    const auto is_beside_mask = [&](const Sample& at) {
         constexpr float kAtEdge = 1e-4f; // Weight of the corner opposite to it.
         for (std::uint32_t corner = 0; corner < 3; ++corner) {
-            const std::uint32_t edge = next_in_face(3 * row.face + corner);
+            const std::uint32_t edge = next_in_face(3 * at.face + corner);
             for (std::uint32_t other = around_half_edge(edges[edge].around);
-                 row.bary[corner] < kAtEdge && other != edge;
+                 at.weights[corner] < kAtEdge && other != edge;
                  other = around_half_edge(edges[other].around)) {
                 if (mesh.face_mask[other / 3] != 0) {
                     return true;
@@ -159,8 +159,9 @@ std::vector<std::uint32_t> masked_samples(const SampleFile& samples, const MeshI
     for (std::uint32_t i = 0; i < samples.rows.size() && !mesh.face_mask.empty(); ++i) {
         const SampleRow& row = samples.rows[i];
         const bool is_given = i < given.size() && given[i] != 0;
-        if (mesh.face_mask[row.face] == 0 && !is_given &&
-            (samples.has_faces || !is_beside_mask(row))) {
+        const Sample at = mesh.sampled_of(row);
+        const bool is_exact = samples.has_faces && !mesh.split; // Else it was moved.
+        if (mesh.face_mask[at.face] == 0 && !is_given && (is_exact || !is_beside_mask(at))) {
             masked.push_back(i);
         }
     }

@@ -63,7 +63,7 @@ class RegionCounts {
         }
         std::vector<double>& counts = counts_.emplace_back(regions_.areas.size(), 0);
         for (const SampleRow& row : rows) {
-            counts[regions_.of_face[row.face]] += 1;
+            counts[regions_.of_face[mesh.sampled_of(row).face]] += 1;
         }
     }
 
@@ -73,17 +73,23 @@ class RegionCounts {
 
   private:
     void cut(const MeshInput& mesh, double samples) {
-        const auto& edges = mesh.prepared.half_edges();
+        const auto& edges = mesh.sampled().half_edges();
+        const BisectedMesh* const parts = mesh.split ? &mesh.split->faces.parts() : nullptr;
+        const auto& triangles = parts ? parts->triangles() : mesh.file.triangles;
+        const auto& positions = parts ? parts->positions() : mesh.file.positions;
         std::vector<double> areas, centers;
         areas.reserve(edges.size() / 3);
         for (std::uint32_t face = 0; 3 * std::size_t{face} < edges.size(); ++face) {
             const HalfEdge& edge = edges[std::size_t{3} * face];
             const bool is_in = mesh.face_mask.empty() || mesh.face_mask[face] != 0;
             areas.push_back(is_in ? edge.length * edge.apex_y / 2 : 0);
+            const auto at = [&](std::size_t corner, std::uint32_t axis) {
+                return positions[std::size_t{triangles[3 * std::size_t{face} + corner]} *
+                                     mesh.dimension() +
+                                 axis];
+            };
             for (std::uint32_t axis = 0; axis < mesh.dimension(); ++axis) {
-                centers.push_back((mesh.vertex(face, 0)[axis] + mesh.vertex(face, 1)[axis] +
-                                   mesh.vertex(face, 2)[axis]) /
-                                  3);
+                centers.push_back((at(0, axis) + at(1, axis) + at(2, axis)) / 3);
             }
         }
         const auto count = std::bit_floor(

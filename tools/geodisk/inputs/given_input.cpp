@@ -27,8 +27,8 @@ void check_count(const SampleJob& job, std::size_t given) {
 /// samples to keep.
 void take_avoided(const Avoided& avoided, const MeshInput& mesh, bool keeps_samples,
                   GivenInput& given) {
-    CoveredParts covered = covered_parts(mesh.prepared, avoided.disks);
-    if (!avoided.empty() && !keeps_samples && covered.cover_all(mesh.prepared, mesh.face_mask)) {
+    CoveredParts covered = covered_parts(mesh.sampled(), avoided.disks);
+    if (!avoided.empty() && !keeps_samples && covered.cover_all(mesh.sampled(), mesh.face_mask)) {
         fail_usage("--avoid: the points leave no room for samples; lower their radii");
     }
     given.points_to_avoid = avoided.points;
@@ -118,6 +118,9 @@ Avoided load_avoided(const ConstraintOptions& options, const MeshOptions& of_mes
     }
     avoided.points = avoided.disks.size();
     avoided.disks.insert(avoided.disks.end(), along_lines.begin(), along_lines.end());
+    for (KeepOut& disk : avoided.disks) {
+        disk.center = mesh.on_sampled(disk.center);
+    }
     return avoided;
 }
 
@@ -138,7 +141,7 @@ GivenInput load_given(const SampleJob& job, const MeshInput& mesh, ProgressLine&
     }
     check_count(job, file.rows.size());
     for (const SampleRow& row : file.rows) {
-        given.samples.push_back(sample_of(row));
+        given.samples.push_back(mesh.sampled_of(row));
     }
     if (job.classes.count > 1) {
         given.classes = classes_in(options.existing, file, job.classes.count, given.warnings);

@@ -195,15 +195,16 @@ std::vector<double> coordinates_for(const MaskRule& rule, std::size_t axis, cons
     return coordinates;
 }
 
-RuleValues values_for(const MaskRule& rule, const MeshFile& mesh, const MeshProperty* property) {
+RuleValues values_for(const MaskRule& rule, const MeshFile& mesh, const MeshProperty* property,
+                      const SplitFaces* split) {
     if (const auto axis = rule.axis()) {
         return {coordinates_for(rule, *axis, mesh), &mesh.triangles};
     }
     if (property == nullptr) {
-        const std::size_t count = std::size_t{1} + *std::ranges::max_element(mesh.triangles);
-        return {map_values(GreyImage(rule.name), mesh,
-                           std::max(count, mesh.positions.size() / mesh.dimension)),
-                &mesh.triangles};
+        const auto& corners = split ? split->parts().triangles() : mesh.triangles;
+        return {map_values(GreyImage(rule.name), split ? split->uvs() : mesh.uvs,
+                           std::size_t{1} + *std::ranges::max_element(corners)),
+                &corners};
     }
     return {property->values, property->of_faces ? nullptr : &mesh.corners_in_file()};
 }
@@ -212,17 +213,19 @@ RuleValues values_for(const MaskRule& rule, const MeshFile& mesh, const MeshProp
 class RuleEffect {
   public:
     /// Takes out of the mask what the rule does not hold for.
-    RuleEffect(const MaskRule& rule, const MeshFile& mesh, const MeshProperty* property, Mask& mask)
+    RuleEffect(const MaskRule& rule, const MeshFile& mesh, const MeshProperty* property, Mask& mask,
+               const SplitFaces* split = nullptr)
         : rule_(rule) {
-        const RuleValues found = values_for(rule, mesh, property);
+        const RuleValues found = values_for(rule, mesh, property, split);
         for (std::size_t t = 0; t < mask.size(); ++t) {
+            const std::size_t face = split ? split->parts().parts()[t].face : t;
             const bool holds = found.corners == nullptr
                                    ? regard(found.values[t])
                                    : regard(found.values[(*found.corners)[3 * t]]) &
                                          regard(found.values[(*found.corners)[3 * t + 1]]) &
                                          regard(found.values[(*found.corners)[3 * t + 2]]);
             mask[t] = holds ? mask[t] : 0;
-            leaves_out_ = leaves_out_ || (!holds && mesh.takes_part(t));
+            leaves_out_ = leaves_out_ || (!holds && mesh.takes_part(face));
         }
     }
 
@@ -252,26 +255,43 @@ MeshWarning warning_of_all(const std::string& option, const std::string& range) 
 
 } // namespace
 
-LoadedMask load_mask(const MaskOptions& options, const std::string& path, const MeshFile& mesh) {
+LoadedMask load_mask(const MaskOptions& options, const std::string& path, const MeshFile& mesh,
+                     const SplitFaces* split) {
     if (!options.is_given()) {
         return {};
     }
     LoadedMask loaded{chosen_by(path, mesh, options.only_rules()), {}};
     Mask& mask = loaded.faces;
     const auto is_left_out = [&](std::size_t t) { return mask[t] == 0 && mesh.takes_part(t); };
-    const auto triangles = std::views::iota(std::size_t{0}, mask.size());
-    if (!options.only.empty() && std::ranges::none_of(triangles, is_left_out)) {
+    if (!options.only.empty() &&
+        std::ranges::none_of(std::views::iota(std::size_t{0}, mask.size()), is_left_out)) {
         loaded.warnings.push_back(warning_of_all("--only", ""));
     }
-    std::string ranges;
-    auto property = mesh.properties.begin();
     const std::vector<MaskRule> rules = options.mask_rules();
-    for (std::size_t i = 0; i < rules.size(); ++i) {
-        const bool has_property = !rules[i].is_map && !rules[i].axis();
-        const RuleEffect effect(rules[i], mesh, has_property ? &*property++ : nullptr, mask);
+    std::string ranges;
+    const auto note = [&](const RuleEffect& effect, std::size_t rule) {
         ranges += (ranges.empty() ? "" : ", ") + effect.range();
         if (!effect.leaves_out()) {
-            loaded.warnings.push_back(warning_of_all("--mask " + options.masks[i], effect.range()));
+            loaded.warnings.push_back(
+                warning_of_all("--mask " + options.masks[rule], effect.range()));
+        }
+    };
+    auto property = mesh.properties.begin();
+    for (std::size_t i = 0; i < rules.size(); ++i) {
+        if (!rules[i].is_map) {
+            note(RuleEffect(rules[i], mesh, rules[i].axis() ? nullptr : &*property++, mask), i);
+        }
+    }
+    if (split != nullptr) {
+        Mask of_parts;
+        for (const FacePart& part : split->parts().parts()) {
+            of_parts.push_back(mask[part.face]);
+        }
+        mask = std::move(of_parts);
+    }
+    for (std::size_t i = 0; i < rules.size(); ++i) {
+        if (rules[i].is_map) {
+            note(RuleEffect(rules[i], mesh, nullptr, mask, split), i);
         }
     }
     if (std::ranges::count(mask, 1) == 0) {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "geodisk/inputs/split_faces.hpp"
 #include "geodisk/options/mask_options.hpp"
 #include "geometry/mesh.hpp"
 
@@ -17,9 +18,11 @@ struct LoadedMask {
 
 /// Returns the mask of the mesh at `path`; empty without options. The mesh must have been read with
 /// the properties and texture coordinates of the rules. Warns of a rule that leaves out nothing.
+/// With `split`, the mask is of the parts of split faces, of which images may show some alone.
 ///
 /// Throws UserError(bad_input) for a part that the mesh does not have, naming those that it has,
 /// and if no triangle is left.
-LoadedMask load_mask(const MaskOptions& options, const std::string& path, const MeshFile& mesh);
+LoadedMask load_mask(const MaskOptions& options, const std::string& path, const MeshFile& mesh,
+                     const SplitFaces* split = nullptr);
 
 } // namespace geodisk::tools

@@ -1,6 +1,8 @@
 #include "geodisk/inputs/mesh_input.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -18,6 +20,10 @@
 namespace geodisk::tools {
 namespace {
 
+// A grey inside a face matters if it differs from what the corners tell by more than this part: of
+// the largest grey for a density, of itself for a factor.
+constexpr double kGreySteps = 32, kFactorSteps = 16;
+
 /// Fills in the warnings of a mesh of the file `path`.
 void collect_warnings(const std::string& path, MeshInput& mesh, bool has_normals) {
     mesh.warnings = std::move(mesh.file.warnings);
@@ -31,17 +37,72 @@ void collect_warnings(const std::string& path, MeshInput& mesh, bool has_normals
     }
 }
 
-PreparedMesh prepare(const std::string& path, const MeshFile& file, std::span<const Lift> lifts) {
+PreparedMesh prepare_lengths(const std::string& path, const MeshFile& file) {
+    const std::uint32_t vertices =
+        1 + *std::max_element(file.triangles.begin(), file.triangles.end());
+    return take(PreparedMesh::prepare({file.triangles, file.lengths, vertices}), path);
+}
+
+/// Coordinates of vertices.
+struct Positions {
+    std::span<const double> values;
+    std::uint32_t dimension;
+};
+
+/// Returns the images that the density and the mask name, with what matters of them.
+std::vector<ReadImage> images_of(const std::optional<DensitySource>& density,
+                                 const std::vector<MaskRule>& masks) {
+    std::vector<ReadImage> images;
+    if (density && density->kind == DensitySource::Kind::map) {
+        const auto image = std::make_shared<const GreyImage>(density->name);
+        // Radii go by the square root of a density, so by the ratio of factors.
+        const double step = image->largest() / kGreySteps;
+        const bool is_density = density->is_density;
+        const double floor = density->floor.value_or(RadiusField::kLeastFactor);
+        images.push_back({image, density->name, [=](double grey, double linear, const auto&) {
+                              const double allowed =
+                                  is_density
+                                      ? step
+                                      : std::max(floor, std::min(grey, linear)) / kFactorSteps;
+                              return std::abs(grey - linear) > allowed;
+                          }});
+    }
+    for (const MaskRule& rule : masks) {
+        if (rule.is_map) {
+            images.push_back({std::make_shared<const GreyImage>(rule.name), rule.name,
+                              [rule](double grey, double, const std::array<double, 3>& corners) {
+                                  const bool is_in = std::ranges::all_of(
+                                      corners, [&](double corner) { return rule.holds(corner); });
+                                  return rule.holds(grey) != is_in;
+                              }});
+        }
+    }
+    return images;
+}
+
+/// Splits faces for the images that the options name.
+std::optional<SplitSurface> split_surface(const std::string& path, const MeshFile& file,
+                                          const Positions& surface,
+                                          const std::vector<ReadImage>& images,
+                                          std::vector<MeshWarning>& warnings) {
+    if (images.empty()) {
+        return std::nullopt;
+    }
     if (!file.lengths.empty()) {
-        const std::uint32_t vertices =
-            1 + *std::max_element(file.triangles.begin(), file.triangles.end());
-        return take(PreparedMesh::prepare({file.triangles, file.lengths, vertices}), path);
+        warnings.push_back({"fine_image", 1, "",
+                            "is read at the vertices alone, since the mesh has edge lengths",
+                            images.front().name});
+        return std::nullopt;
     }
-    if (lifts.empty()) {
-        return take(PreparedMesh::prepare({file.positions, file.triangles, file.dimension}), path);
+    std::optional<SplitFaces> faces = split_for_images(file, images, warnings);
+    if (!faces) {
+        return std::nullopt;
     }
-    const LiftedPositions lifted = lifted_positions(path, file, lifts);
-    return take(PreparedMesh::prepare({lifted.positions, file.triangles, lifted.dimension}), path);
+    const std::vector<double> positions =
+        faces->parts().extended(surface.values, surface.dimension);
+    PreparedMesh prepared = take(
+        PreparedMesh::prepare({positions, faces->parts().triangles(), surface.dimension}), path);
+    return SplitSurface{std::move(*faces), std::move(prepared)};
 }
 
 /// What the lifts, the density and the mask need of the mesh file.
@@ -70,6 +131,7 @@ MeshSources sources_of(const MeshOptions& options, std::span<const Lift> lifts,
             sources.properties.push_back(rule.name);
         }
     }
+    sources.fields.uvs = sources.fields.uvs || sources.has_uvs; // Of each corner.
     return sources;
 }
 
@@ -132,12 +194,23 @@ MeshInput load_silently(const MeshOptions& options, ProgressLine& progress,
 
     progress.begin_stage("preparing the mesh");
     watch = Stopwatch();
-    PreparedMesh prepared = prepare(path, file, lifts);
+    const LiftedPositions lifted =
+        lifts.empty() ? LiftedPositions{} : lifted_positions(path, file, lifts);
+    const Positions surface = lifts.empty() ? Positions{file.positions, file.dimension}
+                                            : Positions{lifted.positions, lifted.dimension};
+    PreparedMesh prepared =
+        file.lengths.empty()
+            ? take(PreparedMesh::prepare({surface.values, file.triangles, surface.dimension}), path)
+            : prepare_lengths(path, file);
+    std::vector<MeshWarning> density_warnings;
+    std::optional<SplitSurface> split =
+        split_surface(path, file, surface, images_of(source, mask.mask_rules()), density_warnings);
+    const SplitFaces* const faces = split ? &split->faces : nullptr;
     std::optional<RadiusField> radii;
     double distance_part = 1;
-    std::vector<MeshWarning> density_warnings;
     if (source) {
-        LoadedRadii loaded = load_radii(*source, path, file, prepared);
+        LoadedRadii loaded =
+            load_radii(*source, path, file, split ? split->prepared : prepared, faces);
         radii = std::move(loaded.field);
         distance_part = source->is_density ? radii->least_factor() : 1;
         for (std::optional<MeshWarning> warning : {density.warning(), loaded.warning}) {
@@ -146,11 +219,12 @@ MeshInput load_silently(const MeshOptions& options, ProgressLine& progress,
             }
         }
     }
-    LoadedMask loaded_mask = load_mask(mask, path, file);
+    LoadedMask loaded_mask = load_mask(mask, path, file, faces);
     MeshInput mesh{std::move(file),  std::move(prepared),
                    std::move(radii), std::move(loaded_mask.faces),
                    distance_part,    {},
                    load_seconds,     watch.seconds()};
+    mesh.split = std::move(split);
     if (mesh.file.materials) {
         mesh.textures.emplace(*mesh.file.materials);
         mesh.file.materials->images = {}; // Which are decoded now.

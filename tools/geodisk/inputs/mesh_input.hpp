@@ -15,6 +15,7 @@
 
 #include "files/sample_file.hpp"
 #include "files/textures.hpp"
+#include "geodisk/inputs/split_faces.hpp"
 #include "geodisk/options/density_options.hpp"
 #include "geodisk/options/mask_options.hpp"
 #include "geodisk/options/mesh_options.hpp"
@@ -30,11 +31,18 @@ inline Sample sample_of(const SampleRow& row) {
     return {row.face, {row.bary[0], row.bary[1], row.bary[2]}};
 }
 
+/// The surface of a mesh whose faces are split for images.
+struct SplitSurface {
+    SplitFaces faces;
+    PreparedMesh prepared; ///< Of the parts.
+};
+
 struct MeshInput {
     MeshFile file;
     PreparedMesh prepared; ///< Of the lifted positions or the edge lengths, where these are given.
-    std::optional<RadiusField> radii;    ///< Where the options say that radii vary.
-    std::vector<std::uint8_t> face_mask; ///< SampleParams::face_mask, where options give one.
+    std::optional<RadiusField> radii; ///< Where the options say that radii vary, on sampled().
+    /// SampleParams::face_mask on sampled(), where options give one.
+    std::vector<std::uint8_t> face_mask;
     /// Distances given and told, as a part of that of two samples with the largest radius: with
     /// --density they are those of the smallest.
     double distance_part = 1;
@@ -48,7 +56,25 @@ struct MeshInput {
         std::optional<std::uint64_t> triangles_for_samples; ///< With a mask.
     };
     std::optional<Known> known = std::nullopt;
+    std::optional<SplitSurface> split = std::nullopt; ///< Where images show more than corners.
 
+    /// Returns the mesh that samples are drawn on, and that radii and masks are of.
+    const PreparedMesh& sampled() const { return split ? split->prepared : prepared; }
+    /// Returns the point of sampled() that a point of a face of the file is.
+    Sample on_sampled(const Sample& sample) const {
+        return split ? split->faces.parts().part(sample) : sample;
+    }
+    Sample sampled_of(const SampleRow& row) const { return on_sampled(sample_of(row)); }
+    /// Returns the point of the file's face that a point of sampled() is of.
+    Sample in_file(const Sample& sample) const {
+        return split ? split->faces.parts().whole(sample) : sample;
+    }
+    /// Returns the view of sampled() for distances through space.
+    MeshView sampled_view() const {
+        return split ? MeshView{split->faces.parts().positions(), split->faces.parts().triangles(),
+                                file.dimension}
+                     : MeshView{file.positions, file.triangles, file.dimension};
+    }
     /// Coordinates of a sample: those of the file, 0 for a mesh of edge lengths without any.
     std::uint32_t dimension() const { return file.positions.empty() ? 0 : file.dimension; }
     std::span<const double> vertex(std::uint32_t face, std::uint32_t corner) const {
@@ -59,7 +85,11 @@ struct MeshInput {
     std::array<double, 8> point(std::uint32_t face, const float (&weights)[3]) const;
     /// Of a sample there, in mesh units, where radii vary; else 0.
     double radius(std::uint32_t face, const float (&weights)[3], double min_distance) const {
-        return radii ? radii->factor_at(face, weights) * min_distance / 2 : 0;
+        if (!radii) {
+            return 0;
+        }
+        const Sample at = on_sampled({face, {weights[0], weights[1], weights[2]}});
+        return radii->factor_at(at.face, at.weights) * min_distance / 2;
     }
     /// The file's face that triangle `face` is of, where that is another number.
     std::optional<std::uint32_t> polygon(std::uint32_t face) const {
@@ -69,17 +99,20 @@ struct MeshInput {
     Vec3 normal(std::uint32_t face) const;
     /// Returns geodisk::effective_area() for parameters of with_fields().
     double effective_area(const SampleParams& params) const {
-        return known ? known->area : geodisk::effective_area(prepared, params);
+        return known ? known->area : geodisk::effective_area(sampled(), params);
     }
     /// Returns geodisk::distance_for_count() likewise.
     double distance_for_count(const SampleParams& params, double count) const {
         return known ? geodisk::distance_for_count(known->area, known->borders, count)
-                     : geodisk::distance_for_count(prepared, params, count);
+                     : geodisk::distance_for_count(sampled(), params, count);
     }
-    /// Returns `params` with the radii and the mask.
+    /// Returns `params` for sampled(), with the radii and the mask.
     SampleParams with_fields(SampleParams params) const {
         params.radii = radii ? &*radii : nullptr;
         params.face_mask = face_mask;
+        if (split) {
+            params.face_keys = split->faces.keys();
+        }
         return params;
     }
     /// Sets position, normal and polygon of `row` by its face and weights.

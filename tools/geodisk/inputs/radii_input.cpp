@@ -23,15 +23,14 @@ struct Values {
     std::vector<double> values;
 };
 
-Values values_of(const DensitySource& of, const std::string& path, const MeshFile& file,
-                 std::size_t vertex_count) {
+/// Returns the values of all but images, one for each vertex of the file.
+Values values_of(const DensitySource& of, const std::string& path, const MeshFile& file) {
     switch (of.kind) {
     case DensitySource::Kind::attribute:
         return {path + ": " + in_quotes(of.name), file.attributes.back()};
     case DensitySource::Kind::file:
         return {of.name, read_values(of.name)};
     case DensitySource::Kind::map:
-        return {of.name, map_values(GreyImage(of.name), file, vertex_count)};
     case DensitySource::Kind::curvature:
         break;
     }
@@ -114,11 +113,11 @@ RadiusField field_of(const DensitySource& of, Values& values, const PreparedMesh
 
 } // namespace
 
-std::vector<double> map_values(const GreyImage& image, const MeshFile& file,
+std::vector<double> map_values(const GreyImage& image, std::span<const VertexUv> uvs,
                                std::size_t vertex_count) {
     std::vector<double> sums(vertex_count, 0.0);
     std::vector<std::uint32_t> counts(vertex_count, 0);
-    for (const auto& [vertex, u, v] : file.uvs) {
+    for (const auto& [vertex, u, v] : uvs) {
         sums[vertex] += image.at(u, v);
         ++counts[vertex];
     }
@@ -129,18 +128,25 @@ std::vector<double> map_values(const GreyImage& image, const MeshFile& file,
 }
 
 LoadedRadii load_radii(const DensitySource& of, const std::string& path, const MeshFile& file,
-                       const PreparedMesh& mesh) {
+                       const PreparedMesh& mesh, const SplitFaces* split) {
+    using Kind = DensitySource::Kind;
     const std::size_t vertex_count =
         file.positions.empty() ? mesh.vertex_count() : file.positions.size() / file.dimension;
-    Values values = values_of(of, path, file, vertex_count);
-    if (values.values.size() != vertex_count) {
-        fail_input(values.source, "has " + counted(values.values.size(), "value", "values") +
-                                      " for the " + counted(vertex_count, "vertex", "vertices") +
-                                      " of the mesh");
-    }
-    using Kind = DensitySource::Kind;
-    if (of.kind == Kind::attribute || of.kind == Kind::file) { // What each vertex of the file has.
-        values.values = values_of_joined(file, values.values);
+    Values values;
+    if (of.kind == Kind::map) {
+        values = {of.name, map_values(GreyImage(of.name), split ? split->uvs() : file.uvs,
+                                      split ? mesh.vertex_count() : vertex_count)};
+    } else {
+        values = values_of(of, path, file);
+        if (values.values.size() != vertex_count) {
+            fail_input(values.source,
+                       "has " + counted(values.values.size(), "value", "values") + " for the " +
+                           counted(vertex_count, "vertex", "vertices") + " of the mesh");
+        }
+        if (of.kind != Kind::curvature) { // What each vertex of the file has.
+            values.values = values_of_joined(file, values.values);
+        }
+        values.values = split ? split->parts().extended(values.values) : values.values;
     }
     // With edge lengths, unused vertices at the end are none.
     values.values.resize(mesh.vertex_count());

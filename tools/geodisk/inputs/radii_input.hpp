@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -9,15 +10,15 @@
 #include <geodisk/radius_field.hpp>
 
 #include "files/image.hpp"
+#include "geodisk/inputs/split_faces.hpp"
 #include "geodisk/options/density_options.hpp"
 #include "geometry/mesh.hpp"
 
 namespace geodisk::tools {
 
-/// Returns the grey of an image at the vertices of a mesh that was read with texture coordinates:
-/// the mean over those of each vertex, as where a seam runs through it both sides have a say; 1 for
-/// unused vertices.
-std::vector<double> map_values(const GreyImage& image, const MeshFile& file,
+/// Returns the grey of an image at vertices with these texture coordinates: the mean over those of
+/// each vertex, as where a seam runs through it both sides have a say; 1 for vertices without.
+std::vector<double> map_values(const GreyImage& image, std::span<const VertexUv> uvs,
                                std::size_t vertex_count);
 
 struct LoadedRadii {
@@ -27,11 +28,11 @@ struct LoadedRadii {
 
 /// The radii by the values at the vertices of the mesh at `path`, which must have been read with
 /// what the source needs: for an attribute as the last one of `file`, for an image with texture
-/// coordinates.
+/// coordinates. `split` are the parts of split faces, that `mesh` is made of; null if none are.
 ///
 /// Throws UserError(bad_input) naming the source of a value that is no density or factor, and its
 /// vertex.
 LoadedRadii load_radii(const DensitySource& source, const std::string& path, const MeshFile& file,
-                       const PreparedMesh& mesh);
+                       const PreparedMesh& mesh, const SplitFaces* split = nullptr);
 
 } // namespace geodisk::tools

@@ -21,10 +21,11 @@ namespace {
 using RuleKind = OnlyRule::Kind;
 using Comparison = MaskRule::Comparison;
 
-constexpr std::array<std::pair<std::string_view, RuleKind>, 4> kKinds{{{"material:", RuleKind::material},
-                                                                   {"group:", RuleKind::group},
-                                                                   {"node:", RuleKind::node},
-                                                                   {"part:", RuleKind::part}}};
+constexpr std::array<std::pair<std::string_view, RuleKind>, 4> kKinds{
+    {{"material:", RuleKind::material},
+     {"group:", RuleKind::group},
+     {"node:", RuleKind::node},
+     {"part:", RuleKind::part}}};
 // Longer ones first.
 constexpr std::array<std::pair<std::string_view, Comparison>, 6> kComparisons{
     {{"<=", Comparison::at_most},
@@ -203,7 +204,7 @@ void add_mask_options(Command command, MaskOptions& options) {
         .add_option("--mask", options.masks, "RULE",
                     "Sample only faces where PROPERTY<VALUE (or <= > >= = !=) holds:\n"
                     "x, y, z (x0 to x7 in R^n) or a PLY property at all corners, or\n"
-                    "of the face. map:FILE: white in an image at all corners, or\n"
+                    "of the face. map:FILE: what is white in an image, or\n"
                     "compared as a property from 0 to 1. Repeat to add rules",
                     group)
         .takes_one_value();

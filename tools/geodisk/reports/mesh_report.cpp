@@ -40,9 +40,19 @@ std::optional<std::uint64_t> triangles_for_samples(const MeshInput& input) {
     if (input.known) {
         return input.known->triangles_for_samples;
     }
-    return input.face_mask.empty() ? std::nullopt
-                                   : std::optional<std::uint64_t>(static_cast<std::uint64_t>(
-                                         std::ranges::count(input.face_mask, 1)));
+    if (input.face_mask.empty()) {
+        return std::nullopt;
+    }
+    std::uint64_t count = 0;
+    std::uint32_t last = ~std::uint32_t{0};
+    for (std::uint32_t t = 0; t < input.face_mask.size(); ++t) {
+        const std::uint32_t face = input.split ? input.split->faces.parts().parts()[t].face : t;
+        if (input.face_mask[t] != 0 && face != last) { // Parts of a face follow each other.
+            ++count;
+            last = face;
+        }
+    }
+    return count;
 }
 
 } // namespace

@@ -56,7 +56,7 @@ double SampleCheck::rho() const {
     SampleParams params = mesh.with_fields({});
     const std::vector<float> factors = spacing.classes.factors();
     params.class_factors = factors;
-    return packing_density(effective_area(mesh.prepared, params), spacing.min_distance,
+    return packing_density(mesh.effective_area(params), spacing.min_distance,
                            static_cast<double>(samples.rows.size()));
 }
 
