@@ -1,7 +1,9 @@
-// Geodesic distances by unfolding alone, for meshes of any dimension: independent of the library
-// and of the reference, and without any pruning, so for small reaches only.
+// Geodesic distances by unfolding alone, for meshes of any dimension, flat triangles and edges of
+// many faces: independent of the library and of the reference. Follows every sequence of faces, so
+// it is for small reaches or small meshes only.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <map>
 #include <span>
@@ -12,6 +14,9 @@
 
 namespace geodisk::test {
 
+/// Computes in extended precision. A straight line that passes a vertex on the wrong side by less
+/// than 2^-52 of the longest edge counts as a path, so none is lost by rounding. That makes
+/// distances too short by a few times as much at most.
 class Unfolding {
   public:
     explicit Unfolding(const TestMesh& mesh);
@@ -21,18 +26,31 @@ class Unfolding {
                                   double reach) const;
 
   private:
+    using Number = long double;
     struct Plane {
-        double x, y;
+        Number x, y;
     };
     struct Window;
     class Search;
+    /// A face as seen from one of its edges: how far the third corner lies along the edge, from its
+    /// start and back from its end, and off it.
+    struct Side {
+        Number length, along, back, off;
+    };
 
-    double length(std::uint32_t a, std::uint32_t b) const;
-    /// Where c lies in the face beyond the edge from a at A to b at B, B to the left of A as seen
-    /// from the origin.
-    Plane beyond(std::uint32_t a, Plane at_a, std::uint32_t b, Plane at_b, std::uint32_t c) const;
+    /// Whether the face takes part: none that names a vertex twice does.
+    bool takes_part(std::uint32_t face) const;
+    std::uint32_t corner(std::uint32_t face, std::uint32_t k) const {
+        return mesh_.triangles[std::size_t{3} * face + k % 3];
+    }
+    Number coordinate(std::uint32_t v, std::size_t axis) const {
+        return mesh_.positions[std::size_t{v} * mesh_.dimension + axis];
+    }
+    Side side_of(std::uint32_t face, std::uint32_t k) const;
 
     const TestMesh& mesh_;
+    std::vector<Side> sides_; ///< Number 3 * face + corner, of the edge that begins there.
+    Number beside_ = 0;       ///< By how much a line may pass a vertex on the wrong side.
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::uint32_t>> faces_;
     std::vector<std::vector<std::uint32_t>> fans_; ///< Faces of each vertex.
 };
