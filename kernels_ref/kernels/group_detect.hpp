@@ -57,7 +57,7 @@ class GroupDetector : public Windows<Real, kMayVary> {
     using Base::adaptive, Base::begin_operation, Base::entry_through, Base::error_of, Base::leave,
         Base::leave_shadow, Base::lit_child, Base::makes_many, Base::reach_through, Base::remember;
     using Base::count_, Base::margin_, Base::own_radius_, Base::slack_;
-    using Base::kFull, Base::kNearVertex, Base::kWholeFan;
+    using Base::kCrossingPart, Base::kFull, Base::kNearVertex, Base::kWholeFan;
     using Base::square, Base::surface_, Base::turns_back;
     using typename Base::Child;
     using typename Base::Window;
@@ -120,7 +120,8 @@ class GroupDetector : public Windows<Real, kMayVary> {
             items_.push_back(item);
             around += surface_.edges[e].length;
         }
-        step_ = around * static_cast<Real>(0.33333334f);
+        // Of a face of about no size waves would not end.
+        step_ = std::max(around * static_cast<Real>(0.33333334f), slack_);
     }
 
     template <class Light>
@@ -266,7 +267,8 @@ class GroupDetector : public Windows<Real, kMayVary> {
             }
             const Real distance = sigma + root(x * x + y * y);
             const bool whole = distance <= static_cast<Real>(kNearVertex);
-            propose(item, edge.origin, whole ? kWholeWay : way_of(h, true), distance, Real{0});
+            propose(item, edge.origin, whole ? kWholeWay : way_of(h, true), distance,
+                    surface_.edges[right].length);
             return;
         }
         light.face(h, edge.apex_x, edge.apex_y, sigma);
@@ -404,7 +406,11 @@ class GroupDetector : public Windows<Real, kMayVary> {
         }
         const Edge<Real>& edge = surface_.edges[next_in_face(from)];
         const Real along = square(edge.apex_x) + square(edge.apex_y) - edge.apex_x * note.crossing;
-        return arrival_from(along, edge.apex_y * note.crossing, note.path & gpu::kMostBlur);
+        // Rounding of the crossing turns the direction as well.
+        const Real way = root(square(edge.apex_x - note.crossing) + square(edge.apex_y));
+        const Real error = slack_ * static_cast<Real>(kCrossingPart);
+        const std::uint32_t blur = std::max(note.path & gpu::kMostBlur, blur_of(error, way));
+        return arrival_from(along, edge.apex_y * note.crossing, blur);
     }
 
     std::vector<VertexNote> vertices_;

@@ -48,6 +48,8 @@ inline Tolerances double_tolerances() {
     // Wider than rounding, for needles: a ray this far aside of its window is longer by the square
     // of it only.
     tolerances.slack = 0x1p-24f;
+    // Directions of very short paths have it too.
+    tolerances.base_error = 0x1p-40f;
     return tolerances;
 }
 
@@ -253,8 +255,11 @@ class Windows {
             return ray_crossing(angle, edge.apex_x, edge.apex_y, edge.length);
         };
         const std::int32_t size = corner_size(surface_.edges[previous_in_face(e)].fan_angles);
-        const Real b0 = shadow.low > 0 ? crossing(shadow.low) : Real{0};
-        const Real b1 = shadow.high < size ? crossing(shadow.high) : edge.length;
+        // Wider by the slack: where the corner is close to the edge, rounding on the edge turns
+        // rays far.
+        const Real b0 = shadow.low > 0 ? std::max(crossing(shadow.low) - slack_, Real{0}) : Real{0};
+        const Real b1 = shadow.high < size ? std::min(crossing(shadow.high) + slack_, edge.length)
+                                           : edge.length;
         return leave(e, start, end, edge.apex_x, edge.apex_y, b0, b1, sigma, chain,
                      remember(e, chain, e));
     }
@@ -387,6 +392,8 @@ class Windows {
     /// Sources closer than this to a vertex light its whole fan: unfolding around so near a vertex
     /// would lose the direction.
     static constexpr double kNearVertex = 0x1p-10;
+    /// Part of the slack by which the place where a ray crosses an edge may be off.
+    static constexpr double kCrossingPart = 0x1p-4;
     /// Rounding of positions against cell borders, relative to the face's extent.
     static constexpr double kCellPadding = 0x1p-20;
 

@@ -238,7 +238,11 @@ uint arrival_at(uvec4 paths) {
     float crossing = from_ordered(~paths.z);
     precise float along = apex.x * apex.x + apex.y * apex.y - apex.x * crossing;
     precise float across = apex.y * crossing;
-    return arrival_from(along, across, paths.w & kMostBlur);
+    // Rounding of the crossing turns the direction as well.
+    precise float aside = apex.x - crossing;
+    precise float error = job.slack * kCrossingPart;
+    uint blur = max(paths.w & kMostBlur, blur_of(error, root(squared(aside, apex.y))));
+    return arrival_from(along, across, blur);
 }
 
 // Lights the fan of a vertex, unless it was reached sooner by now. A wide fan is halved, for the next wave.
@@ -313,13 +317,14 @@ void begin_disk(uint slot) {
     precise float around = uintBitsToFloat(lengths.x) + uintBitsToFloat(lengths.y) +
                            uintBitsToFloat(lengths.z);
     precise float third = around * 0.33333334 * scale_of(uintBitsToFloat(slots[slot].turn));
+    float step = max(third, job.slack); // Of a face of about no size waves would not end.
     group.slot = slot;
     group.phase = kGroupSource;
     group.items = 3u;
     group.taken = 0u;
     group.events = 0u;
-    group.step = third;
-    group.end = third;
+    group.step = step;
+    group.end = step;
     group.nearest = 0xffffffffu;
     group.waves = 0u;
     group.lit_again = 0u;

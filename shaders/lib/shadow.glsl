@@ -124,13 +124,14 @@ float ray_crossing(uint angle) {
     return result;
 }
 
-// Returns what a shadow in the corner opposite to `edge` lights of it.
+// Returns what a shadow in the corner opposite to `edge` lights of it, wider by the slack: where the corner is
+// close to the edge, rounding on the edge turns rays far.
 vec2 lit_by_shadow(uint shadow) {
     uint low = shadow & 0xffffu;
     uint high = shadow >> 16;
-    float from = ray_crossing(low);
-    float to = ray_crossing(high);
-    return vec2(low > 0u ? from : 0.0, high == kToTheEnd ? edge.len : to);
+    precise float from = ray_crossing(low) - job.slack;
+    precise float to = ray_crossing(high) + job.slack;
+    return vec2(low > 0u ? max(from, 0.0) : 0.0, high == kToTheEnd ? edge.len : min(to, edge.len));
 }
 
 #endif

@@ -19,6 +19,8 @@ const float kTrimError = 1.1920929e-7;      // 2^-23
 const float kTrimPart = 0.0625;             // 2^-4
 // Bound on the error that a crossing adds to a distance.
 const float kCrossingError = 2.3841858e-7;  // 2^-22
+// Part of the slack by which the place where a ray crosses an edge may be off.
+const float kCrossingPart = 0.0625;         // 2^-4
 // Part of an edge within which a source on its line counts as its end.
 const float kEdgeGrain = 4.7683716e-7;      // 2^-21
 // Rounding of positions against cell borders, relative to the face's extent.

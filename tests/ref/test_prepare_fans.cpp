@@ -230,11 +230,26 @@ TEST_CASE("fans: cones of any angle") {
     CHECK(bends(wide));
 }
 
+TEST_CASE("fans: around a corner almost on the opposite side there is no order") {
+    for (const double height : {0x1p-14, 0x1p-16, 1e-9, 0.0}) {
+        TestMesh mesh;
+        for (const Vec3& p : {Vec3{-1, 0, 0}, Vec3{1, 0, 0}, Vec3{0, height, 0}, Vec3{0, 1, 0}}) {
+            mesh.add_vertex(p);
+        }
+        mesh.triangles = {0, 1, 2, 2, 1, 3, 2, 3, 0};
+        const PreparedMesh surface = prepared(mesh);
+        CHECK(is_regular(surface.fans()[2]) == (height > 0x1p-15));
+        for (const std::uint32_t v : {0u, 1u, 3u}) {
+            CHECK(is_regular(surface.fans()[v]));
+        }
+    }
+}
+
 TEST_CASE("fans: next to a side of almost no length there is no order") {
-    for (const double gap : {0x1p-19, 0x1p-20, 1e-9}) {
+    for (const double gap : {0x1p-15, 0x1p-16, 1e-9}) {
         const TestMesh mesh = flat_lines({0, gap, 1}, {0, 1});
         const PreparedMesh surface = prepared(mesh);
-        const bool too_short = gap <= 0x1p-20;
+        const bool too_short = gap <= 0x1p-16;
         for (std::uint32_t v = 0; v < 6; ++v) {
             const bool beside = v % 3 != 2;
             CHECK(is_regular(surface.fans()[v]) == !(too_short && beside));

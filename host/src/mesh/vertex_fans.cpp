@@ -14,8 +14,9 @@ namespace {
 /// shows, and stored in units of 2^-13.
 constexpr std::uint32_t kFinePerUnit = 1u << 7;
 
-/// Bit of a packed angle that marks a short side; angles take 22 bits.
-constexpr std::uint32_t kShortSide = 1u << 31;
+/// Bit of a packed angle that marks a corner which is_close() to another vertex or may be; angles
+/// take 22 bits.
+constexpr std::uint32_t kClose = 1u << 31;
 
 constexpr std::uint32_t kIrregularFlags = gpu::kFanIrregular | gpu::kFanBends;
 
@@ -27,12 +28,15 @@ std::uint32_t regular_flags(bool open, std::uint32_t total_angle) {
            (total_angle + gpu::kAngleTolerance >= needed ? gpu::kFanBends : 0u);
 }
 
-/// Returns true if one side of the corner is almost zero compared with the other. Such a side joins
-/// two vertices into one place with the sum of their angles. Neither fan alone shows whether a path
-/// may bend there, nor in which direction the other vertex lies.
-bool at_short_side(double from, double to) {
-    constexpr double kShort = 0x1p-20;
-    return std::min(from, to) <= kShort * std::max(from, to);
+/// Returns true if the corner is at one place with another vertex, or may be: if one side is almost
+/// zero compared with the other, or if the corner lies almost on the opposite side, where another
+/// one may lie beyond it. Such vertices are one place with the sum of their angles. Neither fan
+/// alone shows whether a path may bend there, nor in which direction the other vertex lies.
+bool is_close(const HalfEdge& from, const HalfEdge& to) {
+    constexpr double kAlmostZero = 0x1p-16;
+    const double opposite = from.length - from.apex_x;
+    return std::min(from.length, to.length) <= kAlmostZero * std::max(from.length, to.length) ||
+           (from.apex_x < 0 && from.length * from.apex_y <= kAlmostZero * opposite * opposite);
 }
 
 bool is_border(std::span<const Link> links, std::uint32_t h) {
@@ -44,8 +48,7 @@ bool is_border(std::span<const Link> links, std::uint32_t h) {
 std::uint32_t pack_corner_angle(const HalfEdge& from, const HalfEdge& to) {
     const Direction direction = from.angle();
     const long angle = std::lround(std::atan2(direction.sine, direction.cosine) * 0x1p20);
-    return static_cast<std::uint32_t>(angle) |
-           (at_short_side(from.length, to.length) ? kShortSide : 0u);
+    return static_cast<std::uint32_t>(angle) | (is_close(from, to) ? kClose : 0u);
 }
 
 std::uint32_t FanBuilder::exit_edge(Step step) {
@@ -115,7 +118,7 @@ void FanBuilder::measure(std::span<const std::uint32_t> corners, bool ordered, b
         const std::uint32_t corner = corners[i];
         const std::uint32_t packed = std::exchange(links_[corner].angle, 0);
         const std::uint64_t start = fine / kFinePerUnit;
-        fine += packed & ~kShortSide;
+        fine += packed & ~kClose;
         const std::uint64_t end = (fine + kFinePerUnit - 1) / kFinePerUnit;
         too_wide = too_wide || end > gpu::kLargestFanAngle;
         if (!too_wide) {
@@ -123,7 +126,7 @@ void FanBuilder::measure(std::span<const std::uint32_t> corners, bool ordered, b
             links_[corner].angle = static_cast<std::uint32_t>(start | (end - start) << 16) |
                                    (is_turned ? gpu::kCornerTurned : 0u);
         }
-        ordered = ordered && !too_wide && (packed & kShortSide) == 0;
+        ordered = ordered && !too_wide && (packed & kClose) == 0;
     }
     if (!ordered) {
         fan.flags = kIrregularFlags;
@@ -139,10 +142,10 @@ std::uint32_t corner_size(std::uint32_t fan_angles) {
 }
 
 bool angles_fit(std::uint32_t fan_angles, std::uint32_t packed) {
-    const std::uint32_t fine = packed & ~kShortSide;
+    const std::uint32_t fine = packed & ~kClose;
     const std::uint32_t size = corner_size(fan_angles) * kFinePerUnit;
     // Starts are rounded down, ends up.
-    return (packed & kShortSide) == 0 && size + 1 >= fine && size <= fine + 2 * kFinePerUnit;
+    return (packed & kClose) == 0 && size + 1 >= fine && size <= fine + 2 * kFinePerUnit;
 }
 
 bool FanBuilder::fits(std::uint32_t v, const VertexFan& fan,

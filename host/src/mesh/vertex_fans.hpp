@@ -12,7 +12,7 @@
 namespace geodisk {
 
 /// Packs what a fan needs to know of a corner, given the half-edges from and to the corner: its
-/// angle, and a bit that is set if one side is almost zero compared with the other.
+/// angle, and a bit that is set if the corner may be at one place with another vertex.
 std::uint32_t pack_corner_angle(const HalfEdge& from, const HalfEdge& to);
 
 /// Returns true if this may be HalfEdge::fan_angles of such a corner in a fan in rotational order,
