@@ -40,8 +40,8 @@ std::size_t check_kept(const TemporaryFolder& folder) {
 TEST_CASE("existing samples are kept and marked, and new ones keep the distance") {
     const TemporaryFolder folder;
     REQUIRE(run(folder, {"sample", kExistingMesh, "-o", "a.ply", "-n", "100"}).status == 0);
-    const Outcome made = run(folder, {"sample", kExistingMesh, "-o", "b.ply", "-n", "400", "--seed", "2",
-                                      "--existing", "a.ply", "--json", "b.json"});
+    const Outcome made = run(folder, {"sample", kExistingMesh, "-o", "b.ply", "-n", "400", "--seed",
+                                      "2", "--existing", "a.ply", "--json", "b.json"});
     INFO(made.out, made.err);
     REQUIRE(made.status == 0);
     CHECK(made.err.empty());
@@ -66,8 +66,9 @@ TEST_CASE("existing samples are kept and marked, and new ones keep the distance"
         CHECK(tools::read_samples(folder / output).extra_values("given").size() == all.rows.size());
     }
     for (const std::string output : {"b.xyz", "b.npz", "b.glb"}) {
-        CHECK(run(folder, {"sample", kExistingMesh, "-o", output, "-n", "400", "--existing", "a.ply"})
-                  .status == 0);
+        CHECK(
+            run(folder, {"sample", kExistingMesh, "-o", output, "-n", "400", "--existing", "a.ply"})
+                .status == 0);
     }
 }
 
@@ -76,15 +77,16 @@ TEST_CASE("radii that vary, darts and a dry run take existing samples") {
     REQUIRE(run(folder, {"sample", kExistingMesh, "-o", "a.ply", "-n", "100"}).status == 0);
     for (const Arguments& more : {Arguments{"-d", "0.2", "--radius-factor", "curvature"},
                                   Arguments{"-n", "400", "-d", "0.1", "--method", "darts"}}) {
-        REQUIRE(run(folder, joined({"sample", kExistingMesh, "-o", "b.ply", "--existing", "a.ply"}, more))
+        REQUIRE(run(folder,
+                    joined({"sample", kExistingMesh, "-o", "b.ply", "--existing", "a.ply"}, more))
                     .status == 0);
         check_kept(folder);
         const Outcome verified = run(folder, {"verify", kExistingMesh, "b.ply"});
         INFO(verified.out, verified.err);
         CHECK(verified.status == 0);
     }
-    CHECK(run(folder, {"sample", kExistingMesh, "--dry-run", "-n", "400", "--existing", "a.ply"}).status ==
-          0);
+    CHECK(run(folder, {"sample", kExistingMesh, "--dry-run", "-n", "400", "--existing", "a.ply"})
+              .status == 0);
     const Outcome page =
         run(folder, {"batch", kExistingMesh, "-o", "out", "-n", "400", "--existing", "a.ply"});
     INFO(page.out, page.err);
@@ -128,8 +130,8 @@ TEST_CASE("points of other programs are put on the mesh, and pairs too close are
 TEST_CASE("of existing samples far closer than the distance some pairs count, and the closest") {
     const TemporaryFolder folder;
     REQUIRE(run(folder, {"sample", kExistingMesh, "-o", "a.csv", "-n", "500"}).status == 0);
-    const Outcome made = run(folder, {"sample", kExistingMesh, "-o", "b.csv", "-d", "100%", "--existing",
-                                      "a.csv", "--json", "b.json"});
+    const Outcome made = run(folder, {"sample", kExistingMesh, "-o", "b.csv", "-d", "100%",
+                                      "--existing", "a.csv", "--json", "b.json"});
     INFO(made.out, made.err);
     REQUIRE(made.status == 0);
     CHECK(contains(made.err, "a.csv: at least "));
@@ -271,7 +273,6 @@ TEST_CASE("points that cannot be avoided are refused") {
     const TemporaryFolder folder;
     folder.write("wells.csv", "x,y,z,size\n0.5,0.25,0.005,0.2\n0.2,0.2,0.005,0\n");
     folder.write("far.xyz", "0.5 0.25 3.005\n");
-    folder.write("empty.csv", "x,y,z\n");
     const auto fails = [&](int status, const std::string& part, const Arguments& more) {
         check_fails(folder, status, part,
                     joined({"sample", "builtin:plate:4", "-o", "b.ply", "-d", "0.1"}, more));
@@ -288,10 +289,30 @@ TEST_CASE("points that cannot be avoided are refused") {
           {"--avoid", "far.xyz:1"});
     REQUIRE(run(folder, {"sample", kExistingMesh, "-o", "other.csv", "-n", "50"}).status == 0);
     fails(3, "other.csv: point 0", {"--avoid", "other.csv:1"});
-    fails(3, "empty.csv: has no points to avoid", {"--avoid", "empty.csv:1"});
     fails(3, "none.csv", {"--avoid", "none.csv:1"});
     fails(2, "--avoid goes by distances along the surface",
           {"--avoid", "wells.csv:1", "--metric", "euclidean"});
+}
+
+TEST_CASE("empty files of samples to keep and points to avoid change nothing, with a word") {
+    const TemporaryFolder folder;
+    folder.write("empty.csv", "x,y,z\n");
+    const auto rows = [&](const Arguments& more, const std::string& said) {
+        const Outcome made = run(
+            folder,
+            joined({"sample", "builtin:plate:4", "-d", "0.1", "-o", "a.csv", "--no-header"}, more));
+        INFO(made.err);
+        CHECK(made.status == 0);
+        CHECK(contains(made.err, said));
+        return bytes_of(folder / "a.csv");
+    };
+    const std::string plain = rows({}, "");
+    const std::string kept = "empty.csv: has no samples to keep, so --existing does nothing";
+    CHECK(rows({"--existing", "empty.csv"}, kept) == plain);
+    CHECK(rows({"--avoid", "empty.csv:0.1"},
+               "empty.csv: has no points to avoid, so --avoid does nothing") == plain);
+    CHECK(rows({"--existing", "empty.csv", "--classes", "2"}, kept) ==
+          rows({"--classes", "2"}, ""));
 }
 
 TEST_CASE("existing samples that cannot be kept are refused") {
@@ -309,8 +330,6 @@ TEST_CASE("existing samples that cannot be kept are refused") {
     fails(3, "a.ply: sample", {"-d", "0.1", "--existing", "a.ply"});
     folder.write("nan.xyz", "0.5 nan 0\n");
     fails(3, "nan.xyz: line 1", {"-d", "0.1", "--existing", "nan.xyz"});
-    folder.write("empty.csv", "x,y,z\n");
-    fails(3, "empty.csv: has no samples to keep", {"-d", "0.1", "--existing", "empty.csv"});
     fails(3, "none.ply", {"-d", "0.1", "--existing", "none.ply"});
     fails(2, "--tolerance is for points that are read; give --existing or --avoid",
           {"-d", "0.1", "--tolerance", "1"});

@@ -236,7 +236,7 @@ TEST_CASE("broken sample files are refused with their line or record") {
     }
     check_refused("a.csv", "", "no header row");
     check_refused("a.csv", "x,y,z,face_index\n1,2,3,0\n", "no column bary_u");
-    check_refused("a.csv", "2\nmethane\nC 0 0 0\n", "holds no samples: there are no columns x y z");
+    check_refused("a.csv", "2\nmethane\nC 0 0 0\n", "has 1 point, but its first line says 2");
     check_refused("a.csv", "1,2\n", "line 1: has no header row, and fewer than three numbers");
     check_refused("a.obj", "v 0 0 0\nf 1 1 1\n", "line 2: a face, so this is a mesh");
     check_refused("a.csv", csv_with("1,2,3,0,1,0"), "line 2");
@@ -316,9 +316,36 @@ TEST_CASE("points of other programs are read from tables of all kinds") {
     check("a.pcd", "VERSION .7\nFIELDS x y z rgb\nSIZE 4 4 4 4\nTYPE F F F U\nCOUNT 1 1 1 1\n"
                    "WIDTH 2\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS 2\nDATA ascii\n"
                    "1 2 3 7\n4 5.5 -6 7\n");
+    // Quoted cells may hold what separates them.
+    check("a.csv", "\"name\",\"x\",\"y\",\"z\"\n\"well, old\",\"1\",\"2\",\"3\"\nb,4,5.5,-6\n");
+    check("a.csv", "\"a;b\",x,y,z\n1,1,2,3\n\"say \"\"4,5\"\"\" , \"4\" ,5.5,-6\n");
+    check("a.csv", "note,x,y,z\n\"of two\nlines, or\r\nthree\",1,2,3\n5\" pipe,4,5.5,-6\n");
+    check("a.csv", "name;x;y;z\n\"a;b\";1;2;3\n\"c\";\"4\";\"5,5\";-6\n");
+    check("a.txt", "name x y z\n\"well old\" 1 2 3\n\"b 4 5.5 -6\n");
+    check("a.tsv", "name\tx\ty\tz\nwell old\t1\t2\t3\n\t4\t5.5\t-6\n");
+    // Molecules: a count, a remark, and an element before each place.
+    for (const std::string remark :
+         {"", "of water", "-76.4", "Properties=species:S:1:pos:R:3", "a 1 2 3", "1 2 3"}) {
+        check("a.xyz", "2\n" + remark + "\nC 1 2 3\nN 4 5.5 -6\n");
+    }
+    check("a.xyz", "2\nC 1 2 3 0.5\nN 4 5.5 -6 0.25\n");
+    check("a.xyz", "2\n# of water\nC 1 2 3\nN 4 5.5 -6\n");
+    check("a.xyz", "2\nplaces\n1 2 3\n4 5.5 -6\n");
+    check("a.xyz", "2\nelement x y z\n6 1 2 3\n7 4 5.5 -6\n");
     check("pipe", "x,y,z\n1,2,3\n4,5.5,-6\n"); // Without an extension, by how it begins.
     check_refused("a.pts", "3\n1 2 3\n4 5.5 -6\n", "has 2 points, but its first line says 3");
     check_refused("a.xyz", "1 2 3\n4 5.5 -6", "its last line has no line end");
+    check_refused("a.xyz", "3\nof water\nC 1 2 3\nN 4 5.5 -6\n",
+                  "has 2 points, but its first line says 3");
+    check_refused("a.xyz", "2\n1 2 3\n1 2 3\n4 5.5 -6\n",
+                  "has 3 points, but its first line says 2");
+    check_refused("a.xyz", "2\n\n6 1 2 3\n7 4 5.5 -6\n",
+                  "its first column may be x or the numbers of elements; name the columns in its "
+                  "second line");
+    check_refused("a.csv", "x,y,z\n1,2,3\n\"4,5.5,-6\n", "line 3: a quotation mark has no end");
+    check_refused("a.csv", "x,y,z\n1,2,3\n\"4,5\",5.5,-6\n", "line 3: '4,5' is not a number");
+    CHECK(read_samples(folder.write("a.xyz", "0\n\n")).rows.empty());
+    CHECK(read_samples(folder.write("a.xyz", "0\nnothing\n")).rows.empty());
     check_refused("a.pcd",
                   "FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nPOINTS 2\n"
                   "DATA binary_compressed\n",

@@ -33,7 +33,7 @@ std::string all_names(const std::string& dot) {
     return all;
 }
 
-SampleFormat format_of(const Path& path, std::string_view name) {
+SampleFormat format_named(const Path& path, std::string_view name) {
     if (!name.empty()) {
         if (const auto format = find_format(name)) {
             return *format;
@@ -56,7 +56,7 @@ SampleFormat format_of(const Path& path, std::string_view name) {
 } // namespace
 
 SampleTarget sample_target(const Path& path, std::string_view format, bool is_text) {
-    SampleTarget target{path, format_of(path, format), is_text, true};
+    SampleTarget target{path, format_named(path, format), is_text, true};
 #ifndef GEODISK_GLTF
     if (target.format == SampleFormat::gltf || target.format == SampleFormat::glb) {
         fail_usage(path.string() + ": this geodisk was built without glTF");

@@ -1,10 +1,17 @@
 // Samples in tables of text: CSV of geodisk, and points of other programs.
 #include <algorithm>
-#include <cctype>
+#include <cmath>
+#include <cstdint>
+#include <optional>
 #include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 #include "files/input_file.hpp"
 #include "files/sample_rows.hpp"
+#include "files/table_cells.hpp"
 #include "files/text_lines.hpp"
 #include "program/exact_text.hpp"
 #include "program/failure.hpp"
@@ -12,45 +19,6 @@
 
 namespace geodisk::tools {
 namespace {
-
-using Cells = std::vector<std::string_view>;
-
-/// What stands between the numbers of a line; '\t' for blanks and tabs alike.
-char separator_of(std::string_view line) {
-    for (const char separator : {';', ','}) {
-        if (line.find(separator) != std::string_view::npos) {
-            return separator;
-        }
-    }
-    return '\t';
-}
-
-void split_cells(std::string_view line, char separator, Cells& cells) {
-    if (separator == '\t') {
-        split_tokens(line, cells);
-        return;
-    }
-    cells.clear();
-    for (bool more = true; more;) {
-        const std::size_t end = line.find(separator);
-        more = end != std::string_view::npos;
-        std::string_view cell = trimmed(line.substr(0, end));
-        if (cell.size() > 1 && cell.front() == '"' && cell.back() == '"') {
-            cell = cell.substr(1, cell.size() - 2);
-        }
-        cells.push_back(cell);
-        line.remove_prefix(more ? end + 1 : line.size());
-    }
-}
-
-/// A number; where semicolons part the cells, a comma may be its decimal point.
-std::optional<double> number_in(std::string_view cell, char separator) {
-    std::string text(cell);
-    if (separator == ';') {
-        std::ranges::replace(text, ',', '.');
-    }
-    return parse_real(text);
-}
 
 /// The name of a column as geodisk writes it: CloudCompare writes "//X", ParaView "Points:0".
 std::string column_name(std::string_view cell) {
@@ -63,6 +31,11 @@ std::string column_name(std::string_view cell) {
         }
     }
     return name;
+}
+
+/// Returns true for the number of a chemical element.
+bool is_element(double number) {
+    return number >= 1 && number <= 118 && number == std::floor(number);
 }
 
 class TableReader {
@@ -78,14 +51,14 @@ class TableReader {
             if (separator_ == 0) {
                 separator_ = separator_of(line);
             }
-            split_cells(line, separator_, cells_);
+            split(line);
             if (columns_ == 0) {
                 begin();
             } else {
                 add_row();
             }
         }
-        if (columns_ == 0) {
+        if (columns_ == 0 && promised_ != 0) {
             fail_input(path_, "has no header row");
         }
         check_last_line(path_, bytes_);
@@ -94,8 +67,14 @@ class TableReader {
                                   ", but its first line says " + grouped(*promised_) +
                                   "; the file may be cut short");
         }
+        if (may_be_elements_ && !samples_.rows.empty()) {
+            fail_input(path_, "its first column may be x or the numbers of elements; name the "
+                              "columns in its second line, such as 'element x y z'");
+        }
         check_sample_count(path_, samples_);
-        std::move(*extra_).move_to(samples_);
+        if (extra_) {
+            std::move(*extra_).move_to(samples_);
+        }
         return std::move(samples_);
     }
 
@@ -103,35 +82,66 @@ class TableReader {
     /// The next line that is neither blank nor a comment, whose entry is noted.
     bool next_line(std::string_view& line) {
         while (lines_.next(line)) {
-            line = trimmed(line);
-            if (line.starts_with('#')) {
-                add_entry(samples_.header, trimmed(line.substr(1)));
-            } else if (!line.empty()) {
+            const std::string_view text = trimmed(line);
+            if (text.starts_with('#')) {
+                add_entry(samples_.header, trimmed(text.substr(1)));
+            } else if (!text.empty()) {
                 return true;
             }
         }
         return false;
     }
 
+    /// Splits a line into cells, with those that follow while a quoted cell has no end.
+    void split(std::string_view line) {
+        const std::uint32_t first = lines_.number();
+        bool is_joined = false;
+        while (split_cells(line, separator_, columns_, cells_)) {
+            if (!std::exchange(is_joined, true)) {
+                joined_ = line;
+            }
+            std::string_view more;
+            if (!lines_.next(more)) {
+                fail_at(first, "a quotation mark has no end");
+            }
+            joined_ += '\n';
+            joined_ += more;
+            line = joined_;
+        }
+    }
+
+    bool are_numbers(const Cells& cells) const {
+        return std::ranges::all_of(
+            cells, [&](auto cell) { return number_in(cell, separator_).has_value(); });
+    }
+
+    /// Returns true for a row of the XYZ format of molecules: an element, and a place behind it.
+    bool is_atom(const Cells& cells) const {
+        return cells.size() > 3 && !number_in(cells[0], separator_) &&
+               are_numbers({cells.begin() + 1, cells.begin() + 4});
+    }
+
     /// The first line names the columns, or holds the first numbers, or just how many points there
     /// are.
     void begin() {
-        const bool is_row = std::ranges::all_of(
-            cells_, [&](auto cell) { return number_in(cell, separator_).has_value(); });
-        if (is_row && cells_.size() == 1 && !promised_) {
-            promised_ = parse_integer<std::size_t>(cells_[0]);
+        if (cells_.size() == 1 && !promised_ &&
+            (promised_ = parse_integer<std::size_t>(cells_[0]))) {
             separator_ = 0;
-            if (promised_) {
-                return;
-            }
+            skip_remark();
+            return;
         }
+        const bool has_element = promised_ && is_atom(cells_);
+        const bool is_row = has_element || are_numbers(cells_);
         columns_ = cells_.size();
         std::vector<std::string> names{"x", "y", "z"};
-        if (!is_row) {
+        if (has_element) {
+            names.insert(names.begin(), "element");
+        } else if (!is_row) {
             std::ranges::transform(cells_, (names.clear(), std::back_inserter(names)), column_name);
         } else if (columns_ < 3) {
             fail("has no header row, and fewer than three numbers");
         }
+        may_be_elements_ = may_be_elements_ && is_row && !has_element && columns_ > 3;
         const auto place_of = [&](std::string_view name) {
             const auto found = std::ranges::find(names, name);
             return found == names.end()
@@ -147,6 +157,40 @@ class TableReader {
         }
     }
 
+    /// Skips the remark that follows the number of points in the XYZ format of molecules.
+    void skip_remark() {
+        TextLines ahead = lines_;
+        if (std::string_view line; ahead.next(line) && is_remark(line, ahead)) {
+            lines_ = ahead;
+            may_be_elements_ = true;
+        }
+    }
+
+    /// Returns true for a line that neither names columns nor is a comment or one of the rows.
+    /// `rest` is what follows it.
+    bool is_remark(std::string_view line, TextLines rest) const {
+        if (trimmed(line).starts_with('#')) {
+            return false;
+        }
+        Cells cells, next;
+        static_cast<void>(split_cells(line, separator_of(line), 0, cells));
+        if (cells.empty()) {
+            return true;
+        }
+        const auto is_named = [&](std::string_view axis) {
+            return std::ranges::find(cells, axis, column_name) != cells.end();
+        };
+        std::size_t rows = 0;
+        for (std::string_view row; rest.next(row);) {
+            if (!trimmed(row).empty() && rows++ == 0) {
+                static_cast<void>(split_cells(row, kBlanks, 0, next));
+            }
+        }
+        const bool is_row =
+            is_atom(cells) ? rows < *promised_ : are_numbers(cells) && !is_atom(next);
+        return !is_row && !(is_named("x") && is_named("y") && is_named("z"));
+    }
+
     void add_row() {
         if (cells_.size() != columns_) {
             fail("has " + std::to_string(cells_.size()) + " columns instead of " +
@@ -155,6 +199,8 @@ class TableReader {
         samples_.rows.push_back(make_row(
             places_, [this](std::size_t place) { return value_at(place); },
             [this](const std::string& message) { fail(message); }));
+        const std::optional<double> first = number_in(cells_[0], separator_);
+        may_be_elements_ = may_be_elements_ && first && is_element(*first);
         extra_->add_row([this](std::size_t place) { return number_in(cells_[place], separator_); });
     }
 
@@ -166,8 +212,9 @@ class TableReader {
         return *value;
     }
 
-    [[noreturn]] void fail(const std::string& message) const {
-        fail_input(path_, "line " + std::to_string(lines_.number()) + ": " + message);
+    [[noreturn]] void fail(const std::string& message) const { fail_at(lines_.number(), message); }
+    [[noreturn]] void fail_at(std::uint32_t line, const std::string& message) const {
+        fail_input(path_, "line " + std::to_string(line) + ": " + message);
     }
 
     const Path& path_;
@@ -180,6 +227,8 @@ class TableReader {
     std::optional<ExtraReader> extra_;
     std::size_t columns_ = 0; ///< 0 before the first line.
     std::optional<std::size_t> promised_;
+    bool may_be_elements_ = false; ///< The first column, as of molecules by atomic numbers.
+    std::string joined_;           ///< Lines of a quoted cell.
     char separator_ = 0;
     Cells cells_;
 };

@@ -158,7 +158,7 @@ Levels levels_of(const Method& method, const MeshInput& mesh, const SampleParams
 std::vector<ExtraColumn> extra_columns(const SampleJob& job, const MeshInput& mesh,
                                        const SampleResult& result) {
     std::vector<ExtraColumn> columns = part_columns(mesh.file, job.columns, result.rows);
-    if (!job.constraints.existing.empty() && takes_column(job.out, kGivenColumn)) {
+    if (result.given > 0 && takes_column(job.out, kGivenColumn)) {
         ExtraColumn given{std::string(kGivenColumn),
                           std::vector<std::uint32_t>(result.rows.size())};
         std::fill_n(given.values.begin(), result.given, 1);

@@ -36,6 +36,14 @@ void take_avoided(const Avoided& avoided, const MeshInput& mesh, bool keeps_samp
     given.avoided = std::move(covered.needed);
 }
 
+/// Says that a file of points of an option has none.
+void warn_if_empty(const SampleFile& file, const std::string& path, const char* message,
+                   std::vector<MeshWarning>& warnings) {
+    if (file.rows.empty()) {
+        warnings.push_back({"no_points", 1, "", message, path});
+    }
+}
+
 /// Returns the classes of samples to keep: those of the file, or 0.
 std::vector<std::uint8_t> classes_in(const std::string& path, const SampleFile& file,
                                      std::size_t count, std::vector<MeshWarning>& warnings) {
@@ -65,9 +73,7 @@ void avoid_file(const AvoidOption& option, const std::string& tolerance, const M
     const SampleFile file =
         read_samples_silently_on(path, of_mesh.mesh, mesh, &additions, tolerance, warnings,
                                  progress, {"point", option.column, true});
-    if (file.rows.empty()) {
-        fail_input(path, "has no points to avoid; leave out --avoid");
-    }
+    warn_if_empty(file, path, "has no points to avoid, so --avoid does nothing", warnings);
     const std::size_t first = avoided.disks.size();
     for (std::size_t i = 0; i < file.rows.size(); ++i) {
         const double radius = option.radius
@@ -136,14 +142,13 @@ GivenInput load_given(const SampleJob& job, const MeshInput& mesh, ProgressLine&
     const SampleFile file =
         read_samples_silently_on(options.existing, job.mesh.mesh, mesh, &additions,
                                  options.tolerance, given.warnings, progress);
-    if (file.rows.empty()) {
-        fail_input(options.existing, "has no samples to keep; leave out --existing");
-    }
+    warn_if_empty(file, options.existing, "has no samples to keep, so --existing does nothing",
+                  given.warnings);
     check_count(job, file.rows.size());
     for (const SampleRow& row : file.rows) {
         given.samples.push_back(mesh.sampled_of(row));
     }
-    if (job.classes.count > 1) {
+    if (job.classes.count > 1 && !file.rows.empty()) {
         given.classes = classes_in(options.existing, file, job.classes.count, given.warnings);
     }
     return given;
