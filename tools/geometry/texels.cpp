@@ -10,7 +10,7 @@ namespace geodisk::tools {
 namespace {
 
 // Steps of rounded coordinates in a texel.
-constexpr std::int64_t kSteps = 256;
+constexpr std::int64_t kTexelSteps = 256;
 
 constexpr std::int64_t floor_divided(std::int64_t a, std::int64_t b) {
     return a / b - (a % b != 0 && (a < 0) != (b < 0) ? 1 : 0);
@@ -27,7 +27,7 @@ struct Spot {
 
 /// Returns the centre of a texel.
 constexpr std::int64_t centre(std::int64_t i) {
-    return kSteps * i + kSteps / 2;
+    return kTexelSteps * i + kTexelSteps / 2;
 }
 
 /// Columns from the first to the last, or none.
@@ -48,7 +48,7 @@ class TextureFace {
             const double u = uvs.values[2 * value], v = uvs.values[2 * value + 1];
             is_repeating_ = is_repeating_ || u < 0 || u > 1 || v < 0 || v > 1;
             exact_[k] = {u * size.width, (uvs.is_from_top ? v : 1 - v) * size.height};
-            corners_[k] = {std::llround(exact_[k].x * kSteps), std::llround(exact_[k].y * kSteps)};
+            corners_[k] = {std::llround(exact_[k].x * kTexelSteps), std::llround(exact_[k].y * kTexelSteps)};
         }
         area_ = side(corners_[0], corners_[1], corners_[2]);
     }
@@ -59,14 +59,14 @@ class TextureFace {
     /// Returns the first and the last row with centres between the corners.
     Columns rows() const {
         const auto [low, high] = std::minmax({corners_[0].y, corners_[1].y, corners_[2].y});
-        return {floor_divided(low - kSteps / 2 + kSteps - 1, kSteps),
-                floor_divided(high - kSteps / 2, kSteps)};
+        return {floor_divided(low - kTexelSteps / 2 + kTexelSteps - 1, kTexelSteps),
+                floor_divided(high - kTexelSteps / 2, kTexelSteps)};
     }
 
     /// Returns the columns of a row whose centres it covers.
     Columns columns(std::int64_t row) const {
         const auto [low, high] = std::minmax({corners_[0].x, corners_[1].x, corners_[2].x});
-        Columns found{floor_divided(low, kSteps), floor_divided(high, kSteps)};
+        Columns found{floor_divided(low, kTexelSteps), floor_divided(high, kTexelSteps)};
         const std::size_t turned = area_ < 0 ? 1 : 0;
         for (std::size_t k = 0; k < 3; ++k) {
             const Spot a = corners_[(k + turned) % 3], b = corners_[(k + 1 - turned) % 3];
@@ -109,7 +109,7 @@ class TextureFace {
         const std::int64_t dx = b.x - a.x, dy = b.y - a.y;
         const std::int64_t least = dy > 0 || (dy == 0 && dx > 0) ? 0 : 1;
         // side() in column c is at_first - step * c.
-        const std::int64_t at_first = side(a, b, {centre(0), y}), step = dy * kSteps;
+        const std::int64_t at_first = side(a, b, {centre(0), y}), step = dy * kTexelSteps;
         if (step > 0) {
             columns.last = std::min(columns.last, floor_divided(at_first - least, step));
         } else if (step < 0) {
