@@ -36,7 +36,7 @@ int open_stream(const std::filesystem::path& path) {
 /// Waits where the other end asked not to be waited for.
 std::ptrdiff_t write_some(int descriptor, std::string_view bytes) {
     for (;;) {
-        const ssize_t count = write(descriptor, bytes.data(), bytes.size());
+        const ssize_t count = ::write(descriptor, bytes.data(), bytes.size());
         if (count >= 0 || (errno != EAGAIN && errno != EWOULDBLOCK && errno != EINTR)) {
             return count;
         }
