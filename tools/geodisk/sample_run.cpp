@@ -188,6 +188,9 @@ std::optional<JobFrame> frame_to_tell(const SampleJob& job, const MeshInput& mes
     if (update) {
         return update->frame();
     }
+    if (job.is_geodesic() && mesh.split) {
+        return frame_of_parts(mesh, params);
+    }
     return job.is_geodesic() && mesh.distance_part != 1
                ? std::optional(take(frame_of(mesh.prepared, params)))
                : std::nullopt;

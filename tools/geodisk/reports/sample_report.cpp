@@ -221,7 +221,7 @@ SampleReport::SampleReport(const SampleJob& job, const MeshInput& mesh, const Sa
 bool SampleReport::is_told(const JobFrame& frame, double distance) const {
     SampleParams params = result_.params;
     params.min_distance = distance / mesh_.distance_part;
-    const auto plain = frame_of(mesh_.prepared, params);
+    const auto plain = frame_of(mesh_.sampled(), params);
     return plain && decide_alike(frame, *plain);
 }
 
