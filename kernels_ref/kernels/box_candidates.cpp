@@ -129,7 +129,7 @@ struct BoxDraw {
 };
 
 BoxDraw draw_candidate(const BoxLattice& lattice, const Cell& cell, std::uint64_t seed,
-                    std::uint32_t stage, std::uint32_t k) {
+                       std::uint32_t stage, std::uint32_t k) {
     const std::size_t dimension = lattice.axes.size();
     const auto first = philox(seed, {k, stage, 0, 0});
     std::array<std::uint32_t, 4> second{};

@@ -57,7 +57,8 @@ TEST_CASE("a surface has the samples that it has in C++") {
             for (std::size_t corner = 0; corner < 3; ++corner) {
                 const std::size_t vertex =
                     sampled_knot().triangles[std::size_t{3} * set.samples[i].face + corner];
-                sum += double{set.samples[i].weights[corner]} * sampled_knot().positions[3 * vertex + axis];
+                sum += double{set.samples[i].weights[corner]} *
+                       sampled_knot().positions[3 * vertex + axis];
             }
             REQUIRE(points[3 * i + axis] == sum);
         }

@@ -28,11 +28,11 @@ void write_mesh_file(const TemporaryFolder& folder, const char* name, const std:
 
 /// Two triangles: the unit square, in the left half of the texture.
 const char* const kBakedSquare = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"
-                            "vt 0 0\nvt 0.5 0\nvt 0.5 1\nvt 0 1\nf 1/1 2/2 3/3 4/4\n";
+                                 "vt 0 0\nvt 0.5 0\nvt 0.5 1\nvt 0 1\nf 1/1 2/2 3/3 4/4\n";
 const char* const kEnds = "x,y,z\n0,0.5,0\n1,0.5,0\n";
 
 void check_bake_refused(const TemporaryFolder& folder, int status, const std::string& message,
-                   Arguments arguments) {
+                        Arguments arguments) {
     arguments.insert(arguments.begin(), "bake");
     check_fails(folder, status, message, arguments);
 }
@@ -134,8 +134,8 @@ TEST_CASE("bake: overlaps and repeats are reported") {
     const TemporaryFolder folder;
     write_mesh_file(folder, "ends.csv", kEnds);
     write_mesh_file(folder, "twice.obj",
-          "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 2 0\nvt 2 1\nvt 0 1\n"
-          "f 1/1 2/2 3/3 4/4\n");
+                    "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 2 0\nvt 2 1\nvt 0 1\n"
+                    "f 1/1 2/2 3/3 4/4\n");
     const Outcome outcome = run(folder, {"bake", "twice.obj", "ends.csv", "-o", "map.npz", "--size",
                                          "16", "--json", "map.json"});
     REQUIRE(outcome.status == 0);
@@ -161,24 +161,24 @@ TEST_CASE("bake: what cannot be made leaves no file") {
     write_mesh_file(folder, "corner.csv", "x,y,z,face_index,bary_u,bary_v,bary_w\n0,0,0,0,1,0,0\n");
     write_mesh_file(folder, "bare.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
     write_mesh_file(folder, "tiny.obj",
-          "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1e-5 0\nvt 0 1e-5\nf 1/1 2/2 3/3\n");
+                    "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1e-5 0\nvt 0 1e-5\nf 1/1 2/2 3/3\n");
     write_mesh_file(folder, "far.obj",
-          "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1e9 0\nvt 0 1\nf 1/1 2/2 3/3\n");
+                    "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1e9 0\nvt 0 1\nf 1/1 2/2 3/3\n");
     check_bake_refused(folder, 3, "has no texture coordinates",
-                  {"bare.obj", "ends.csv", "-o", "no.npz"});
+                       {"bare.obj", "ends.csv", "-o", "no.npz"});
     check_bake_refused(folder, 3, "has no texture coordinates",
-                  {"builtin:cube:2", "ends.csv", "-o", "no.npz"});
+                       {"builtin:cube:2", "ends.csv", "-o", "no.npz"});
     check_bake_refused(folder, 3, "no face covers", {"tiny.obj", "corner.csv", "-o", "no.npz"});
     check_bake_refused(folder, 3, "too far from 0", {"far.obj", "corner.csv", "-o", "no.npz"});
     check_bake_refused(folder, 3, "none.csv", {"square.obj", "none.csv", "-o", "no.npz"});
     check_bake_refused(folder, 2, "maps are written as .npz or .png",
-                  {"square.obj", "ends.csv", "-o", "no.tif"});
+                       {"square.obj", "ends.csv", "-o", "no.tif"});
     for (const char* const size : {"0", "20000", "16x", "x16", "16x16x16", "many"}) {
         check_bake_refused(folder, 2, "--size",
-                      {"square.obj", "ends.csv", "-o", "no.npz", "--size", size});
+                           {"square.obj", "ends.csv", "-o", "no.npz", "--size", size});
     }
     check_bake_refused(folder, 2, "--style",
-                  {"square.obj", "ends.csv", "-o", "no.png", "--style", "disks"});
+                       {"square.obj", "ends.csv", "-o", "no.png", "--style", "disks"});
 }
 
 } // namespace geodisk::test

@@ -40,7 +40,7 @@ std::vector<double> last_column(const std::string& csv, const std::string& name)
 }
 
 void check_cells_refused(const TemporaryFolder& folder, int status, const std::string& message,
-                   Arguments arguments) {
+                         Arguments arguments) {
     arguments.insert(arguments.begin(), "cells");
     arguments.insert(arguments.end(), {"--json", "no.json"});
     check_fails(folder, status, message, arguments);
@@ -97,12 +97,14 @@ TEST_CASE("cells: what cannot be found leaves no file") {
     write_file(folder, "far.csv", "x,y,z\n7,7,7\n");
     const std::string mesh = "builtin:cube:4";
     check_cells_refused(folder, 2, "the dual graph is written as .obj or .npz",
-                  {mesh, "corners.csv", "-o", "no.csv", "--dual", "no.ply"});
+                        {mesh, "corners.csv", "-o", "no.csv", "--dual", "no.ply"});
     check_cells_refused(folder, 2, "xyz", {mesh, "corners.csv", "-o", "no.xyz"});
-    check_cells_refused(folder, 2, "no.obj", {mesh, "corners.csv", "-o", "no.obj", "--dual", "no.obj"});
+    check_cells_refused(folder, 2, "no.obj",
+                        {mesh, "corners.csv", "-o", "no.obj", "--dual", "no.obj"});
     check_cells_refused(folder, 2, "corners.csv", {mesh, "corners.csv", "-o", "corners.csv"});
     check_cells_refused(folder, 3, "none.csv", {mesh, "none.csv", "-o", "no.csv"});
-    check_cells_refused(folder, 3, "far.csv", {mesh, "far.csv", "-o", "no.csv", "--dual", "no.obj"});
+    check_cells_refused(folder, 3, "far.csv",
+                        {mesh, "far.csv", "-o", "no.csv", "--dual", "no.obj"});
     check_cells_refused(folder, 3, "lacks.csv", {mesh, "lacks.csv", "-o", "no.csv"});
 }
 

@@ -24,8 +24,8 @@ constexpr const char* kClassesMesh = "builtin:torus-knot:8";
 
 TEST_CASE("classes by number") {
     const TemporaryFolder folder;
-    const Outcome made = run(
-        folder, {"sample", kClassesMesh, "-o", "a.ply", "-d", "5%", "--classes", "3", "--json", "a.json"});
+    const Outcome made = run(folder, {"sample", kClassesMesh, "-o", "a.ply", "-d", "5%",
+                                      "--classes", "3", "--json", "a.json"});
     INFO(made.out, made.err);
     REQUIRE(made.status == 0);
     const Json classes = json_in(folder, "a.json")["classes"];
@@ -46,8 +46,8 @@ TEST_CASE("classes by number") {
     CHECK(run(folder, {"verify", kClassesMesh, "a.ply", "-d", "2.8%"}).status == 0);
 
     // One class is no other than none.
-    REQUIRE(run(folder, {"sample", kClassesMesh, "-o", "one.csv", "-d", "5%", "--classes", "1"}).status ==
-            0);
+    REQUIRE(run(folder, {"sample", kClassesMesh, "-o", "one.csv", "-d", "5%", "--classes", "1"})
+                .status == 0);
     REQUIRE(run(folder, {"sample", kClassesMesh, "-o", "none.csv", "-d", "5%"}).status == 0);
     const tools::SampleFile one = tools::read_samples(folder / "one.csv");
     const tools::SampleFile none = tools::read_samples(folder / "none.csv");
@@ -61,23 +61,25 @@ TEST_CASE("classes by number") {
 TEST_CASE("classes by a table, in a file too, and with existing samples") {
     const TemporaryFolder folder;
     std::ofstream(folder / "table.csv") << "# trees and shrubs\n0.4, 0.2\n0.2; 0.15\n";
-    REQUIRE(run(folder, {"sample", kClassesMesh, "-o", "a.csv", "--classes", "table.csv"}).status == 0);
-    REQUIRE(run(folder, {"sample", kClassesMesh, "-o", "b.csv", "--classes", "0.4,0.2;0.2,0.15"}).status ==
+    REQUIRE(run(folder, {"sample", kClassesMesh, "-o", "a.csv", "--classes", "table.csv"}).status ==
             0);
+    REQUIRE(run(folder, {"sample", kClassesMesh, "-o", "b.csv", "--classes", "0.4,0.2;0.2,0.15"})
+                .status == 0);
     CHECK(bytes_of(folder / "a.csv") == bytes_of(folder / "b.csv"));
     CHECK(run(folder, {"verify", kClassesMesh, "a.csv"}).status == 0);
-    const Outcome closer = run(folder, {"verify", kClassesMesh, "a.csv", "--classes", "0.4,0.3;0.3,0.15"});
+    const Outcome closer =
+        run(folder, {"verify", kClassesMesh, "a.csv", "--classes", "0.4,0.3;0.3,0.15"});
     CHECK(closer.status == 1);
     CHECK(contains(closer.err, "closer than the distance of their classes"));
 
-    const Outcome more = run(folder, {"sample", kClassesMesh, "-o", "c.ply", "--classes", "table.csv",
-                                      "--existing", "a.csv", "--seed", "5"});
+    const Outcome more = run(folder, {"sample", kClassesMesh, "-o", "c.ply", "--classes",
+                                      "table.csv", "--existing", "a.csv", "--seed", "5"});
     INFO(more.out, more.err);
     CHECK(more.status == 0);
     CHECK(run(folder, {"verify", kClassesMesh, "c.ply"}).status == 0);
     REQUIRE(run(folder, {"sample", kClassesMesh, "-o", "plain.ply", "-d", "1"}).status == 0);
-    const Outcome classless = run(folder, {"sample", kClassesMesh, "-o", "d.ply", "--classes", "table.csv",
-                                           "--existing", "plain.ply"});
+    const Outcome classless = run(folder, {"sample", kClassesMesh, "-o", "d.ply", "--classes",
+                                           "table.csv", "--existing", "plain.ply"});
     CHECK(classless.status == 0);
     CHECK(contains(classless.err, "has no column class; its samples get class 0"));
     CHECK(run(folder, {"verify", kClassesMesh, "d.ply"}).status == 0);
@@ -197,8 +199,8 @@ TEST_CASE("a line of a batch has classes of its own") {
 
 TEST_CASE("what no classes are ends in an error, without a file") {
     const TemporaryFolder folder;
-    REQUIRE(run(folder, {"sample", kClassesMesh, "-o", "a.ply", "-d", "10%", "--classes", "3"}).status ==
-            0);
+    REQUIRE(run(folder, {"sample", kClassesMesh, "-o", "a.ply", "-d", "10%", "--classes", "3"})
+                .status == 0);
     std::ofstream(folder / "bad.csv") << "1 x\nx 1\n";
     for (const auto& [options, message] : std::vector<std::pair<Arguments, const char*>>{
              {{"--classes", "0", "-d", "1"}, "neither a number of classes from 1 to 8"},
@@ -217,14 +219,16 @@ TEST_CASE("what no classes are ends in an error, without a file") {
              {{"--classes", "2", "-d", "1", "--density", "curvature"}, "no radii that vary"},
              {{"--classes", "2", "-d", "1", "--metric", "euclidean"}, "--metric euclidean"},
              {{"--classes", "2", "-d", "1", "--existing", "a.ply"}, "its class is 2"}}) {
-        const Outcome refused = run(folder, joined({"sample", kClassesMesh, "-o", "b.ply"}, options));
+        const Outcome refused =
+            run(folder, joined({"sample", kClassesMesh, "-o", "b.ply"}, options));
         INFO(refused.err);
         CHECK(refused.status != 0);
         CHECK(contains(refused.err, message));
         CHECK_FALSE(std::filesystem::exists(folder / "b.ply"));
     }
-    CHECK(contains(run(folder, {"sample", kClassesMesh, "-o", "b.xyz", "-d", "1", "--classes", "2"}).err,
-                   "holds points alone, so no column class"));
+    CHECK(contains(
+        run(folder, {"sample", kClassesMesh, "-o", "b.xyz", "-d", "1", "--classes", "2"}).err,
+        "holds points alone, so no column class"));
 }
 
 } // namespace geodisk::test

@@ -111,8 +111,8 @@ TEST_CASE("exact counts that cannot be are refused without a file") {
     }
     // Nothing fits beside a point to avoid that reaches everywhere.
     sample(folder, "one.csv", {"--count", "1"});
-    const Outcome full = run(
-        folder, {"sample", kCountsMesh, "-o", "a.ply", "-n", "5", "--exact", "--avoid", "one.csv:1000"});
+    const Outcome full = run(folder, {"sample", kCountsMesh, "-o", "a.ply", "-n", "5", "--exact",
+                                      "--avoid", "one.csv:1000"});
     CHECK(full.status == 2);
     CHECK(contains(full.err, "--avoid: the points leave no room for samples; lower their radii"));
     const Outcome none =

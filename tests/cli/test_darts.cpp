@@ -140,7 +140,8 @@ TEST_CASE("methods take their own options") {
     check_fails(folder, 2, "contradict", darts({"-d", "1", "-r", "1", "--throws", "9"}));
     check_fails(folder, 2, "--pool-ratio is for --method pool",
                 darts({"-d", "1", "--throws", "9", "--pool-ratio", "20"}));
-    check_fails(folder, 2, "--darts is for --method darts", sample_darts({"-d", "1", "--darts", "9"}));
+    check_fails(folder, 2, "--darts is for --method darts",
+                sample_darts({"-d", "1", "--darts", "9"}));
     for (const char* const value : {"0", "-1", "1.5", "many", "4294967296", "1e300"}) {
         check_fails(folder, 2, "--darts", darts({"-d", "1", "--throws", value}));
         check_fails(folder, 2, "--count", darts({"-d", "1", "--count", value}));

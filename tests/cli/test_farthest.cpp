@@ -50,7 +50,8 @@ std::vector<double> column_in(const TemporaryFolder& folder, const char* file, c
 TEST_CASE("samples in farthest-point order are those of dart order, with their cover") {
     const TemporaryFolder folder;
     sample_farthest(folder, "dart.csv", {});
-    const Json report = sample_farthest(folder, "far.csv", {"--order", "farthest", "--classes", "2"});
+    const Json report =
+        sample_farthest(folder, "far.csv", {"--order", "farthest", "--classes", "2"});
     sample_farthest(folder, "classes.csv", {"--classes", "2"});
     const std::vector<Place> before = places_in(folder, "classes.csv");
     const std::vector<Place> after = places_in(folder, "far.csv");
@@ -81,7 +82,8 @@ TEST_CASE("the first samples of the order are kept, and are as far apart as thei
     CHECK(report["farthest"]["samples"] == all.size());
     const std::vector<double> cover = column_in(folder, "few.ply", "cover");
     const auto verify = [&](double distance) {
-        return run(folder, {"verify", kFarthestMesh, "few.ply", "-d", std::to_string(distance)}).status;
+        return run(folder, {"verify", kFarthestMesh, "few.ply", "-d", std::to_string(distance)})
+            .status;
     };
     CHECK(verify(0.9999 * cover.back()) == 0);
     CHECK(verify(1.0001 * cover.back()) == 1);
@@ -98,16 +100,16 @@ TEST_CASE("transfer puts samples of a file in the same order") {
     sample_farthest(folder, "dart.ply", {});
     sample_farthest(folder, "far.ply", {"--order", "farthest"});
     const Outcome outcome =
-        run(folder, {"transfer", "dart.ply", kFarthestMesh, kFarthestMesh, "-o", "few.glb", "--order", "farthest",
-                     "--keep", "30", "--json", "report.json"});
+        run(folder, {"transfer", "dart.ply", kFarthestMesh, kFarthestMesh, "-o", "few.glb",
+                     "--order", "farthest", "--keep", "30", "--json", "report.json"});
     INFO(outcome.err);
     REQUIRE(outcome.status == 0);
     CHECK(contains(outcome.out, "kept          the first 30 of them; the others are within "));
     CHECK(json_in(folder, "report.json")["farthest"]["kept"] == 30);
     CHECK(contains(bytes_of(folder / "few.glb"), "_COVER"));
-    REQUIRE(
-        run(folder, {"transfer", "dart.ply", kFarthestMesh, kFarthestMesh, "-o", "all.csv", "--order", "farthest"})
-            .status == 0);
+    REQUIRE(run(folder, {"transfer", "dart.ply", kFarthestMesh, kFarthestMesh, "-o", "all.csv",
+                         "--order", "farthest"})
+                .status == 0);
     CHECK(places_in(folder, "all.csv") == places_in(folder, "far.ply"));
     CHECK(column_in(folder, "all.csv", "cover") == column_in(folder, "far.ply", "cover"));
 }
@@ -126,11 +128,13 @@ TEST_CASE("columns that a format lacks are left out with a warning") {
         CHECK(std::filesystem::exists(folder / output));
     };
     warns("cover", "a.xyz", {"sample", kFarthestMesh, "-n", "50", "--order", "farthest"});
-    warns("cover", "b.obj", {"transfer", "dart.ply", kFarthestMesh, kFarthestMesh, "--order", "farthest"});
+    warns("cover", "b.obj",
+          {"transfer", "dart.ply", kFarthestMesh, kFarthestMesh, "--order", "farthest"});
     warns("given", "c.xyz", {"sample", kFarthestMesh, "-n", "600", "--existing", "dart.ply"});
     warns("feature", "d.xyz", {"sample", kFarthestMesh, "-n", "50", "--features", "30"});
     warns("level", "e.xyz", {"sample", kFarthestMesh, "-n", "50", "--order", "progressive"});
-    CHECK_FALSE(contains(run(folder, {"sample", kFarthestMesh, "-n", "50", "-o", "f.xyz"}).err, "column"));
+    CHECK_FALSE(
+        contains(run(folder, {"sample", kFarthestMesh, "-n", "50", "-o", "f.xyz"}).err, "column"));
 }
 
 TEST_CASE("what farthest-point order does not go with is refused") {
@@ -159,8 +163,8 @@ TEST_CASE("what farthest-point order does not go with is refused") {
         CHECK(outcome.status == 2);
         CHECK(contains(outcome.err, wrong.message));
     }
-    const Outcome order =
-        run(folder, {"transfer", "a.csv", kFarthestMesh, kFarthestMesh, "-o", "b.ply", "--order", "dart"});
+    const Outcome order = run(folder, {"transfer", "a.csv", kFarthestMesh, kFarthestMesh, "-o",
+                                       "b.ply", "--order", "dart"});
     CHECK(order.status == 2);
     CHECK(contains(order.err, "--order: 'dart' is neither file nor farthest"));
     CHECK(!std::filesystem::exists(folder / "b.ply"));

@@ -55,8 +55,9 @@ double count_if(const PngImage& image, const Is& is) {
 TEST_CASE("a mesh is sampled and drawn at once") {
     const TemporaryFolder folder;
     make_samples(folder);
-    const Outcome outcome = run(folder, {"sample", kRenderedMesh, "-n", "400", "-o", "b.ply", "--picture",
-                                         "b.png", "--json", "b.json", "-q", "--validate"});
+    const Outcome outcome =
+        run(folder, {"sample", kRenderedMesh, "-n", "400", "-o", "b.ply", "--picture", "b.png",
+                     "--json", "b.json", "-q", "--validate"});
     INFO(outcome.err);
     REQUIRE(outcome.status == 0);
     CHECK(bytes_of(folder / "b.ply") == bytes_of(folder / "a.ply"));
@@ -71,8 +72,9 @@ TEST_CASE("a mesh is sampled and drawn at once") {
     CHECK(bytes_of(folder / "c.png") != bytes_of(folder / "b.png"));
     check_fails(folder, 2, "--picture FILE",
                 {"sample", kRenderedMesh, "-n", "400", "-o", "c.ply", "--legend"});
-    check_fails(folder, 2, "--legend does not fit into a view of 40 x 40 pixels",
-                {"render", kRenderedMesh, "a.ply", "-o", "small.png", "--size", "40x40", "--legend"});
+    check_fails(
+        folder, 2, "--legend does not fit into a view of 40 x 40 pixels",
+        {"render", kRenderedMesh, "a.ply", "-o", "small.png", "--size", "40x40", "--legend"});
     CHECK_FALSE(std::filesystem::exists(folder / "small.png"));
     check_fails(folder, 2, "*.png", joined(good, {"c.jpg"}));
     check_fails(folder, 2, "the picture would replace the samples", joined(good, {"c.ply"}));
@@ -159,8 +161,8 @@ TEST_CASE("several views make a sheet, and the report tells of it") {
     const TemporaryFolder folder;
     make_samples(folder);
     const Outcome outcome =
-        run(folder, {"render", kRenderedMesh, "a.ply", "-o", "p.png", "--size", "300x100", "--view", "auto",
-                     "--view", "top", "--view", "-20,35", "--up", "z", "--json", "-"});
+        run(folder, {"render", kRenderedMesh, "a.ply", "-o", "p.png", "--size", "300x100", "--view",
+                     "auto", "--view", "top", "--view", "-20,35", "--up", "z", "--json", "-"});
     INFO(outcome.err);
     REQUIRE(outcome.status == 0);
     const auto report = nlohmann::json::parse(outcome.out);
@@ -252,7 +254,8 @@ TEST_CASE("what cannot be drawn is told, and leaves no picture") {
     check_fails(folder, 2, "*.png", {"render", kRenderedMesh, "a.ply", "-o", "p.jpg"});
     check_fails(folder, 2, "SAMPLES is required", {"render", kRenderedMesh, "-o", "p.png"});
     for (const std::string size : {"100", "100x", "x100", "8x100", "100x20000", "1e3x100"}) {
-        check_fails(folder, 2, "--size", {"render", kRenderedMesh, "a.ply", "-o", "p.png", "--size", size});
+        check_fails(folder, 2, "--size",
+                    {"render", kRenderedMesh, "a.ply", "-o", "p.png", "--size", size});
     }
     check_fails(folder, 2, "--style", joined(good, {"--style", "dots"}));
     check_fails(folder, 2, "--view", joined(good, {"--view", "sideways"}));

@@ -25,7 +25,7 @@ Arguments transfer(const std::string& from, const std::string& to, const Argumen
 }
 
 void make_source_samples(const TemporaryFolder& folder, const std::string& mesh,
-                  const std::string& count = "300") {
+                         const std::string& count = "300") {
     const Outcome made = run(folder, {"sample", mesh, "-o", "a.ply", "-n", count});
     INFO(made.err);
     REQUIRE(made.status == 0);

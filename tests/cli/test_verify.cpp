@@ -73,7 +73,8 @@ TEST_CASE("a sample moved onto another one is found") {
 TEST_CASE("a larger distance is violated by many pairs, each counted once") {
     const TemporaryFolder folder;
     const std::size_t n = make_samples(folder).rows.size();
-    const Outcome outcome = run(folder, {"verify", kVerifiedMesh, "a.ply", "--min-distance", "1000"});
+    const Outcome outcome =
+        run(folder, {"verify", kVerifiedMesh, "a.ply", "--min-distance", "1000"});
     CHECK(outcome.status == 1);
     std::string plain = outcome.out;
     std::erase(plain, ',');

@@ -291,8 +291,7 @@ TEST_CASE("a machine without a working driver is reported with a hint") {
     const Result<Context> context = ContextAccess::create(driver.loader(), {});
     REQUIRE_FALSE(context);
     CHECK(context.error().status == Status::no_device);
-    CHECK((names(context.error().message, "install") ||
-           names(context.error().message, "update")));
+    CHECK((names(context.error().message, "install") || names(context.error().message, "update")));
     const auto list = ContextAccess::list(driver.loader());
     REQUIRE_FALSE(list);
     CHECK(list.error().status == Status::no_device);

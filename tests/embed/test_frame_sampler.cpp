@@ -38,7 +38,7 @@ struct SampledSubject {
     Points wanted;
 
     SampledSubject(const Sampler& sampler, double count, std::uint64_t seed = 1,
-            TestMesh of = builtin("torus-knot", 8))
+                   TestMesh of = builtin("torus-knot", 8))
         : shape(std::move(of)), mesh(prepared(shape)), params(params_for(mesh, count, seed)),
           domain(expect(Domain::surface(mesh, params))),
           wanted(float_set(mesh, params,

@@ -114,9 +114,10 @@ TEST_SUITE("settled") {
         CHECK(std::equal(all.begin(), all.end(), whole.begin(), same));
 
         const PreparedMesh mesh = prepared(settled_knot());
-        DeviceRun in_space(expect(Domain::surface_in_space(
-                               settled_knot().view(), mesh, params_for(mesh, 100), Metric::euclidean)),
-                           plan);
+        DeviceRun in_space(
+            expect(Domain::surface_in_space(settled_knot().view(), mesh, params_for(mesh, 100),
+                                            Metric::euclidean)),
+            plan);
         check_prefixes(in_space);
     }
 

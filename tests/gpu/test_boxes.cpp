@@ -38,7 +38,7 @@ BoxParams unit_box(std::size_t dimension, double count, bool is_periodic, std::u
 }
 
 SampleSet sample_box(const BoxParams& box, const RunnerOptions& options = {},
-                 const Context& context = shared_context()) {
+                     const Context& context = shared_context()) {
     Runner runner = expect(Runner::create(context.device(), context.queue(), options));
     return expect(runner.sample_and_wait(expect(Domain::box(box))));
 }

@@ -74,7 +74,8 @@ std::size_t check_greedy(const PreparedMesh& mesh, const std::vector<Sample>& sa
         distances[chosen] = -1;
     }
     const double cover = std::max(0.0, *std::ranges::max_element(distances));
-    CHECK((cover == order.cover || std::abs(cover - double{order.cover}) <= kFarthestPrecision * size));
+    CHECK((cover == order.cover ||
+           std::abs(cover - double{order.cover}) <= kFarthestPrecision * size));
     CHECK(std::ranges::is_sorted(order.distances, std::greater<>()));
     return others;
 }

@@ -190,8 +190,8 @@ TEST_SUITE("placement") {
     TEST_CASE("what is in order so far is placed after every finish") {
         const TestMesh mesh = builtin("icosphere", 3);
         const PreparedMesh surface = prepared(mesh);
-        Scene scene(expect(Domain::surface(surface, params_for(surface, 200))), placed_vertices(mesh),
-                    bytes_of(mesh.triangles));
+        Scene scene(expect(Domain::surface(surface, params_for(surface, 200))),
+                    placed_vertices(mesh), bytes_of(mesh.triangles));
         scene.run.begin();
         std::size_t before = 0;
         for (bool is_left = true; is_left;) {

@@ -38,7 +38,7 @@ struct DensityCase : FieldCase {
 };
 
 std::string density_refused(const PreparedMesh& surface, const std::vector<double>& density,
-                    std::uint64_t element = kNoElement) {
+                            std::uint64_t element = kNoElement) {
     return refusal(RadiusField::from_density(surface, density), element);
 }
 
@@ -47,7 +47,8 @@ struct Strips {
     std::vector<double> found;
     double samples = 0;
 
-    Strips(const DensityCase& c, double count, std::size_t strips, std::uint64_t runs) : found(strips) {
+    Strips(const DensityCase& c, double count, std::size_t strips, std::uint64_t runs)
+        : found(strips) {
         for (std::uint64_t seed = 1; seed <= runs; ++seed) {
             const SampleParams params = c.params(count, seed);
             const ref::Surface<float> surface(c.surface, params);
@@ -260,7 +261,7 @@ TEST_SUITE("density") {
 
     TEST_CASE("a range of 1e9 has samples in proportion") {
         const DensityCase c(flat_grid(90, 10, 1, 0.111),
-                     [](double x) { return std::pow(10, -9 * (1 - x)); });
+                            [](double x) { return std::pow(10, -9 * (1 - x)); });
         const Strips strips(c, 4000, 45, 3); // A fifth of a decade each.
         double ratio = 1 / std::pow(10, 0.2);
         double want = strips.samples * (1 - ratio);

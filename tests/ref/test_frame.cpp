@@ -259,7 +259,8 @@ TEST_CASE("frame: a part in the frame of the whole is sampled as the whole is") 
                 const Part part(both, first, last);
                 const PreparedMesh some = prepared(part.mesh);
                 params.face_keys = part.keys;
-                CHECK(are_equal_points(samples_in(some, params, frame), between(of_all, first, last)));
+                CHECK(are_equal_points(samples_in(some, params, frame),
+                                       between(of_all, first, last)));
 
                 const auto domain = Domain::surface(some, params, of_host);
                 REQUIRE_MESSAGE(domain, domain.error().message);
@@ -304,7 +305,8 @@ TEST_CASE("frame: the numbers of faces do not matter where they have keys") {
     }
     CHECK(wrong == 0);
     CHECK(ties > 10);
-    CHECK(are_equal_points(samples_in(mesh, params, a.frame), samples_in(other, of_other, b.frame)));
+    CHECK(
+        are_equal_points(samples_in(mesh, params, a.frame), samples_in(other, of_other, b.frame)));
 }
 
 TEST_CASE("frame: bytes give the same frame back") {

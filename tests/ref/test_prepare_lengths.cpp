@@ -36,7 +36,8 @@ Result<PreparedMesh> from_lengths(const Indices& triangles, const Lengths& lengt
     return PreparedMesh::prepare({triangles, lengths, vertex_count});
 }
 
-Error rejection_of_lengths(const Indices& triangles, const Lengths& lengths, std::uint32_t vertex_count = 4) {
+Error rejection_of_lengths(const Indices& triangles, const Lengths& lengths,
+                           std::uint32_t vertex_count = 4) {
     const auto result = from_lengths(triangles, lengths, vertex_count);
     REQUIRE(!result);
     CHECK(result.error().message.find('\n') == std::string::npos);
@@ -162,7 +163,8 @@ TEST_CASE("lengths: what is rejected is named") {
     CHECK(contains(rejection_of_lengths(kTriangle, {1, 2, 3}).message, "no face has area"));
     CHECK(contains(rejection_of_lengths({0, 0, 1}, {1, 1, 1}).message, "no face has area"));
     // Above a vertex's number the kernels keep two flags.
-    CHECK(contains(rejection_of_lengths(kTriangle, {1, 1, 1}, (1u << 30) + 1).message, "too large"));
+    CHECK(
+        contains(rejection_of_lengths(kTriangle, {1, 1, 1}, (1u << 30) + 1).message, "too large"));
 }
 
 TEST_CASE("lengths: a face that names a vertex twice takes no part, whatever its lengths") {

@@ -147,8 +147,8 @@ std::string text_of(const Gltf& gltf) {
         views += R"({"buffer": 0, "byteOffset": )" + std::to_string(offset) +
                  R"(, "byteLength": )" + (i == 0 ? "36" : "24") + "}, ";
     }
-    views +=
-        R"({"buffer": 0, "byteOffset": 108, "byteLength": )" + std::to_string(kColourImage.size()) + "}";
+    views += R"({"buffer": 0, "byteOffset": 108, "byteLength": )" +
+             std::to_string(kColourImage.size()) + "}";
     const auto list = [](const char* name, const std::string& value) {
         return value.empty() ? "" : std::string(", \"") + name + "\": " + value;
     };

@@ -113,7 +113,8 @@ TEST_CASE("samples in arrays of numpy are whole, whoever wrote them") {
     arrays[3].second = npy<double>("<f8", "(2,)", {.25, .125});
     CHECK(read_samples(folder.write("b.npz", npz(arrays))).rows[1].radius == .125);
     arrays[1].second = npy<std::int64_t>("<i8", "(1,)", {7});
-    check_array_refused("c.npz", npz(arrays), "array 'face_index' has 1 rows, but there are 2 samples");
+    check_array_refused("c.npz", npz(arrays),
+                        "array 'face_index' has 1 rows, but there are 2 samples");
     arrays[1].second = npy<std::int64_t>("<i8", "(2,)", {7, -1});
     check_array_refused("c.npz", npz(arrays), "row 1: face_index is out of range");
     arrays.erase(arrays.begin() + 2);
@@ -125,23 +126,24 @@ TEST_CASE("files of numpy that hold no samples are refused with what they hold")
     check_array_refused("a.npz", "", "is no file of numpy");
     check_array_refused("a.npy", "1 2 3\n", "is no file of numpy");
     check_array_refused("a.npy", npy("<f8", "(3, 2)", kRows), "no column z");
-    check_array_refused("a.npy", npy("<f8", "(6,)", kRows), "but float64 (6,); save the positions as");
+    check_array_refused("a.npy", npy("<f8", "(6,)", kRows),
+                        "but float64 (6,); save the positions as");
     check_array_refused("a.npy", npy<double>("<f8", "(1, 9)", std::vector<double>(9)),
-                  "its points are float64 (1, 9); save them as float64 of shape (n, 3)");
+                        "its points are float64 (1, 9); save them as float64 of shape (n, 3)");
     check_array_refused("a.npy", npy<std::uint16_t>("<f2", "(2, 3)", {0, 0, 0, 0, 0, 0}),
-                  "its points are <f2 (2, 3); save them as float64");
+                        "its points are <f2 (2, 3); save them as float64");
     check_array_refused("a.npy", npy("<f8", "(2, 4)", kRows), "fewer values than its shape says");
     check_array_refused("a.npy", npy("<f8", "(2, 9223372036854775808, 4)", kRows), "fewer values");
     check_array_refused("a.npy", npy("<f8", "(2, x)", kRows), "which is none");
-    check_array_refused("a.npy",
-                  npy<double>("<f8", "(1, 3)", {1, std::numeric_limits<double>::infinity(), 0}),
-                  "row 0: y");
+    check_array_refused(
+        "a.npy", npy<double>("<f8", "(1, 3)", {1, std::numeric_limits<double>::infinity(), 0}),
+        "row 0: y");
     std::string records = rows;
     records.replace(records.find("'<f8'"), 5, "[('x'");
     check_array_refused("a.npy", records, "has records instead of numbers");
     check_array_refused("a.npy", rows.substr(0, 20), "ends within its header");
     check_array_refused("a.npz", npz({{"a", rows}, {"b", rows}}),
-                  "several of shape (n, 3), but a float64 (2, 3), b float64 (2, 3)");
+                        "several of shape (n, 3), but a float64 (2, 3), b float64 (2, 3)");
     check_array_refused("a.npz", npz({}), "is a ZIP archive without arrays of numpy");
 }
 

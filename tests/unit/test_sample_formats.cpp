@@ -19,12 +19,12 @@ using namespace geodisk::tools;
 namespace {
 
 const SampleHeader kFormatHeader{{{"version", "geodisk 0.1.0"},
-                            {"mesh", "caf\xc3\xa9.obj"},
-                            {"lift", "normals:1"},
-                            {"lift", "attribute:q:2"},
-                            {"min_distance", "0.25"},
-                            {"seed", "18446744073709551615"},
-                            {"device", "not \xff UTF-8"}}};
+                                  {"mesh", "caf\xc3\xa9.obj"},
+                                  {"lift", "normals:1"},
+                                  {"lift", "attribute:q:2"},
+                                  {"min_distance", "0.25"},
+                                  {"seed", "18446744073709551615"},
+                                  {"device", "not \xff UTF-8"}}};
 
 std::vector<SampleRow> rows_of_format(double offset, double radius = 0) {
     std::vector<SampleRow> rows;

@@ -89,14 +89,16 @@ TEST_CASE("PLY vertices may have x0 to x7") {
     // They count, not x y z beside them.
     const std::string both = "property float x\nproperty float y\nproperty float z\n" + numbered(4);
     CHECK(mesh_of("a.ply",
-                  surface_ply_with(both, "9 9 9 0 0 0 5\n9 9 9 1 0 0 5\n9 9 9 1 1 0 5\n9 9 9 0 1 0 5\n"),
+                  surface_ply_with(both,
+                                   "9 9 9 0 0 0 5\n9 9 9 1 0 0 5\n9 9 9 1 1 0 5\n9 9 9 0 1 0 5\n"),
                   "", "")
               .positions == kSquare4);
     const std::string zeros = "0 0 0 0 0 0 0 0\n";
-    CHECK(mesh_of("a.ply",
-                  surface_ply_with(numbered(8), zeros + "1 0 0 0 0 0 0 0\n0 0 0 0 0 0 0 1\n" + zeros), "",
-                  "")
-              .dimension == 8);
+    CHECK(
+        mesh_of("a.ply",
+                surface_ply_with(numbered(8), zeros + "1 0 0 0 0 0 0 0\n0 0 0 0 0 0 0 1\n" + zeros),
+                "", "")
+            .dimension == 8);
     const auto fails = [](const std::string& properties, std::string_view part) {
         check_fails(ExitCode::bad_input, part,
                     [&] { mesh_of("a.ply", surface_ply_with(properties, ""), "", ""); });
@@ -105,7 +107,8 @@ TEST_CASE("PLY vertices may have x0 to x7") {
     fails(numbered(9), "3 to 8 coordinates");
     fails(numbered(3) + "property double x4\n", "a property x4 but no x3");
     check_fails(ExitCode::bad_input, "record 2: the coordinates are not finite", [] {
-        mesh_of("a.ply", surface_ply_with(numbered(4), "0 0 0 5\n1 0 0 5\n1 1 0 inf\n0 1 0 5\n"), "", "");
+        mesh_of("a.ply", surface_ply_with(numbered(4), "0 0 0 5\n1 0 0 5\n1 1 0 inf\n0 1 0 5\n"),
+                "", "");
     });
 }
 
@@ -150,7 +153,8 @@ TEST_CASE("a sidecar file gives the coordinates of an OBJ file, with or without 
     coordinates_fail("0 0 0 5\n1 0 0 5\n", "has the coordinates of 2 vertices");
     check_fails(ExitCode::bad_input, "line 2: vertex index 4 is out of range, the file has 3",
                 [] { mesh_of("a.obj", kBareObj, "0 0 0\n1 0 0\n1 1 0\n", ""); });
-    check_fails(ExitCode::usage, "contradict", [] { mesh_of("a.obj", kSurfaceObj, kLines4, kLengths); });
+    check_fails(ExitCode::usage, "contradict",
+                [] { mesh_of("a.obj", kSurfaceObj, kLines4, kLengths); });
     check_fails(ExitCode::usage, "builtin:cube is complete", [] {
         read_mesh({"builtin:cube", "", "a.txt", "", {}});
     });
@@ -164,8 +168,8 @@ TEST_CASE("a sidecar file gives the lengths of edges") {
     CHECK(bare.warnings.empty());
     // Coordinates are kept but do not matter, not even if all are equal; PLY counts from 0.
     const std::string flat = "property float x\nproperty float y\nproperty float z\n";
-    const MeshFile ply = mesh_of("a.ply", surface_ply_with(flat, "0 0 0\n0 0 0\n0 0 0\n0 0 0\n"), "",
-                                 "0 1 3 # first\n2 1 4\n2 0 5\n3 2 3\n3 0 4\n2 0 5\n7 8 1\n");
+    const MeshFile ply = mesh_of("a.ply", surface_ply_with(flat, "0 0 0\n0 0 0\n0 0 0\n0 0 0\n"),
+                                 "", "0 1 3 # first\n2 1 4\n2 0 5\n3 2 3\n3 0 4\n2 0 5\n7 8 1\n");
     CHECK(ply.lengths == expected);
     CHECK(ply.positions.size() == 12);
     REQUIRE(ply.warnings.size() == 1);
@@ -215,7 +219,8 @@ TEST_CASE("a lift appends weighted normals and attributes") {
     const std::string properties =
         "property float x\nproperty float y\nproperty float z\nproperty float quality\n"
         "property list uchar int tags\n";
-    const std::string ply = surface_ply_with(properties, "0 0 0 1 0\n1 0 0 2 0\n1 1 0 3 0\n0 1 0 4 0\n");
+    const std::string ply =
+        surface_ply_with(properties, "0 0 0 1 0\n1 0 0 2 0\n1 1 0 3 0\n0 1 0 4 0\n");
     const MeshFile mesh = mesh_of("a.ply", ply, "", "", {"quality"});
     CHECK(mesh.attributes == std::vector<std::vector<double>>{{1, 2, 3, 4}});
     const std::vector<Lift> lifts{{"quality", 0.5}, {"", 2}};

@@ -135,13 +135,13 @@ std::filesystem::path writable_tuning_path(const DeviceReport& device) {
 
 void store_tuning(const Path& path, const DeviceReport& device, const Tuning& tuning) {
     const OrderedJson document{{"geodisk_version", GEODISK_VERSION_STRING},
-                        {"device", device.name},
-                        {"driver", driver_text(device)},
-                        {"local_size", tuning.local_size},
-                        {"slot_local_size", tuning.slot_local_size},
-                        {"pool_block", tuning.pool_block},
-                        {"batches", tuning.batches},
-                        {"reads", to_string(tuning.reads)}};
+                               {"device", device.name},
+                               {"driver", driver_text(device)},
+                               {"local_size", tuning.local_size},
+                               {"slot_local_size", tuning.slot_local_size},
+                               {"pool_block", tuning.pool_block},
+                               {"batches", tuning.batches},
+                               {"reads", to_string(tuning.reads)}};
     AtomicFile file(path);
     file.write(json_text(document, 2) + '\n');
     file.commit();

@@ -202,8 +202,9 @@ double dot(const Coordinates& a, const Coordinates& b) {
 }
 
 /// Corners relative to the first, in units of the largest coordinate.
-std::vector<Coordinates> relative_corners(std::span<const double> positions, std::uint32_t dimension,
-                                     std::span<const std::uint32_t> corners) {
+std::vector<Coordinates> relative_corners(std::span<const double> positions,
+                                          std::uint32_t dimension,
+                                          std::span<const std::uint32_t> corners) {
     const auto coordinates = [&](std::uint32_t vertex) {
         return positions.subspan(std::size_t{vertex} * dimension, dimension);
     };
@@ -227,9 +228,9 @@ std::vector<Coordinates> relative_corners(std::span<const double> positions, std
 /// The unit vector along the longest of `points`, whose part along it is then taken off all of
 /// them and returned; zeros when all are zero.
 Coordinates take_axis(std::vector<Coordinates>& points) {
-    const auto longest =
-        std::max_element(points.begin(), points.end(),
-                         [](const Coordinates& a, const Coordinates& b) { return dot(a, a) < dot(b, b); });
+    const auto longest = std::max_element(
+        points.begin(), points.end(),
+        [](const Coordinates& a, const Coordinates& b) { return dot(a, a) < dot(b, b); });
     const double size = std::sqrt(dot(*longest, *longest));
     Coordinates along(points.size(), 0.0);
     if (size == 0) {

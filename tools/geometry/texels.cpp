@@ -48,7 +48,8 @@ class TextureFace {
             const double u = uvs.values[2 * value], v = uvs.values[2 * value + 1];
             is_repeating_ = is_repeating_ || u < 0 || u > 1 || v < 0 || v > 1;
             exact_[k] = {u * size.width, (uvs.is_from_top ? v : 1 - v) * size.height};
-            corners_[k] = {std::llround(exact_[k].x * kTexelSteps), std::llround(exact_[k].y * kTexelSteps)};
+            corners_[k] = {std::llround(exact_[k].x * kTexelSteps),
+                           std::llround(exact_[k].y * kTexelSteps)};
         }
         area_ = side(corners_[0], corners_[1], corners_[2]);
     }

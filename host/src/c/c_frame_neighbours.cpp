@@ -78,26 +78,28 @@ geodisk_status geodisk_frame_neighbours_create(const geodisk_device* device,
 geodisk_status geodisk_frame_neighbours_record(geodisk_frame_neighbours* frames,
                                                void* command_buffer, int32_t* is_complete,
                                                geodisk_error* error) {
-    return with_frames(frames, kSearchName, error, [&](geodisk_frame_neighbours& own) -> Result<Done> {
-        return record_frame(own.recorded, command_buffer, is_complete);
-    });
+    return with_frames(frames, kSearchName, error,
+                       [&](geodisk_frame_neighbours& own) -> Result<Done> {
+                           return record_frame(own.recorded, command_buffer, is_complete);
+                       });
 }
 
 geodisk_status geodisk_frame_neighbours_wait(geodisk_frame_neighbours* frames,
                                              geodisk_sampler* sampler, geodisk_error* error) {
-    return with_frames(frames, kSearchName, error, [&](geodisk_frame_neighbours& own) -> Result<Done> {
-        if (sampler == nullptr) {
-            return wrong("sampler is NULL");
-        }
-        SamplerState& state = *sampler->shared;
-        return hold(state.is_held, "the sampler", [&]() -> Result<Done> {
-            if (state.is_busy()) {
-                return run_in_progress();
+    return with_frames(
+        frames, kSearchName, error, [&](geodisk_frame_neighbours& own) -> Result<Done> {
+            if (sampler == nullptr) {
+                return wrong("sampler is NULL");
             }
-            state.is_cancelled = false;
-            return own.recorded.find_and_wait(state.runner, state.callback(nullptr, nullptr));
+            SamplerState& state = *sampler->shared;
+            return hold(state.is_held, "the sampler", [&]() -> Result<Done> {
+                if (state.is_busy()) {
+                    return run_in_progress();
+                }
+                state.is_cancelled = false;
+                return own.recorded.find_and_wait(state.runner, state.callback(nullptr, nullptr));
+            });
         });
-    });
 }
 
 geodisk_status geodisk_frame_neighbours_describe(const geodisk_frame_neighbours* frames,

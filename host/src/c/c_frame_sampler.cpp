@@ -72,24 +72,26 @@ geodisk_status geodisk_frame_sampler_create(const geodisk_device* device,
 
 geodisk_status geodisk_frame_sampler_record(geodisk_frame_sampler* frames, void* command_buffer,
                                             int32_t* is_complete, geodisk_error* error) {
-    return with_frames(frames, kSamplerName, error, [&](geodisk_frame_sampler& own) -> Result<Done> {
-        return record_frame(own.recorded, command_buffer, is_complete);
-    });
+    return with_frames(frames, kSamplerName, error,
+                       [&](geodisk_frame_sampler& own) -> Result<Done> {
+                           return record_frame(own.recorded, command_buffer, is_complete);
+                       });
 }
 
 geodisk_status geodisk_frame_sampler_wait(geodisk_frame_sampler* frames, geodisk_sampler* sampler,
                                           geodisk_error* error) {
-    return with_frames(frames, kSamplerName, error, [&](geodisk_frame_sampler& own) -> Result<Done> {
-        if (sampler == nullptr) {
-            return wrong("sampler is NULL");
-        }
-        const auto state = sampler->shared;
-        return hold(state->is_held, "the sampler", [&]() -> Result<Done> {
-            state->is_cancelled = false;
-            const auto go_on = [&](const Progress&) { return !state->is_cancelled; };
-            return own.recorded.sample_and_wait(state->runner, go_on);
+    return with_frames(
+        frames, kSamplerName, error, [&](geodisk_frame_sampler& own) -> Result<Done> {
+            if (sampler == nullptr) {
+                return wrong("sampler is NULL");
+            }
+            const auto state = sampler->shared;
+            return hold(state->is_held, "the sampler", [&]() -> Result<Done> {
+                state->is_cancelled = false;
+                const auto go_on = [&](const Progress&) { return !state->is_cancelled; };
+                return own.recorded.sample_and_wait(state->runner, go_on);
+            });
         });
-    });
 }
 
 geodisk_status geodisk_frame_sampler_describe(const geodisk_frame_sampler* frames,
@@ -114,10 +116,11 @@ geodisk_status geodisk_frame_sampler_describe(const geodisk_frame_sampler* frame
 
 geodisk_status geodisk_frame_sampler_set_seed(geodisk_frame_sampler* frames, uint64_t seed,
                                               geodisk_error* error) {
-    return with_frames(frames, kSamplerName, error, [&](geodisk_frame_sampler& own) -> Result<Done> {
-        own.recorded.set_seed(seed);
-        return Done{};
-    });
+    return with_frames(frames, kSamplerName, error,
+                       [&](geodisk_frame_sampler& own) -> Result<Done> {
+                           own.recorded.set_seed(seed);
+                           return Done{};
+                       });
 }
 
 void geodisk_frame_sampler_release(geodisk_frame_sampler* frames) {

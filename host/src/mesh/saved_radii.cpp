@@ -38,13 +38,13 @@ bool are_within(std::span<const float> values, float least, float most) {
 Result<std::vector<std::byte>> RadiusField::save() const noexcept {
     return guarded([&]() -> Result<std::vector<std::byte>> {
         RadiiHeader header{{},
-                      kRadiiVersion,
-                      kRadiiByteOrder,
-                      face_count(),
-                      packing_.empty() ? 0u : 1u,
-                      largest_density_,
-                      effective_area_,
-                      least_density_};
+                           kRadiiVersion,
+                           kRadiiByteOrder,
+                           face_count(),
+                           packing_.empty() ? 0u : 1u,
+                           largest_density_,
+                           effective_area_,
+                           least_density_};
         std::memcpy(header.magic, kRadiiMagic, sizeof kRadiiMagic);
         std::vector<std::byte> bytes(sizeof header);
         std::memcpy(bytes.data(), &header, sizeof header);
@@ -59,7 +59,8 @@ Result<std::vector<std::byte>> RadiusField::save() const noexcept {
 Result<RadiusField> RadiusField::load(std::span<const std::byte> bytes) noexcept {
     return guarded([&]() -> Result<RadiusField> {
         RadiiHeader header;
-        if (bytes.size() < sizeof header || std::memcmp(bytes.data(), kRadiiMagic, sizeof kRadiiMagic) != 0) {
+        if (bytes.size() < sizeof header ||
+            std::memcmp(bytes.data(), kRadiiMagic, sizeof kRadiiMagic) != 0) {
             return invalid("these bytes are no saved radii");
         }
         std::memcpy(&header, bytes.data(), sizeof header);

@@ -78,7 +78,8 @@ struct Before {
     std::uint64_t faces = 0, work = 0;
 };
 
-std::vector<Before> before_all(Talk& talk, const Sorted& own, const std::vector<PlaceOnCurve>& ends) {
+std::vector<Before> before_all(Talk& talk, const Sorted& own,
+                               const std::vector<PlaceOnCurve>& ends) {
     std::vector<std::uint64_t> counts;
     for (const PlaceOnCurve& end : ends) {
         const std::size_t faces = own.before(end);
@@ -96,7 +97,7 @@ std::vector<Before> before_all(Talk& talk, const Sorted& own, const std::vector<
 /// place that `is_within` allows, by the part's number. `all` is what lies before the end.
 template <class Within>
 std::vector<PlaceOnCurve> find_ends(Talk& talk, const Sorted& own, const Before& all,
-                             const Within& is_within) {
+                                    const Within& is_within) {
     std::vector<PlaceOnCurve> ends(talk.size() - 1);
     // Faces before the end, and before the places that are too high.
     std::vector<std::uint64_t> low(ends.size(), 0), high(ends.size(), all.faces);
@@ -147,8 +148,8 @@ std::uint64_t work_of(double part, std::uint64_t faces) {
     return static_cast<std::uint64_t>(kUnit * (1 + by_area));
 }
 
-PlaceOnCurve place_of(const MeshRange& range, const RangeFaces& faces, const RangeFindings& findings,
-               std::uint32_t first, std::size_t face) {
+PlaceOnCurve place_of(const MeshRange& range, const RangeFaces& faces,
+                      const RangeFindings& findings, std::uint32_t first, std::size_t face) {
     std::array<std::uint32_t, 3> cell{};
     for (std::size_t axis = 0; axis < 3; ++axis) {
         double sum = 0;

@@ -146,7 +146,8 @@ Directory Directory::create(Talk& talk, const Blocks& vertices, std::span<const 
     join(talk, std::move(contacts), components);
     if (components.count > 1) {
         for (const WholeFace& face : faces) {
-            directory.pieces_.push_back(face_takes_part(face) ? pieces[numbers.of(face.corners[0])] : 0);
+            directory.pieces_.push_back(face_takes_part(face) ? pieces[numbers.of(face.corners[0])]
+                                                              : 0);
         }
     }
     return directory;
