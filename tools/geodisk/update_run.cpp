@@ -172,6 +172,11 @@ UpdateRun::UpdateRun(const SampleJob& job, const MeshInput& mesh, ProgressLine& 
     : job_(job), mesh_(mesh), before_(load_mesh(options_of(job), progress, job.density, job.mask)),
       params_(params_on(before_, job)) {
     check_edit(job, before_, mesh_);
+    if (before_.split) {
+        fail_usage("--from: on " + job.from +
+                   " the image shows more than the corners of faces; split "
+                   "the faces where it has detail");
+    }
     const JobFrame plain = take(frame_of(before_.prepared, params_));
     SampleParams edited = mesh_.with_fields(job.params);
     edited.min_distance = params_.min_distance;

@@ -149,7 +149,7 @@ void run_info(const OutputOptions& out) {
 
     std::ostringstream text;
     const std::vector<std::string> left_out = missing_drivers(reports);
-    print_text(text, reports, best, left_out);
+    print_text(text, reports, best, listed ? left_out : std::vector<std::string>());
     publish(out, json_of_all(reports, best, left_out), text.str());
     if (!listed) {
         take_device(Result<std::size_t>(listed.error()));
