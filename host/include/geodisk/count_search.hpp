@@ -25,7 +25,7 @@ class CountSearch {
     /// nothing when the search has ended:
     /// - the count is within 5 % of `wanted` or differs by one; or is as exact() says,
     /// - a larger distance gives no fewer samples; an exact search also ends if a smaller one gives
-    ///   no more, and over 2^17 samples would be expected at the next,
+    ///   no more, and none came out or over 2^17 samples would be expected at the next,
     /// - this was the seventh try. Exact searches end with the sixth, or go on to the twelfth while
     ///   no try has given enough.
     GEODISK_API std::optional<double> note(double distance, std::uint64_t count) noexcept;

@@ -1187,8 +1187,8 @@ GEODISK_C_API geodisk_status geodisk_count_search_create_exact(uint64_t count,
 /* Records the number of samples that a distance gave. Writes to `next` the distance to try next, or
  * 0 when the search has ended: the count is within 5 % of `wanted` or differs by one, a larger
  * distance gives no fewer samples, or this was the seventh try. An exact search ends with the sixth
- * try, or the twelfth while none has given enough, or once smaller distances give no more and over
- * 2^17 samples would be expected. Writes to `is_nearest` whether this try is the
+ * try, or the twelfth while none has given enough, or once smaller distances give none, or give no
+ * more and over 2^17 samples would be expected. Writes to `is_nearest` whether this try is the
  * best so far. No try of an exact search is if all give too few. */
 GEODISK_C_API geodisk_status geodisk_count_search_note(geodisk_count_search *search,
                                                        double distance, uint64_t count,

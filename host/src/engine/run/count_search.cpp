@@ -15,7 +15,7 @@ constexpr double kMostExcess = 0.01;
 constexpr std::uint32_t kExactTries = 6;
 constexpr std::uint32_t kMostExactTries = 12;
 /// Samples expected at a distance up to which an exact search goes on where smaller distances give
-/// no more.
+/// no more, but some.
 constexpr double kMostExpected = 0x1p17;
 /// Stands for no sample at all in an exact search.
 constexpr double kNone = 0.5;
@@ -133,7 +133,8 @@ std::optional<double> CountSearch::note(double distance, std::uint64_t count) no
                                   ? last.count >= before->count
                                   : most_ && kWide * distance < before->distance &&
                                         last.count <= before->count &&
-                                        wanted_ * square(first_distance_ / next) > kMostExpected;
+                                        (last.count == kNone ||
+                                         wanted_ * square(first_distance_ / next) > kMostExpected);
         return is_stuck ? std::nullopt : std::optional(next);
     }
     return distance * first_factor(last.count);
