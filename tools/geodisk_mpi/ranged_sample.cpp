@@ -25,7 +25,7 @@ namespace geodisk::tools {
 namespace {
 
 /// Thrown for a job that needs the whole surface.
-struct NeedsWhole {
+struct TakesWhole {
     std::string why;
 };
 
@@ -126,7 +126,7 @@ SampleResult sample_ranged(const SampleJob& job, MeshInput& mesh, Session& sessi
         params.min_distance = min_distance;
         const auto frame = surface.frame(params);
         if (!frame && frame.error().status == Status::mesh_rejected) {
-            throw NeedsWhole{frame.error().message};
+            throw TakesWhole{frame.error().message};
         }
         triangle.emplace(surface, job, params);
         const double room = expected_count(mesh.effective_area(params), min_distance);
@@ -201,7 +201,7 @@ bool sample_ranges_to_files(const SampleOptions& options, std::uint32_t parts, S
                 write_sample_file(file, job, mesh, result, report);
             }
         });
-    } catch (const NeedsWhole& needs) {
+    } catch (const TakesWhole& needs) {
         session.forget_ranges();
         print_note(job, needs.why);
         return false;

@@ -15,7 +15,7 @@
 namespace geodisk::tools {
 namespace {
 
-constexpr const char* kExamples[] = {
+constexpr const char* kMpiSampleExamples[] = {
     "mpirun -n 4 geodisk_mpi sample bunny.obj -o points.ply --count 10000",
     "mpirun -n 4 geodisk_mpi sample bunny.obj -o points.csv --min-distance 1% --json report.json",
     "mpirun -n 4 geodisk_mpi sample bunny.obj -o points.ply -d 0.1% --checkpoint saved --resume",
@@ -69,7 +69,7 @@ void add_shared_sample_command(Command app, Session& session) {
     const auto options = std::make_shared<SampleOptions>();
     add_mesh_argument(command, options->mesh, "Mesh to sample");
     add_sample_options(command, *options);
-    command.has_footer(help_footer(kExamples));
+    command.has_footer(help_footer(kMpiSampleExamples));
     const auto checkpoints = std::make_shared<CheckpointOptions>();
     add_checkpoint_options(command, *checkpoints);
     const auto parts = std::make_shared<std::uint32_t>(0);

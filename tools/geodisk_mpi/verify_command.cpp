@@ -11,7 +11,7 @@
 namespace geodisk::tools {
 namespace {
 
-constexpr const char* kExamples[] = {
+constexpr const char* kMpiVerifyExamples[] = {
     "mpirun -n 4 geodisk_mpi verify bunny.obj points.csv",
     "mpirun -n 4 geodisk_mpi verify bunny.obj points.csv --json report.json",
 };
@@ -23,7 +23,7 @@ void add_shared_verify_command(Command app, Session& session) {
         "verify", "Check the distances of samples, by all processes (exact, CPU only)");
     const auto options = std::make_shared<VerifyOptions>();
     add_verify_options(command, *options);
-    command.has_footer(help_footer(kExamples));
+    command.has_footer(help_footer(kMpiVerifyExamples));
     command.calls([options, &session] {
         if (options->samples.empty()) {
             fail_usage("SAMPLES is required; check samples in a box with geodisk verify");
