@@ -120,7 +120,7 @@ class GroupDetector : public Windows<Real, kMayVary> {
             items_.push_back(item);
             around += surface_.edges[e].length;
         }
-        // Of a face of about no size waves would not end.
+        // Waves on a face of about no size would not end.
         step_ = std::max(around * static_cast<Real>(0.33333334f), slack_);
     }
 

@@ -317,7 +317,7 @@ void begin_disk(uint slot) {
     precise float around = uintBitsToFloat(lengths.x) + uintBitsToFloat(lengths.y) +
                            uintBitsToFloat(lengths.z);
     precise float third = around * 0.33333334 * scale_of(uintBitsToFloat(slots[slot].turn));
-    float step = max(third, job.slack); // Of a face of about no size waves would not end.
+    float step = max(third, job.slack); // Waves on a face of about no size would not end.
     group.slot = slot;
     group.phase = kGroupSource;
     group.items = 3u;

@@ -103,7 +103,7 @@ void cut_edge(TestMesh& mesh, std::uint32_t face, std::uint32_t k, const Choose&
     }
 }
 
-/// Whether corners of a face are at one place.
+/// Returns true if corners of a face are at one place.
 bool has_two_corners(const TestMesh& mesh, std::uint32_t face) {
     const auto is_short = [&](std::uint32_t k) {
         return mesh.corner(face, k) == mesh.corner(face, (k + 1) % 3);

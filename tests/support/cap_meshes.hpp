@@ -12,7 +12,7 @@ namespace geodisk::test {
 /// Returns a number below its argument, which is at most 256.
 using Choose = std::function<std::uint32_t(std::uint32_t)>;
 
-/// Of up to 30 faces, in about the unit cube.
+/// Up to 30 faces, in about the unit cube.
 TestMesh cap_mesh(const Choose& choose);
 
 /// A point of a face that has three corners at different places; often on an edge or a corner.

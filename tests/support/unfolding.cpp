@@ -60,7 +60,7 @@ class Unfolding::Search {
         return sum;
     }
 
-    /// Whether a straight line to p crosses all edges of the sequence, one after the other.
+    /// Returns true if a straight line to p crosses all edges of the sequence, one after the other.
     bool is_lit(Plane p) const {
         const Number rounding = surface_.beside_, way = length(p);
         const Plane to_p = way > 0 ? Plane{p.x / way, p.y / way} : Plane{1, 0};
@@ -94,7 +94,7 @@ class Unfolding::Search {
         }
     }
 
-    /// Whether a part of the edge may be lit.
+    /// Returns true if a part of the edge may be lit.
     bool is_lit(const Window& w) const {
         const Number scale = std::max({length(w.at_a), length(w.at_b), w.length});
         Number low = 0, high = w.length;
@@ -199,7 +199,7 @@ class Unfolding::Search {
               {1, 0}});
     }
 
-    /// Whether the nearest point of the edge may be of use.
+    /// Returns true if the nearest point of the edge may be of use.
     bool in_reach(const Window& w) const {
         const Number foot = -(w.at_a.x * w.to_b.x + w.at_a.y * w.to_b.y);
         const Number along = std::clamp(foot, Number{0}, w.length);

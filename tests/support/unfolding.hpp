@@ -38,7 +38,7 @@ class Unfolding {
         Number length, along, back, off;
     };
 
-    /// Whether the face takes part: none that names a vertex twice does.
+    /// Returns true unless the face names a vertex twice.
     bool takes_part(std::uint32_t face) const;
     std::uint32_t corner(std::uint32_t face, std::uint32_t k) const {
         return mesh_.triangles[std::size_t{3} * face + k % 3];
