@@ -15,7 +15,7 @@
 namespace geodisk::test {
 namespace {
 
-std::string refusal(const geodisk_mesh* mesh, const std::vector<geodisk_surface_point>& samples,
+std::string farthest_refusal(const geodisk_mesh* mesh, const std::vector<geodisk_surface_point>& samples,
                     std::uint32_t count, geodisk_farthest_info* info = nullptr,
                     geodisk_progress_fn progress = nullptr) {
     std::vector<std::uint32_t> order(samples.size() + 1, 77);
@@ -60,12 +60,12 @@ TEST_CASE("a farthest-point order is that of C++") {
 TEST_CASE("orders that cannot be are refused") {
     const auto mesh = mesh_of(builtin("cube", 2));
     const std::vector<geodisk_surface_point> points{{0, {1, 0, 0}}, {7, {0, 1, 0}}};
-    CHECK(refusal(mesh.get(), points, 3) == "there are 2 samples, fewer than 3 to choose");
-    CHECK(refusal(mesh.get(), {}, 0) == "there is no sample to put in order");
-    CHECK(refusal(nullptr, points, 0) == "mesh or order is NULL");
+    CHECK(farthest_refusal(mesh.get(), points, 3) == "there are 2 samples, fewer than 3 to choose");
+    CHECK(farthest_refusal(mesh.get(), {}, 0) == "there is no sample to put in order");
+    CHECK(farthest_refusal(nullptr, points, 0) == "mesh or order is NULL");
     geodisk_farthest_info info{};
-    CHECK(refusal(mesh.get(), points, 0, &info) == "info->struct_size is not its size");
-    CHECK(refusal(mesh.get(), points, 0, nullptr,
+    CHECK(farthest_refusal(mesh.get(), points, 0, &info) == "info->struct_size is not its size");
+    CHECK(farthest_refusal(mesh.get(), points, 0, nullptr,
                   [](void*, const geodisk_progress*) { return 1; }) == "cancelled");
     geodisk_error error{};
     error.struct_size = sizeof error;

@@ -14,7 +14,7 @@ namespace {
 
 constexpr const char* kVerifiedMesh = "builtin:torus-knot:8";
 
-tools::SampleFile make_samples(const TemporaryFolder& folder) {
+tools::SampleFile make_checked_samples(const TemporaryFolder& folder) {
     const Outcome made = run(folder, {"sample", kVerifiedMesh, "-o", "a.ply", "-n", "400"});
     REQUIRE(made.status == 0);
     tools::SampleFile samples = tools::read_samples(folder / "a.ply");
@@ -59,7 +59,7 @@ TEST_CASE("meshes of every kind pass") {
 
 TEST_CASE("a sample moved onto another one is found") {
     const TemporaryFolder folder;
-    tools::SampleFile samples = make_samples(folder);
+    tools::SampleFile samples = make_checked_samples(folder);
     samples.rows[7] = samples.rows[42];
     write_back(folder, samples);
     const Outcome outcome = run(folder, {"verify", kVerifiedMesh, "b.csv"});
@@ -72,7 +72,7 @@ TEST_CASE("a sample moved onto another one is found") {
 
 TEST_CASE("a larger distance is violated by many pairs, each counted once") {
     const TemporaryFolder folder;
-    const std::size_t n = make_samples(folder).rows.size();
+    const std::size_t n = make_checked_samples(folder).rows.size();
     const Outcome outcome =
         run(folder, {"verify", kVerifiedMesh, "a.ply", "--min-distance", "1000"});
     CHECK(outcome.status == 1);
@@ -83,7 +83,7 @@ TEST_CASE("a larger distance is violated by many pairs, each counted once") {
 
 TEST_CASE("a distance beyond all proportion to the mesh finds the same closest pair") {
     const TemporaryFolder folder;
-    make_samples(folder);
+    make_checked_samples(folder);
     nlohmann::json smallest;
     for (const char* const distance : {"1000", "1e12", "1e300"}) {
         const Outcome outcome =
@@ -98,7 +98,7 @@ TEST_CASE("a distance beyond all proportion to the mesh finds the same closest p
 
 TEST_CASE("the report has pairs and samples, whatever the exit status") {
     const TemporaryFolder folder;
-    tools::SampleFile samples = make_samples(folder);
+    tools::SampleFile samples = make_checked_samples(folder);
     const auto report = [&](int status, const std::vector<std::string>& arguments) {
         const Outcome outcome = run(folder, arguments);
         CHECK(outcome.status == status);
@@ -137,7 +137,7 @@ TEST_CASE("the report has pairs and samples, whatever the exit status") {
 
 TEST_CASE("a distance that nobody comes near is bounded") {
     const TemporaryFolder folder;
-    make_samples(folder);
+    make_checked_samples(folder);
     for (const char* const distance : {"1e-3", "1e-12", "1e-300"}) {
         const Outcome outcome = run(folder, {"verify", kVerifiedMesh, "a.ply", "-d", distance});
         INFO(outcome.out, outcome.err);
@@ -148,7 +148,7 @@ TEST_CASE("a distance that nobody comes near is bounded") {
 
 TEST_CASE("positions off the mesh are found") {
     const TemporaryFolder folder;
-    tools::SampleFile samples = make_samples(folder);
+    tools::SampleFile samples = make_checked_samples(folder);
     samples.rows[3].position[1] += 0.01;
     write_back(folder, samples);
     const Outcome outcome = run(folder, {"verify", kVerifiedMesh, "b.csv"});
@@ -161,7 +161,7 @@ TEST_CASE("positions off the mesh are found") {
 
 TEST_CASE("rows that are not on the mesh at all are malformed") {
     const TemporaryFolder folder;
-    const tools::SampleFile good = make_samples(folder);
+    const tools::SampleFile good = make_checked_samples(folder);
     tools::SampleFile bad = good;
     bad.rows[5].face = 100000;
     write_back(folder, bad);
@@ -179,7 +179,7 @@ TEST_CASE("rows that are not on the mesh at all are malformed") {
 
 TEST_CASE("points of other programs are put on the nearest face") {
     const TemporaryFolder folder;
-    make_samples(folder);
+    make_checked_samples(folder);
     REQUIRE(run(folder, {"shapes", "cube", "-o", "cube.ply"}).status == 0);
     folder.write("points.csv", "x,y,z\n-0.25,-0.25,-0.4999999\n-0.5000002,0.25,0.25\n"
                                "0,0.5,0\n");
@@ -215,7 +215,7 @@ TEST_CASE("points of other programs are put on the nearest face") {
 
 TEST_CASE("the distance comes from the option or the header") {
     const TemporaryFolder folder;
-    tools::SampleFile samples = make_samples(folder);
+    tools::SampleFile samples = make_checked_samples(folder);
     samples.header.entries.clear();
     write_back(folder, samples);
     CHECK(run(folder, {"verify", kVerifiedMesh, "b.csv", "--min-distance", "0.1%"}).status == 0);

@@ -20,8 +20,8 @@ namespace {
 // Of the functions below, which carry no user pointer.
 PFN_vkGetInstanceProcAddr real_driver = nullptr;
 PFN_vkSetDebugUtilsObjectNameEXT set_name = nullptr;
-PFN_vkCmdBeginDebugUtilsLabelEXT begin = nullptr;
-PFN_vkCmdEndDebugUtilsLabelEXT end = nullptr;
+PFN_vkCmdBeginDebugUtilsLabelEXT begin_label = nullptr;
+PFN_vkCmdEndDebugUtilsLabelEXT end_label = nullptr;
 bool has_labels = true;
 std::multiset<std::string> names;
 std::vector<std::string> labels;
@@ -36,12 +36,12 @@ VKAPI_ATTR VkResult VKAPI_CALL note_name(VkDevice device,
 VKAPI_ATTR void VKAPI_CALL note_begin(VkCommandBuffer commands, const VkDebugUtilsLabelEXT* label) {
     CHECK(open_labels++ == 0);
     labels.push_back(label->pLabelName);
-    begin(commands, label);
+    begin_label(commands, label);
 }
 
 VKAPI_ATTR void VKAPI_CALL note_end(VkCommandBuffer commands) {
     CHECK(open_labels-- == 1);
-    end(commands);
+    end_label(commands);
 }
 
 VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL watched(VkInstance instance, const char* name) {
@@ -51,11 +51,11 @@ VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL watched(VkInstance instance, const char
         return reinterpret_cast<PFN_vkVoidFunction>(note_name);
     }
     if (std::strcmp(name, "vkCmdBeginDebugUtilsLabelEXT") == 0) {
-        begin = reinterpret_cast<PFN_vkCmdBeginDebugUtilsLabelEXT>(function);
+        begin_label = reinterpret_cast<PFN_vkCmdBeginDebugUtilsLabelEXT>(function);
         return has_labels ? reinterpret_cast<PFN_vkVoidFunction>(note_begin) : nullptr;
     }
     if (std::strcmp(name, "vkCmdEndDebugUtilsLabelEXT") == 0) {
-        end = reinterpret_cast<PFN_vkCmdEndDebugUtilsLabelEXT>(function);
+        end_label = reinterpret_cast<PFN_vkCmdEndDebugUtilsLabelEXT>(function);
         return reinterpret_cast<PFN_vkVoidFunction>(note_end);
     }
     return function;

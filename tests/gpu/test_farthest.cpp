@@ -94,7 +94,7 @@ TestMesh twice(const TestMesh& mesh, double apart) {
     return both;
 }
 
-Error refusal(const PreparedMesh& mesh, std::span<const Sample> samples, std::uint32_t count = 0,
+Error farthest_refusal(const PreparedMesh& mesh, std::span<const Sample> samples, std::uint32_t count = 0,
               const ProgressCallback& progress = {}) {
     auto order = farthest_order(farthest_runner(), mesh, samples, count, progress);
     REQUIRE_FALSE(order);
@@ -206,7 +206,7 @@ TEST_SUITE("farthest") {
         };
         CHECK(farthest_order(farthest_runner(), mesh, samples, 30, heard));
         CHECK(last > 20);
-        const Error error = refusal(mesh, samples, 0, [](const Progress&) { return false; });
+        const Error error = farthest_refusal(mesh, samples, 0, [](const Progress&) { return false; });
         CHECK(error.status == Status::cancelled);
     }
 
@@ -266,11 +266,11 @@ TEST_SUITE("farthest") {
     TEST_CASE("what is no sample is refused") {
         const PreparedMesh cube = prepared(builtin("cube", 2));
         std::vector<Sample> samples = samples_on(cube, 3, 3);
-        CHECK(refusal(cube, {}).message == "there is no sample to put in order");
-        CHECK(refusal(cube, samples, 4).message == "there are 3 samples, fewer than 4 to choose");
+        CHECK(farthest_refusal(cube, {}).message == "there is no sample to put in order");
+        CHECK(farthest_refusal(cube, samples, 4).message == "there are 3 samples, fewer than 4 to choose");
         samples[1].face = 48;
-        CHECK(refusal(cube, samples).message == "sample 1 is in face 48, but there are 48");
-        CHECK(refusal(cube, samples).status == Status::invalid_argument);
+        CHECK(farthest_refusal(cube, samples).message == "sample 1 is in face 48, but there are 48");
+        CHECK(farthest_refusal(cube, samples).status == Status::invalid_argument);
     }
 }
 

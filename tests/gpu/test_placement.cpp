@@ -49,14 +49,14 @@ std::vector<std::byte> bytes_of(const std::vector<T>& array) {
 }
 
 /// A run to its end, and a caller who draws its samples.
-struct Scene {
+struct DrawnScene {
     Domain domain;
     DeviceRun run;
     DeviceBuffer vertices, indices, placed, arguments;
     PlacementSource source;
     PlacementTarget target;
 
-    Scene(Domain of, const std::vector<Vertex>& vertex_array, const std::vector<std::byte>& index,
+    DrawnScene(Domain of, const std::vector<Vertex>& vertex_array, const std::vector<std::byte>& index,
           const SamplerOptions& options = {})
         : domain(std::move(of)), run(domain, {}, options) {
         const auto vertex_bytes = bytes_of(vertex_array);
@@ -151,7 +151,7 @@ TEST_SUITE("placement") {
         const SampleParams params = params_for(surface, 300);
         const auto vertices = placed_vertices(mesh);
         const auto indices = bytes_of(mesh.triangles);
-        Scene scene(expect(Domain::surface(surface, params)), vertices, indices);
+        DrawnScene scene(expect(Domain::surface(surface, params)), vertices, indices);
         scene.decide();
         const auto points = scene.points();
         CHECK(points.size() == float_set(surface, params, scene.run.plan().error_bound).size());
@@ -165,7 +165,7 @@ TEST_SUITE("placement") {
         SUBCASE("whatever rounds") {
             SamplerOptions options;
             options.rounding = Rounding::emulated;
-            Scene other(expect(Domain::surface(surface, params)), vertices, indices, options);
+            DrawnScene other(expect(Domain::surface(surface, params)), vertices, indices, options);
             other.decide();
             other.source.normal = offsetof(Vertex, normal);
             const auto same = other.points();
@@ -176,7 +176,7 @@ TEST_SUITE("placement") {
             std::vector<std::uint16_t> short_indices(mesh.triangles.begin(), mesh.triangles.end());
             SamplerOptions options;
             options.tuning.reads = Reads::storage;
-            Scene other(expect(Domain::surface(surface, params)), vertices, bytes_of(short_indices),
+            DrawnScene other(expect(Domain::surface(surface, params)), vertices, bytes_of(short_indices),
                         options);
             other.source.index_bytes = 2;
             other.source.normal = offsetof(Vertex, normal);
@@ -190,7 +190,7 @@ TEST_SUITE("placement") {
     TEST_CASE("what is in order so far is placed after every finish") {
         const TestMesh mesh = builtin("icosphere", 3);
         const PreparedMesh surface = prepared(mesh);
-        Scene scene(expect(Domain::surface(surface, params_for(surface, 200))),
+        DrawnScene scene(expect(Domain::surface(surface, params_for(surface, 200))),
                     placed_vertices(mesh), bytes_of(mesh.triangles));
         scene.run.begin();
         std::size_t before = 0;
@@ -210,7 +210,7 @@ TEST_SUITE("placement") {
         const PreparedMesh surface = prepared(mesh);
         const RadiusField radii = radius_field(surface, wavy_factors(mesh, 0.2));
         const SampleParams params = params_for(surface, 300, 1, &radii);
-        Scene scene(expect(Domain::surface(surface, params)), placed_vertices(mesh),
+        DrawnScene scene(expect(Domain::surface(surface, params)), placed_vertices(mesh),
                     bytes_of(mesh.triangles));
         scene.decide();
         const auto points = scene.points();
@@ -231,7 +231,7 @@ TEST_SUITE("placement") {
         // An instance names the same vertices again.
         std::vector<std::uint32_t> indices = mesh.triangles;
         indices.insert(indices.end(), mesh.triangles.begin(), mesh.triangles.end());
-        Scene scene(expect(Domain::surfaces(parts)), placed_vertices(mesh), bytes_of(indices));
+        DrawnScene scene(expect(Domain::surfaces(parts)), placed_vertices(mesh), bytes_of(indices));
         scene.decide();
         for (const SurfacePart& part : parts) {
             const auto index = static_cast<std::uint32_t>(&part - parts);
@@ -253,7 +253,7 @@ TEST_SUITE("placement") {
         const TestMesh mesh = builtin("icosphere", 1);
         const PreparedMesh surface = prepared(mesh);
         const SampleParams params = params_for(surface, 30);
-        Scene scene(expect(Domain::surface(surface, params)), placed_vertices(mesh),
+        DrawnScene scene(expect(Domain::surface(surface, params)), placed_vertices(mesh),
                     bytes_of(mesh.triangles));
         const auto source = scene.source;
         const auto target = scene.target;

@@ -51,7 +51,7 @@ SampleParams with_pool(SampleParams params, double ratio) {
     return params;
 }
 
-std::string refusal(const std::vector<SurfacePart>& parts) {
+std::string surfaces_refusal(const std::vector<SurfacePart>& parts) {
     const auto domain = Domain::surfaces(parts);
     REQUIRE_FALSE(domain);
     CHECK(domain.error().status == Status::invalid_argument);
@@ -152,7 +152,7 @@ TEST_SUITE("several") {
                           {&knot, params_for(knot, 100, 3, &of_knot), 0.5},
                           {&knot, params_for(knot, 200, 4, &density)}});
         const std::string message =
-            refusal({{&knot, params_for(knot, 300, 1, &of_knot)}, {&knot, params_for(knot, 300)}});
+            surfaces_refusal({{&knot, params_for(knot, 300, 1, &of_knot)}, {&knot, params_for(knot, 300)}});
         CHECK(message == "surface 1: some surfaces have radii that vary, others have not");
     }
 
@@ -220,15 +220,15 @@ TEST_SUITE("several") {
     TEST_CASE("what cannot be is refused, by the part") {
         const PreparedMesh ball = prepared(builtin("icosphere", 2));
         const SampleParams good = params_for(ball, 50);
-        CHECK(refusal({}) == "there are no surfaces");
-        CHECK(refusal({{&ball, good}, {nullptr, good}}) == "surface 1: there is no mesh");
+        CHECK(surfaces_refusal({}) == "there are no surfaces");
+        CHECK(surfaces_refusal({{&ball, good}, {nullptr, good}}) == "surface 1: there is no mesh");
         SampleParams bad = good;
         bad.min_distance = -1;
-        CHECK(refusal({{&ball, good}, {&ball, good}, {&ball, bad}}) ==
+        CHECK(surfaces_refusal({{&ball, good}, {&ball, good}, {&ball, bad}}) ==
               "surface 2: the minimum distance must be a positive finite number");
         for (const double scale : {0.0, -1.0, std::numeric_limits<double>::infinity(),
                                    std::numeric_limits<double>::quiet_NaN()}) {
-            CHECK(refusal({{&ball, good, scale}}) ==
+            CHECK(surfaces_refusal({{&ball, good, scale}}) ==
                   "surface 0: the scale must be a positive finite number");
         }
         SampleParams thrown = good;
@@ -236,11 +236,11 @@ TEST_SUITE("several") {
         SampleParams stopped = good;
         stopped.stop_count = 10;
         for (const SampleParams& counted : {thrown, stopped}) {
-            CHECK(refusal({{&ball, good}, {&ball, counted}}) ==
+            CHECK(surfaces_refusal({{&ball, good}, {&ball, counted}}) ==
                   "surface 1: of several surfaces, darts and samples are not counted");
         }
         const std::string cells =
-            refusal({{&ball, good}, {&ball, with_pool(params_for(ball, 3e8), 1)}});
+            surfaces_refusal({{&ball, good}, {&ball, with_pool(params_for(ball, 3e8), 1)}});
         CHECK(cells.starts_with("surface 1: the minimum distance is too small: face "));
         CHECK(cells.ends_with(" or with those before it takes more than 2^30 grid cells"));
     }

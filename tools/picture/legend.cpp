@@ -23,7 +23,7 @@ constexpr double kUsualSide = 1440;
 /// Of the picture's height, what the strip takes at most, and where words are left out.
 constexpr double kMostHeight = 0.25, kMostShortHeight = 0.5;
 /// All in ems.
-constexpr double kMargin = 1, kGap = 2, kAbove = 0.2, kBarHeight = 0.7, kBelowBar = 0.15;
+constexpr double kLegendMargin = 1, kGap = 2, kAbove = 0.2, kBarHeight = 0.7, kBelowBar = 0.15;
 constexpr double kRow = 2.8, kTextRow = 1.6; // Of rows with bars, and with text alone.
 constexpr double kLineHeight = 0.14;
 /// Where the scale of distances ends, and that of places with room for a sample begins, in radii.
@@ -173,7 +173,7 @@ bool Legend::lay_out(const LegendFacts& facts, double em, bool is_short, std::ui
     } else if (facts.style == Style::density) {
         add(Kind::density, is_short ? "" : "samples per unit of area");
     }
-    const double margin = kMargin * em, right = width - margin;
+    const double margin = kLegendMargin * em, right = width - margin;
     double y = kAbove * em;
     bool fits = true;
     for (auto first = items_.begin(); first != items_.end();) {

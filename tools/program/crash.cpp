@@ -23,7 +23,7 @@ namespace geodisk::tools {
 #ifdef __linux__
 namespace {
 
-const char* program_name = "";
+const char* crashed_program = "";
 std::array<const void*, 2> own_bases{}; // Of the program and of the library geodisk.
 volatile std::sig_atomic_t is_crashing = 0;
 volatile std::sig_atomic_t is_exit_expected = 0;
@@ -78,7 +78,7 @@ Place crash_place(int skipped) {
     remove_noted_temporaries();
     char line[256];
     const int length = std::snprintf(
-        line, sizeof line, "%s: %s in %s%s\n", program_name, event,
+        line, sizeof line, "%s: %s in %s%s\n", crashed_program, event,
         place.library[0] != '\0' ? place.library : "code that was compiled at run time",
         place.is_ours ? ", a bug of geodisk: please report it"
                       : ", not in geodisk: the Vulkan driver or what it uses; it may lack memory");
@@ -113,7 +113,7 @@ void on_exit_call() {
 } // namespace
 
 void install_crash_handlers(const char* program) {
-    program_name = program;
+    crashed_program = program;
     own_bases = {base_of(&expect_exit),
                  base_of(static_cast<double (*)(double, double)>(&expected_count))};
     std::array<void*, 1> warm;

@@ -19,7 +19,7 @@ namespace {
 std::atomic<int> received_signal = 0;
 std::atomic<int> uninterrupted = 0; ///< How many threads must not be ended.
 static_assert(std::atomic<int>::is_always_lock_free);
-std::atomic<const char*> program_name = nullptr; ///< Null until handlers are installed.
+std::atomic<const char*> interrupted_program = nullptr; ///< Null until handlers are installed.
 
 const char* what_happened(int signal) {
     switch (signal) {
@@ -57,7 +57,7 @@ void write_error(const char* text) {
         write_error("\r                                        "
                     "                                       \r");
     }
-    write_error(program_name);
+    write_error(interrupted_program);
     write_error(": ");
     write_error(what_happened(received_signal));
     write_error("\n");
@@ -80,7 +80,7 @@ extern "C" void on_signal(int signal) {
 } // namespace
 
 void install_signal_handlers(const char* program) {
-    program_name = program;
+    interrupted_program = program;
 #ifdef _WIN32
     std::signal(SIGINT, on_signal);
     std::signal(SIGTERM, on_signal);
@@ -101,7 +101,7 @@ void install_signal_handlers(const char* program) {
 }
 
 bool handle_signal(int signal) {
-    if (program_name == nullptr) {
+    if (interrupted_program == nullptr) {
         return false;
     }
     on_signal(signal);

@@ -27,7 +27,7 @@ constexpr double kPartOfEdge = 1e-2;
 constexpr double kPartOfDiagonal = 1e-4;
 
 /// Allows for the rounding in weld().
-constexpr double kRounding = 1 + 1e-9;
+constexpr double kGapRounding = 1 + 1e-9;
 
 /// Minimum epsilon of weld() with some room, relative to the longest side of the mesh.
 constexpr double kLeastEpsilon = 0x1p-42;
@@ -326,7 +326,7 @@ Result<NearSeams> find_near_seams(const MeshView& mesh, const ThreadOptions& thr
         seams.edges = gaps.edges;
         seams.gap = gaps.largest;
         if (seams.edges > 0) {
-            const double gap = kRounding * seams.gap;
+            const double gap = kGapRounding * seams.gap;
             const double least = kLeastEpsilon * longest_side_of(mesh);
             if (auto chosen = choose_epsilon(mesh, std::max(gap, least), seams); !chosen) {
                 return chosen.error();

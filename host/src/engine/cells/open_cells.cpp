@@ -10,7 +10,7 @@
 namespace geodisk {
 namespace {
 
-constexpr std::size_t kFacesPerPart = 512;
+constexpr std::size_t kFacesPerSearch = 512;
 // Part of a radius by which the rim is known. Smaller parts are not split.
 constexpr double kRim = 1.0 / 32;
 // More than the rounding of radii.
@@ -69,12 +69,12 @@ void RimSearch::search(const GapCell& cell, NearLights::Range lights) {
 std::vector<std::uint8_t> open_cells(const PreparedMesh& mesh, const LitFaces& lit,
                                      std::span<const double> radii, const Closeness& closeness,
                                      const ThreadOptions& threads) {
-    const std::size_t parts = (mesh.face_count() + kFacesPerPart - 1) / kFacesPerPart;
+    const std::size_t parts = (mesh.face_count() + kFacesPerSearch - 1) / kFacesPerSearch;
     std::vector<Samples> found(parts);
     for_parts(threads, parts, [&](std::size_t part) {
         RimSearch search(lit, radii, closeness, found[part]);
-        const std::size_t first = part * kFacesPerPart;
-        const std::size_t end = std::min<std::size_t>(first + kFacesPerPart, mesh.face_count());
+        const std::size_t first = part * kFacesPerSearch;
+        const std::size_t end = std::min<std::size_t>(first + kFacesPerSearch, mesh.face_count());
         for (std::size_t face = first; face < end; ++face) {
             if (has_area(mesh, static_cast<std::uint32_t>(face))) {
                 search.search(static_cast<std::uint32_t>(face));
