@@ -15,9 +15,10 @@
 namespace geodisk::test {
 namespace {
 
-std::string farthest_refusal(const geodisk_mesh* mesh, const std::vector<geodisk_surface_point>& samples,
-                    std::uint32_t count, geodisk_farthest_info* info = nullptr,
-                    geodisk_progress_fn progress = nullptr) {
+std::string farthest_refusal(const geodisk_mesh* mesh,
+                             const std::vector<geodisk_surface_point>& samples, std::uint32_t count,
+                             geodisk_farthest_info* info = nullptr,
+                             geodisk_progress_fn progress = nullptr) {
     std::vector<std::uint32_t> order(samples.size() + 1, 77);
     geodisk_error error{};
     error.struct_size = sizeof error;
@@ -66,7 +67,7 @@ TEST_CASE("orders that cannot be are refused") {
     geodisk_farthest_info info{};
     CHECK(farthest_refusal(mesh.get(), points, 0, &info) == "info->struct_size is not its size");
     CHECK(farthest_refusal(mesh.get(), points, 0, nullptr,
-                  [](void*, const geodisk_progress*) { return 1; }) == "cancelled");
+                           [](void*, const geodisk_progress*) { return 1; }) == "cancelled");
     geodisk_error error{};
     error.struct_size = sizeof error;
     std::uint32_t order[2];

@@ -94,8 +94,8 @@ TestMesh twice(const TestMesh& mesh, double apart) {
     return both;
 }
 
-Error farthest_refusal(const PreparedMesh& mesh, std::span<const Sample> samples, std::uint32_t count = 0,
-              const ProgressCallback& progress = {}) {
+Error farthest_refusal(const PreparedMesh& mesh, std::span<const Sample> samples,
+                       std::uint32_t count = 0, const ProgressCallback& progress = {}) {
     auto order = farthest_order(farthest_runner(), mesh, samples, count, progress);
     REQUIRE_FALSE(order);
     return order.error();
@@ -206,7 +206,8 @@ TEST_SUITE("farthest") {
         };
         CHECK(farthest_order(farthest_runner(), mesh, samples, 30, heard));
         CHECK(last > 20);
-        const Error error = farthest_refusal(mesh, samples, 0, [](const Progress&) { return false; });
+        const Error error =
+            farthest_refusal(mesh, samples, 0, [](const Progress&) { return false; });
         CHECK(error.status == Status::cancelled);
     }
 
@@ -267,9 +268,11 @@ TEST_SUITE("farthest") {
         const PreparedMesh cube = prepared(builtin("cube", 2));
         std::vector<Sample> samples = samples_on(cube, 3, 3);
         CHECK(farthest_refusal(cube, {}).message == "there is no sample to put in order");
-        CHECK(farthest_refusal(cube, samples, 4).message == "there are 3 samples, fewer than 4 to choose");
+        CHECK(farthest_refusal(cube, samples, 4).message ==
+              "there are 3 samples, fewer than 4 to choose");
         samples[1].face = 48;
-        CHECK(farthest_refusal(cube, samples).message == "sample 1 is in face 48, but there are 48");
+        CHECK(farthest_refusal(cube, samples).message ==
+              "sample 1 is in face 48, but there are 48");
         CHECK(farthest_refusal(cube, samples).status == Status::invalid_argument);
     }
 }

@@ -56,8 +56,8 @@ struct DrawnScene {
     PlacementSource source;
     PlacementTarget target;
 
-    DrawnScene(Domain of, const std::vector<Vertex>& vertex_array, const std::vector<std::byte>& index,
-          const SamplerOptions& options = {})
+    DrawnScene(Domain of, const std::vector<Vertex>& vertex_array,
+               const std::vector<std::byte>& index, const SamplerOptions& options = {})
         : domain(std::move(of)), run(domain, {}, options) {
         const auto vertex_bytes = bytes_of(vertex_array);
         vertices = run.make_buffer(vertex_bytes.size());
@@ -176,8 +176,8 @@ TEST_SUITE("placement") {
             std::vector<std::uint16_t> short_indices(mesh.triangles.begin(), mesh.triangles.end());
             SamplerOptions options;
             options.tuning.reads = Reads::storage;
-            DrawnScene other(expect(Domain::surface(surface, params)), vertices, bytes_of(short_indices),
-                        options);
+            DrawnScene other(expect(Domain::surface(surface, params)), vertices,
+                             bytes_of(short_indices), options);
             other.source.index_bytes = 2;
             other.source.normal = offsetof(Vertex, normal);
             other.decide();
@@ -191,7 +191,7 @@ TEST_SUITE("placement") {
         const TestMesh mesh = builtin("icosphere", 3);
         const PreparedMesh surface = prepared(mesh);
         DrawnScene scene(expect(Domain::surface(surface, params_for(surface, 200))),
-                    placed_vertices(mesh), bytes_of(mesh.triangles));
+                         placed_vertices(mesh), bytes_of(mesh.triangles));
         scene.run.begin();
         std::size_t before = 0;
         for (bool is_left = true; is_left;) {
@@ -211,7 +211,7 @@ TEST_SUITE("placement") {
         const RadiusField radii = radius_field(surface, wavy_factors(mesh, 0.2));
         const SampleParams params = params_for(surface, 300, 1, &radii);
         DrawnScene scene(expect(Domain::surface(surface, params)), placed_vertices(mesh),
-                    bytes_of(mesh.triangles));
+                         bytes_of(mesh.triangles));
         scene.decide();
         const auto points = scene.points();
         check_points(points, scene.run, mesh, placed_vertices(mesh), false);
@@ -254,7 +254,7 @@ TEST_SUITE("placement") {
         const PreparedMesh surface = prepared(mesh);
         const SampleParams params = params_for(surface, 30);
         DrawnScene scene(expect(Domain::surface(surface, params)), placed_vertices(mesh),
-                    bytes_of(mesh.triangles));
+                         bytes_of(mesh.triangles));
         const auto source = scene.source;
         const auto target = scene.target;
         scene.source.vertices.buffer = VK_NULL_HANDLE;

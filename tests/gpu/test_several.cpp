@@ -151,8 +151,8 @@ TEST_SUITE("several") {
                           {&terrain, params_for(terrain, 500, 2, &of_terrain)},
                           {&knot, params_for(knot, 100, 3, &of_knot), 0.5},
                           {&knot, params_for(knot, 200, 4, &density)}});
-        const std::string message =
-            surfaces_refusal({{&knot, params_for(knot, 300, 1, &of_knot)}, {&knot, params_for(knot, 300)}});
+        const std::string message = surfaces_refusal(
+            {{&knot, params_for(knot, 300, 1, &of_knot)}, {&knot, params_for(knot, 300)}});
         CHECK(message == "surface 1: some surfaces have radii that vary, others have not");
     }
 
