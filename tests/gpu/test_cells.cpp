@@ -251,6 +251,29 @@ std::vector<Triangle> plane_triangles(const std::vector<Vec3>& at) {
     return triangles;
 }
 
+/// Checks cells in a mesh of the unit square against polygons, and the triangulation of the plane.
+void check_plane(const TestMesh& square) {
+    const PreparedMesh mesh = prepared(square);
+    const std::vector<Point> samples = random_points(mesh, 5, 40);
+    std::vector<Vec3> at;
+    for (const Point& sample : samples) {
+        at.push_back(square.position(sample));
+    }
+    const SurfaceCells cells = cells_of(mesh, samples_at(samples));
+    for (std::size_t i = 0; i < at.size(); ++i) {
+        Polygon polygon;
+        for (std::size_t j = 0; j < at.size(); ++j) {
+            if (i != j) {
+                polygon.keep_nearer(at[i], at[j]);
+            }
+        }
+        CHECK(std::abs(cells.areas[i] - polygon.area()) < 1e-4 / 40);
+    }
+    CHECK(cells.area_error < 0.01 / 40);
+    CHECK(sorted(cells.triangles) == sorted(plane_triangles(at)));
+    CHECK(cells.dual.euler == 1);
+}
+
 } // namespace
 
 TEST_SUITE("cells") {
@@ -296,26 +319,26 @@ TEST_SUITE("cells") {
     }
 
     TEST_CASE("are those of the plane") {
-        const TestMesh square = flat_irregular(6, 3);
-        const PreparedMesh mesh = prepared(square);
-        const std::vector<Point> samples = random_points(mesh, 5, 40);
-        std::vector<Vec3> at;
-        for (const Point& sample : samples) {
-            at.push_back(square.position(sample));
+        check_plane(flat_irregular(6, 3));
+    }
+
+    TEST_CASE("are those of the plane where it is cut into slivers") {
+        TestMesh strips;
+        constexpr std::uint32_t kStrips = 90;
+        for (std::uint32_t i = 0; i <= kStrips; ++i) {
+            const double x = static_cast<double>(i) / kStrips;
+            strips.add_vertex({x, 0, 0});
+            strips.add_vertex({x, 1, 0});
         }
-        const SurfaceCells cells = cells_of(mesh, samples_at(samples));
-        for (std::size_t i = 0; i < at.size(); ++i) {
-            Polygon polygon;
-            for (std::size_t j = 0; j < at.size(); ++j) {
-                if (i != j) {
-                    polygon.keep_nearer(at[i], at[j]);
-                }
-            }
-            CHECK(std::abs(cells.areas[i] - polygon.area()) < 1e-4 / 40);
+        for (std::uint32_t v = 0; v < 2 * kStrips; v += 2) {
+            strips.add_triangle(v, v + 2, v + 1);
+            strips.add_triangle(v + 2, v + 3, v + 1);
         }
-        CHECK(cells.area_error < 0.01 / 40);
-        CHECK(sorted(cells.triangles) == sorted(plane_triangles(at)));
-        CHECK(cells.dual.euler == 1);
+        check_plane(strips);
+    }
+
+    TEST_CASE("end on slivers around holes") {
+        check_areas(prepared(builtin("drilled-plate", 4)), 20);
     }
 
     TEST_CASE("give a torus where there are enough of them") {

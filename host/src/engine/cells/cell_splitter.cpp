@@ -11,6 +11,11 @@ namespace {
 // Cells of a face that are split, per light. Far fewer are needed but where samples are equally
 // near along lines that no linear function tells.
 constexpr std::uint64_t kSplitsPerLight = 1u << 14;
+// Halves of a sliver are no smaller, in parts of the unit of the frame and of the error.
+constexpr double kSmallestHalf = 0x1p-11;
+constexpr double kErrorsPerHalf = 8;
+// Shares are summed when there are more.
+constexpr std::size_t kManyShares = 1u << 16;
 
 void add_pair(FoundCells& found, std::uint32_t a, std::uint32_t b) {
     if (a != b) {
@@ -36,15 +41,28 @@ void CellSplitter::split(std::uint32_t face, FoundCells& found) {
     found_ = &found;
     const NearLights::Range lights = near_.begin(face);
     left_ = kSplitsPerLight * (lights.end + 1);
+    meets_ = false;
     knotted_.clear();
     meetings_.clear();
-    split({face, 0, 0, 0, false}, {lights, true, false});
+    const GapCell whole{face, 0, 0, 0, false};
+    const bool in_halves = !lights.empty() && lit_.is_sliver(face);
+    if (in_halves) {
+        const std::uint32_t first = near_.sample_of(near_.at(lights).front());
+        split_sliver(whole.part(), lit_.area(face), lights, first);
+        near_.pop_to(lights);
+    }
+    if (!in_halves || meets_) {
+        split(whole, {lights, true, in_halves});
+    }
     tie_knots();
+    if (found.shares.size() > kManyShares) {
+        merge(found);
+    }
 }
 
 void CellSplitter::split(const GapCell& cell, const State& around) {
     const LitFaces::Target target = lit_.target(cell);
-    const NearLights::View view = near_.look(cell, target, around.lights);
+    const NearLights::View view = near_.look(cell.part(), target, around.lights);
     const auto lights = near_.at(view.lights);
     const double area = around.has_area ? 0 : lit_.area(cell.face) * cell.step() * cell.step();
     if (lights.empty()) {
@@ -60,7 +78,8 @@ void CellSplitter::split(const GapCell& cell, const State& around) {
         give(nearest, area, area); // A crack that rounding leaves between paths.
         return;
     }
-    const bool is_flat = flat_.find(cell, target, view, lights);
+    const bool is_flat =
+        flat_.find(cell.part(), target, view, lights, FlatPieces::Detail::computed);
     const bool is_last = cell.level == grid_.level() || left_ == 0;
     const bool shares = is_flat && (flat_.is_exact() || is_last);
     const bool has_area = around.has_area || shares || is_last;
@@ -82,6 +101,33 @@ void CellSplitter::split(const GapCell& cell, const State& around) {
         }
     } else if (cell.level == grid_.level()) {
         note_meeting(cell, lights);
+    }
+}
+
+void CellSplitter::split_sliver(const FacePart& part, double area, NearLights::Range around,
+                                std::uint32_t nearest) {
+    const LitFaces::Target target = lit_.target(part);
+    const NearLights::View view = near_.look(part, target, around);
+    const auto lights = near_.at(view.lights);
+    nearest = view.is_lit ? view.nearest : nearest;
+    if (lights.empty() || near_.is_single(view.lights)) {
+        give(nearest, area, lights.empty() ? area : 0);
+        return;
+    }
+    if (flat_.find(part, target, view, lights, FlatPieces::Detail::known) && flat_.is_exact()) {
+        share_out(area);
+        note_near(true, lights);
+        return;
+    }
+    if (left_ == 0 || target.reach <= std::max(kSmallestHalf, kErrorsPerHalf * near_.error())) {
+        give(nearest, area, area);
+        note_near(false, lights);
+        return;
+    }
+    --left_;
+    for (const FacePart& half : lit_.halves(part)) {
+        split_sliver(half, area / 2, view.lights, nearest);
+        near_.pop_to(view.lights);
     }
 }
 
@@ -122,6 +168,19 @@ std::uint32_t CellSplitter::count_near(bool is_flat, std::span<const std::uint32
         }
     }
     return count;
+}
+
+void CellSplitter::note_near(bool is_flat, std::span<const std::uint32_t> lights) {
+    const std::uint32_t near = has_dual_ ? count_near(is_flat, lights) : 0;
+    meets_ |= near > 2;
+    if (near == 2 && is_flat) {
+        note_pair();
+    } else if (near == 2) {
+        const std::uint32_t first = near_.sample_of(lights.front());
+        for (const std::uint32_t light : lights) {
+            add_pair(*found_, first, near_.sample_of(light));
+        }
+    }
 }
 
 void CellSplitter::note_pair() {

@@ -63,10 +63,15 @@ class CellSplitter {
         bool has_area; ///< Areas are known already.
     };
     void split(const GapCell& cell, const State& around);
+    /// Finds areas and pairs in a part of a sliver.
+    void split_sliver(const FacePart& part, double area, NearLights::Range around,
+                      std::uint32_t nearest);
     void share_out(double area);
     /// Returns how many samples may be nearest in a cell, up to 3.
     std::uint32_t count_near(bool is_flat, std::span<const std::uint32_t> lights);
     void note_pair();
+    /// Notes which samples may be nearest in a part of a sliver.
+    void note_near(bool is_flat, std::span<const std::uint32_t> lights);
     void note_meeting(const GapCell& cell, std::span<const std::uint32_t> lights);
     /// Tells apart the knots of the face.
     void tie_knots();
@@ -83,6 +88,7 @@ class CellSplitter {
     LowerParts parts_;
     FoundCells* found_ = nullptr;
     std::uint64_t left_ = 0; ///< Cells that may still be split.
+    bool meets_ = false;     ///< Three samples may meet in the sliver.
     /// Corners of the grid's triangles in knots, and meetings with their number as the knot.
     std::vector<std::array<GridPoint, 3>> knotted_;
     std::vector<Meeting> meetings_;

@@ -6,13 +6,12 @@
 
 namespace geodisk {
 
-CornerFunctions::CornerFunctions(const LitFaces& lit, const GapCell& cell,
+CornerFunctions::CornerFunctions(const LitFaces& lit, const FacePart& part,
                                  const LitFaces::Target& target,
                                  std::span<const std::uint32_t> lights)
     : lit_(lit), target_(target), nearest_source_(std::numeric_limits<double>::infinity()) {
-    const auto weights = cell.corners();
     for (std::size_t k = 0; k < 3; ++k) {
-        corners_[k] = lit.target(cell.face, weights[k]);
+        corners_[k] = lit.target(part.face, part.corners[k]);
         const double x = corners_[k].at[0].x - target.at[0].x;
         const double y = corners_[k].at[0].y - target.at[0].y;
         squares_[k] = x * x + y * y;

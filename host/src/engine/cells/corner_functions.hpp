@@ -31,7 +31,7 @@ struct CornerFunction {
 /// the place: linear where that source is the sample's, and as large where d is.
 class CornerFunctions {
   public:
-    CornerFunctions(const LitFaces& lit, const GapCell& cell, const LitFaces::Target& target,
+    CornerFunctions(const LitFaces& lit, const FacePart& part, const LitFaces::Target& target,
                     std::span<const std::uint32_t> lights);
 
     CornerFunction of(std::uint32_t light) const;

@@ -15,23 +15,24 @@ constexpr double kExact = 0x1p-14;
 
 } // namespace
 
-void FlatPieces::gather(const CornerFunctions& functions, std::span<const std::uint32_t> lights) {
+void FlatPieces::gather(const CornerFunctions& functions, std::span<const std::uint32_t> lights,
+                        double same) {
     pieces_.clear();
     for (const std::uint32_t light : lights) {
         const Piece piece{lit_.record(light).sample_index, functions.of(light)};
         const auto is_same_at = [&](const Piece& other, std::size_t k) {
-            return std::abs(other.function.distances[k] - piece.function.distances[k]) <= tie_ / 4;
+            return std::abs(other.function.distances[k] - piece.function.distances[k]) <= same;
         };
         // A path through the next part of an edge, or past a vertex, goes on as the one beside it.
-        const auto same = std::ranges::find_if(pieces_, [&](const Piece& other) {
+        const auto like = std::ranges::find_if(pieces_, [&](const Piece& other) {
             return other.sample == piece.sample && is_same_at(other, 0) && is_same_at(other, 1) &&
                    is_same_at(other, 2);
         });
-        if (same == pieces_.end()) {
+        if (like == pieces_.end()) {
             pieces_.push_back(piece);
         } else {
-            same->function.lit |= piece.function.lit;
-            same->function.bend = std::max(same->function.bend, piece.function.bend);
+            like->function.lit |= piece.function.lit;
+            like->function.bend = std::max(like->function.bend, piece.function.bend);
         }
     }
 }
@@ -61,21 +62,24 @@ bool FlatPieces::drop_beaten(double margin) {
     return !functions_.empty() && std::isfinite(band_);
 }
 
-bool FlatPieces::find(const GapCell& cell, const LitFaces::Target& target,
-                      const NearLights::View& view, std::span<const std::uint32_t> lights) {
+bool FlatPieces::find(const FacePart& part, const LitFaces::Target& target,
+                      const NearLights::View& view, std::span<const std::uint32_t> lights,
+                      Detail detail) {
     if (!view.is_lit || lights.size() > kMostLights) {
         return false;
     }
-    const CornerFunctions functions(lit_, cell, target, lights);
-    gather(functions, lights);
+    const CornerFunctions functions(lit_, part, target, lights);
+    const bool is_known = detail == Detail::known;
+    gather(functions, lights, is_known ? std::max(view.error, tie_) / 2 : tie_ / 4);
     const double farthest = view.distance + target.reach;
-    const double rounding = functions.difference(farthest, 2 * view.error);
+    const double rounding = functions.difference(farthest, (is_known ? 3 : 2) * view.error);
     const double ties = functions.difference(farthest, 3 * tie_);
     if (!drop_beaten(std::max(rounding, ties))) {
         return false;
     }
     const double least = view.distance - target.reach - functions.nearest_source();
-    is_exact_ = band_ == 0 || band_ <= kExact * view.distance * 4 * least;
+    is_exact_ = band_ == 0 || band_ <= kExact * view.distance * 4 * least ||
+                (is_known && band_ <= rounding);
     wide_band_ = band_ + ties;
     band_ += rounding;
     return true;

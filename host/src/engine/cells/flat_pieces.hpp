@@ -18,10 +18,15 @@ class FlatPieces {
   public:
     FlatPieces(const LitFaces& lit, const Closeness& closeness) : lit_(lit), tie_(closeness.tie) {}
 
-    /// Finds the distances of all lights that NearLights::look() found for a cell. Returns false
-    /// if it is too large, or partly lit.
-    bool find(const GapCell& cell, const LitFaces::Target& target, const NearLights::View& view,
-              std::span<const std::uint32_t> lights);
+    /// How closely to look at distances.
+    enum class Detail : std::uint8_t {
+        computed, ///< As they were computed.
+        known,    ///< Up to the bound on their error.
+    };
+    /// Finds the distances of all lights that NearLights::look() found for a part of a face.
+    /// Returns false if it is too large, or partly lit.
+    bool find(const FacePart& part, const LitFaces::Target& target, const NearLights::View& view,
+              std::span<const std::uint32_t> lights, Detail detail);
 
     // As find() found them. A sample may have several functions.
 
@@ -41,7 +46,9 @@ class FlatPieces {
         std::uint32_t sample;
         CornerFunction function;
     };
-    void gather(const CornerFunctions& functions, std::span<const std::uint32_t> lights);
+    /// Takes lights of one sample that differ by no more than `same` as one.
+    void gather(const CornerFunctions& functions, std::span<const std::uint32_t> lights,
+                double same);
     bool drop_beaten(double margin);
 
     const LitFaces& lit_;

@@ -9,7 +9,7 @@
 namespace geodisk {
 namespace {
 
-// Of so many lights in a cell most are far from the nearest everywhere.
+// Of so many lights in a part most are far from the nearest everywhere.
 constexpr std::size_t kMany = 12;
 
 } // namespace
@@ -30,7 +30,7 @@ NearLights::Range NearLights::begin(std::uint32_t face) {
 
 // Along the surface distances differ by at most as much as points are apart. So one that lights the
 // centroid bounds the distance in all of the target.
-NearLights::View NearLights::look(const GapCell& cell, const LitFaces::Target& target,
+NearLights::View NearLights::look(const FacePart& part, const LitFaces::Target& target,
                                   Range lights) {
     View view{{lights.end, lights.end}, false, 0, std::numeric_limits<double>::infinity(), 0};
     double largest = 0.5;
@@ -62,15 +62,15 @@ NearLights::View NearLights::look(const GapCell& cell, const LitFaces::Target& t
     }
     view.lights.end = stack_.size();
     if (view.is_lit && view.lights.end - view.lights.first > kMany) {
-        drop_beaten(cell, target, margin, view);
+        drop_beaten(part, target, margin, view);
     }
     return view;
 }
 
-void NearLights::drop_beaten(const GapCell& cell, const LitFaces::Target& target, double margin,
+void NearLights::drop_beaten(const FacePart& part, const LitFaces::Target& target, double margin,
                              View& view) {
     const auto lights = std::span(stack_).subspan(view.lights.first);
-    const CornerFunctions functions(lit_, cell, target, lights);
+    const CornerFunctions functions(lit_, part, target, lights);
     functions_.clear();
     std::array<const CornerFunction*, 4> lowest{}; // At the corners, and in sum.
     const auto value_of = [](const CornerFunction& function, std::size_t k) {

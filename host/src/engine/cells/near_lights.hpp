@@ -39,14 +39,16 @@ class NearLights {
 
     /// Begins again, with all lights of a face.
     Range begin(std::uint32_t face);
-    /// Pushes the lights of a range that may be nearest somewhere in the cell of the target.
-    View look(const GapCell& cell, const LitFaces::Target& target, Range lights);
+    /// Pushes the lights of a range that may be nearest somewhere in the part of the target.
+    View look(const FacePart& part, const LitFaces::Target& target, Range lights);
     /// Pops all lights above this range.
     void pop_to(Range lights) { stack_.resize(lights.end); }
 
     std::span<const std::uint32_t> at(Range lights) const {
         return std::span(stack_).subspan(lights.first, lights.end - lights.first);
     }
+    /// Returns a bound on the error of distances, where disks have the radius 1.
+    double error() const { return closeness_.error; }
     std::uint32_t sample_of(std::uint32_t light) const { return lit_.record(light).sample_index; }
     /// Returns the nearest sample of a point by lights of its face: the first of those that tie.
     /// Has the sample ~0 if none lights it.
@@ -59,8 +61,8 @@ class NearLights {
     bool is_single(Range lights) const;
 
   private:
-    /// Drops lights that one of a few others beats all over the cell.
-    void drop_beaten(const GapCell& cell, const LitFaces::Target& target, double margin,
+    /// Drops lights that one of a few others beats all over the part.
+    void drop_beaten(const FacePart& part, const LitFaces::Target& target, double margin,
                      View& view);
     struct Seen {
         std::uint32_t light;

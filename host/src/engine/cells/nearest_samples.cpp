@@ -67,7 +67,7 @@ void FaceSearch::search(const GapCell& cell, std::span<NumberedPlace> points,
         look_at(points, near_.at(lights));
         return;
     }
-    const NearLights::View view = near_.look(cell, lit_.target(cell), lights);
+    const NearLights::View view = near_.look(cell.part(), lit_.target(cell), lights);
     const std::array<GapCell, 4> children = cell.children();
     for (std::size_t child = 0; child < children.size(); ++child) {
         const auto rest =

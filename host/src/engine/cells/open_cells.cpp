@@ -1,6 +1,7 @@
 #include "engine/cells/open_cells.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <unordered_set>
 
@@ -25,10 +26,24 @@ class RimSearch {
               Samples& found)
         : lit_(lit), radii_(radii), near_(lit, closeness), found_(found) {}
 
-    void search(std::uint32_t face) { search({face, 0, 0, 0, false}, near_.begin(face)); }
+    void search(std::uint32_t face) {
+        const GapCell whole{face, 0, 0, 0, false};
+        const NearLights::Range lights = near_.begin(face);
+        if (lit_.is_sliver(face)) {
+            search(whole.part(), lights);
+        } else {
+            search(whole, lights);
+        }
+    }
 
   private:
-    void search(const GapCell& cell, NearLights::Range lights);
+    /// `Part` is a cell of the grid, or any part of a face.
+    template <class Part>
+    void search(const Part& part, NearLights::Range lights);
+    static const FacePart& part_of(const FacePart& part) { return part; }
+    static FacePart part_of(const GapCell& cell) { return cell.part(); }
+    std::array<FacePart, 2> pieces_of(const FacePart& part) const { return lit_.halves(part); }
+    std::array<GapCell, 4> pieces_of(const GapCell& cell) const { return cell.children(); }
     /// Returns true if the light is one of a sample whose rim may be in the target.
     bool is_at_rim(std::uint32_t light, const LitFaces::Target& target, bool is_lit) const {
         return !is_lit || lit_.sight(light, target).distance + target.reach >=
@@ -41,9 +56,10 @@ class RimSearch {
     Samples& found_;
 };
 
-void RimSearch::search(const GapCell& cell, NearLights::Range lights) {
-    const LitFaces::Target target = lit_.target(cell);
-    const NearLights::View view = near_.look(cell, target, lights);
+template <class Part>
+void RimSearch::search(const Part& part, NearLights::Range lights) {
+    const LitFaces::Target target = lit_.target(part);
+    const NearLights::View view = near_.look(part_of(part), target, lights);
     const auto is_new = [&](std::uint32_t light) {
         return !found_.contains(near_.sample_of(light)) && is_at_rim(light, target, view.is_lit);
     };
@@ -51,8 +67,8 @@ void RimSearch::search(const GapCell& cell, NearLights::Range lights) {
         return target.reach > kRim * radii_[near_.sample_of(light)] && is_new(light);
     };
     if (std::ranges::any_of(near_.at(view.lights), is_coarse)) {
-        for (const GapCell& child : cell.children()) {
-            search(child, view.lights);
+        for (const auto& piece : pieces_of(part)) {
+            search(piece, view.lights);
             near_.pop_to(view.lights);
         }
         return;

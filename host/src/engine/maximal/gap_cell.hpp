@@ -15,6 +15,12 @@ struct FaceWeights {
     double second, third;
 };
 
+/// A triangle in a face.
+struct FacePart {
+    std::uint32_t face;
+    std::array<FaceWeights, 3> corners;
+};
+
 /// Corner weights of a cell are multiples of 2^-level: those of (column, row), one step further
 /// along each weight. A cell is upright, as the face, or turned by half.
 struct GapCell {
@@ -37,6 +43,8 @@ struct GapCell {
         return is_turned ? std::array<FaceWeights, 3>{{{high, bottom}, {low, top}, {high, top}}}
                          : std::array<FaceWeights, 3>{{{low, bottom}, {high, bottom}, {low, top}}};
     }
+
+    FacePart part() const { return {face, corners()}; }
 
     /// Returns the index of a child that has this point, which must be one of the cell.
     std::size_t child_with(const FaceWeights& point) const {

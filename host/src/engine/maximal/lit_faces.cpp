@@ -10,6 +10,8 @@ namespace {
 
 // Steps of 2^-24 by which the weights of a point may be rounded, twice over.
 constexpr double kGrid = 4 * 0x1p-24;
+// Longest edge of a sliver, in parts of its height.
+constexpr double kSliver = 16;
 
 /// Offsets of a target from the source of a light, in the frame of the light's half-edge.
 struct Offset {
@@ -130,6 +132,52 @@ LitFaces::Target LitFaces::target(std::uint32_t face, FaceWeights weights) const
     if (radii_ != nullptr) {
         target.least_radius = target.largest_radius = radius_at(face, weights);
     }
+    return target;
+}
+
+LitFaces::LongestEdge LitFaces::longest_edge(const FacePart& part) const {
+    Target at[3]{};
+    for (std::size_t k = 0; k < 3; ++k) {
+        place(part.face, part.corners[k], at[k]);
+    }
+    LongestEdge longest{0, 0};
+    for (std::size_t k = 0; k < 3; ++k) {
+        const Target::Place &from = at[(k + 1) % 3].at[0], &to = at[(k + 2) % 3].at[0];
+        const double x = to.x - from.x, y = to.y - from.y;
+        if (x * x + y * y > longest.square) {
+            longest = {k, x * x + y * y};
+        }
+    }
+    return longest;
+}
+
+bool LitFaces::is_sliver(std::uint32_t face) const {
+    const GapCell whole{face, 0, 0, 0, false};
+    return longest_edge(whole.part()).square > kSliver * 2 * area(face);
+}
+
+std::array<FacePart, 2> LitFaces::halves(const FacePart& part) const {
+    const std::size_t k = longest_edge(part).across;
+    const FaceWeights &a = part.corners[k], &b = part.corners[(k + 1) % 3],
+                      &c = part.corners[(k + 2) % 3];
+    const FaceWeights middle{(b.second + c.second) / 2, (b.third + c.third) / 2};
+    return {FacePart{part.face, {a, b, middle}}, FacePart{part.face, {a, middle, c}}};
+}
+
+LitFaces::Target LitFaces::target(const FacePart& part) const {
+    const auto& [a, b, c] = part.corners;
+    Target target{};
+    place(part.face, {(a.second + b.second + c.second) / 3, (a.third + b.third + c.third) / 3},
+          target);
+    double square = 0;
+    for (const FaceWeights& corner : part.corners) {
+        Target at{};
+        place(part.face, corner, at);
+        const double x = at.at[0].x - target.at[0].x, y = at.at[0].y - target.at[0].y;
+        square = std::max(square, x * x + y * y);
+    }
+    target.reach = std::sqrt(square);
+    target.margin = target.reach + kGrid * reaches_[part.face];
     return target;
 }
 

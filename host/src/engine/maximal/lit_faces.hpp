@@ -1,6 +1,8 @@
 // LitFaces: how the disks of samples light the faces of a surface, and what they cover.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -45,6 +47,8 @@ class LitFaces {
         double spacing() const { return least_radius > 0 ? 2 * least_radius : 1; }
     };
     Target target(const GapCell& cell) const;
+    /// Does the same for any triangle in a face. Its radii are 0.
+    Target target(const FacePart& part) const;
     /// Returns the target of a point, by its weights as multiples of 2^-24.
     Target target(std::uint32_t face, FaceWeights weights) const;
 
@@ -71,11 +75,22 @@ class LitFaces {
 
     /// Returns the area of a face, in units of the frame.
     double area(std::uint32_t face) const;
+    /// Returns true if the longest edge of the face is many times its height. Parts of the grid
+    /// that a line crosses are then far too many, so that it is better cut into halves.
+    bool is_sliver(std::uint32_t face) const;
+    /// Cuts a triangle from the middle of its longest edge.
+    std::array<FacePart, 2> halves(const FacePart& part) const;
     std::uint32_t face_count() const { return mesh_.face_count(); }
 
   private:
     FaceWeights weights_at(std::uint32_t face, FaceWeights weights) const;
     double radius_at(std::uint32_t face, FaceWeights weights) const;
+    /// Names the longest edge of a triangle by the corner across it.
+    struct LongestEdge {
+        std::size_t across;
+        double square; ///< Of its length, in units of the frame.
+    };
+    LongestEdge longest_edge(const FacePart& part) const;
     void place(std::uint32_t face, FaceWeights weights, Target& target) const;
     double limit_of(const gpu::LitRec& record, double radius) const;
 
