@@ -26,7 +26,7 @@ Context open_device(const DeviceOptions& options, bool graphics, ProgressLine& p
 
 void warn_of_missing_drivers(std::span<const DeviceReport> devices) {
     for (const std::string& driver : missing_drivers(devices)) {
-        print_warning("the CPU is used, since a Vulkan driver is left out: " + driver);
+        print_warning(left_out_warning(driver));
     }
 }
 
