@@ -46,6 +46,23 @@ TEST_CASE("caps: distances on random meshes of flat triangles are those of unfol
     }
 }
 
+TEST_CASE(
+    "caps: windows from a source close to an edge are not trimmed for one that lights beside") {
+    // Vertices 10 and 6 are 1.4e-7 of the reach apart. Light from 10 that passes 6 on the other
+    // side was dropped: a distance of 0.104 was 0.270.
+    std::mt19937_64 random(132480);
+    const Choose choose = [&](std::uint32_t below) {
+        return static_cast<std::uint32_t>(random() % below);
+    };
+    const TestMesh mesh = cap_mesh(choose);
+    std::vector<Point> points;
+    for (int i = 0; i < 8; ++i) {
+        points.push_back(point_of(mesh, choose));
+    }
+    const double part = 0.1 + choose(256) / 256.0;
+    check_pairs(mesh, points, part * prepared(mesh).statistics().diagonal);
+}
+
 TEST_CASE("caps: samples keep their distance along a path through a corner on the opposite side") {
     // Corner 4 of face 6 lies on its side from 8 to 3. Samples were 0.329 apart.
     const TestMesh mesh = shared_mesh("cases/cap_8.obj").value();
