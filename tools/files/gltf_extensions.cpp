@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "files/input_file.hpp"
 #include "program/human_text.hpp"
 
 namespace geodisk::tools {
