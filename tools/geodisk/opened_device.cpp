@@ -24,6 +24,7 @@ Context create_context(const DeviceOptions& options, bool graphics) {
     wanted.device = named_device(options.device);
     wanted.validation = options.validate;
     wanted.graphics = graphics;
+    wanted.keep_pipelines = true;
     auto context = Context::create(wanted);
     if (!context) {
         chosen_device(options.device); // Throws if the variable is the cause.
