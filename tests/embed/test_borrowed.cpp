@@ -160,6 +160,33 @@ TEST_SUITE("borrowed") {
         check_silent(app);
     }
 
+    TEST_CASE("the first run lets drivers compile at dispatches of no work groups") {
+        AppDevice app;
+        DeviceSpy spy(app.refs().get_instance_proc_addr);
+        DeviceRefs refs = app.refs();
+        refs.get_instance_proc_addr = &DeviceSpy::get_instance_proc_addr;
+        std::uint32_t real = 0;
+        std::uint32_t real_before = 0;
+        std::uint32_t last_empty = 0;
+        spy.on_dispatch = [&](std::uint32_t) {
+            real_before += spy.empty_dispatches != last_empty ? real : 0;
+            last_empty = spy.empty_dispatches;
+            ++real;
+        };
+        {
+            Runner runner = expect(Runner::create(refs, app.queue()));
+            real = 0; // Without that of the self test.
+            check_run(runner);
+            CHECK(spy.empty_dispatches > 12);
+            CHECK(real_before == 0); // All of them come first.
+            const std::uint32_t first = spy.empty_dispatches;
+            check_run(runner, 2);
+            CHECK(spy.empty_dispatches == first);
+        }
+        app.destroy_device();
+        check_silent(app);
+    }
+
     TEST_CASE("pipelines compiled on several threads serve a run") {
         AppDevice app;
         SamplerOptions options;
