@@ -76,11 +76,14 @@ class KeptWindows {
 
     /// Returns true if the kept window is hardly farther from the point `at` of the edge. Where it
     /// does not light the point, a path goes on from its end along the edge. That path bends, so it
-    /// must be shorter by the margin.
+    /// must be shorter by the margin. A point beside the end by rounding counts as lit. If the
+    /// other source is near the point, so little of the edge turns its rays far: less counts then.
     bool is_as_near(const Window& kept, const Window& other, Real at, Real margin) const {
-        const Real lit_at = std::clamp(at, kept.b0 - error_, kept.b1 + error_);
+        const Real way = root(square(at - other.x) + square(other.y));
+        const Real beside = error_ * std::min(way * kNearSource, Real{1});
+        const Real lit_at = std::clamp(at, kept.b0 - beside, kept.b1 + beside);
         const Real along_edge = std::abs(at - lit_at) + margin;
-        const Real distance = other.sigma + root(square(at - other.x) + square(other.y));
+        const Real distance = other.sigma + way;
         const Real rest = (distance - kept.sigma) + (lit_at == at ? error_ : -along_edge);
         return rest >= 0 && square(lit_at - kept.x) + square(kept.y) <= rest * rest;
     }
@@ -110,6 +113,9 @@ class KeptWindows {
 
     /// Long chains round to many times the error of one number; in float the guard allows no more.
     static constexpr Real kError = std::max(std::numeric_limits<Real>::epsilon(), Real{0x1p-44});
+
+    /// Inverse of the distance below which a source is near.
+    static constexpr Real kNearSource = 0x1p10;
 
     Real error_;
     std::vector<std::array<Row, gpu::kKeptPerEdge>> edges_; ///< Kept windows; empty until a disk

@@ -12,6 +12,8 @@
 #include "job.glsl"
 #include "many_windows.glsl"
 
+const float kNearSource = 1024.0; // inverse of the distance below which a source is near
+
 bool window_taken; // in this trip
 
 // Returns the row of an edge. The sum is linear, so edges share rows independently of the numbering of a
@@ -24,11 +26,18 @@ uint kept_row(uvec2 ends) {
 // Returns true if the kept window is hardly farther, by trim_error(), at this position of the edge, than the
 // one in flight, whose source is at sx along and lane.y off the edge. Where the kept one does not light the
 // position, a path goes on from its end along the edge. That path bends, so it must be shorter by the margin.
+// A position beside the end by rounding counts as lit. If the source in flight is near the position, so little
+// of the edge turns its rays far: less counts then.
 bool is_as_near(vec2 kept_source, float kept_sigma, vec2 kept_lit, float sx, float at) {
-    float lit_at = min(max(at, kept_lit.x), kept_lit.y);
-    precise float along_edge = abs(at - lit_at) + margin;
     precise float dx = at - sx;
-    precise float distance = lane.sigma + root(squared(dx, lane.y));
+    precise float way = root(squared(dx, lane.y));
+    precise float nearness = way * kNearSource;
+    precise float beside = trim_error() * min(nearness, 1.0);
+    precise float kept_low = kept_lit.x - beside;
+    precise float kept_high = kept_lit.y + beside;
+    float lit_at = min(max(at, kept_low), kept_high);
+    precise float along_edge = abs(at - lit_at) + margin;
+    precise float distance = lane.sigma + way;
     precise float rest = (distance - kept_sigma) + (lit_at == at ? trim_error() : -along_edge);
     precise float rest_square = rest * rest;
     precise float kept_dx = lit_at - kept_source.x;
@@ -58,10 +67,9 @@ bool dominates(vec2 kept_source, float kept_sigma, vec2 kept_lit, float sx, vec2
     precise float on_line =
         first_both + width * (across > kSmallestSquare ? ratio(past_first, across) : 0.0);
     float between = first_both < last_both ? on_line : low;
-    vec2 widened = vec2(kept_low, kept_high);
-    return is_as_near(kept_source, kept_sigma, widened, sx, low) &&
-           is_as_near(kept_source, kept_sigma, widened, sx, high) &&
-           is_as_near(kept_source, kept_sigma, widened, sx, between);
+    return is_as_near(kept_source, kept_sigma, kept_lit, sx, low) &&
+           is_as_near(kept_source, kept_sigma, kept_lit, sx, high) &&
+           is_as_near(kept_source, kept_sigma, kept_lit, sx, between);
 }
 
 // Converts a position on the edge to one from its lower vertex, if that is its end.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -106,6 +107,35 @@ TEST_CASE("lines of every format are avoided along their whole length") {
         within += Flat(row).from_road(0.9) < kRadius;
     }
     CHECK(json_in(folder, "v.json")["avoided"]["intrusions"]["count"] >= within);
+}
+
+TEST_CASE("lines of glTF are avoided along their whole length, where nodes place them") {
+    const TemporaryFolder folder;
+    folder.write("grid.obj", grid_text(false));
+    folder.write("road.obj", "v 0.1 0.5 0\nv 0.9 0.5 0\nl 1 \\\n2\n");
+    // Two floats per axis: a line from 0 to 1 along x, which its node shortens and moves.
+    const std::string bytes("\0\0\0\0\0\0\0\0\0\0\0\0\0\0\x80\x3f\0\0\0\0\0\0\0\0", 24);
+    folder.write("road.bin", bytes);
+    const std::string text =
+        R"({"asset": {"version": "2.0"}, "nodes": [{"mesh": 0, "scale": [0.8, 1, 1],)"
+        R"("translation": [0.1, 0.5, 0]}], "meshes": [{"primitives": [)"
+        R"({"attributes": {"POSITION": 0}, "mode": 3}]}], "accessors": [{"bufferView": 0,)"
+        R"("componentType": 5126, "count": 2, "type": "VEC3"}], "bufferViews": [{"buffer": 0,)"
+        R"("byteLength": 24}], "buffers": [{"byteLength": 24, "uri": ")";
+    folder.write("road.gltf", text + "road.bin\"}]}");
+    const std::vector<Flat> places = avoiding(folder, "grid.obj", "road.gltf:0.1");
+    check_distances(places, [](const Flat& place) { return place.from_road(0.9); });
+    CHECK(places.size() == avoiding(folder, "grid.obj", "road.obj:0.1").size());
+    check_fails(folder, 3, "road.gltf: has no columns, so none of the name width",
+                {"sample", "grid.obj", "-o", "b.csv", "-d", "0.1", "--avoid", "road.gltf:width"});
+    // Buffers outside of its folder are read on request.
+    std::filesystem::create_directory(folder / "below");
+    folder.write("below/far.gltf", text + "../road.bin\"}]}");
+    std::vector<std::string> arguments{"sample", "grid.obj", "-o",      "b.csv",
+                                       "-d",     "0.1",      "--avoid", "below/far.gltf:0.1"};
+    check_fails(folder, 3, "add --allow-outside", arguments);
+    arguments.emplace_back("--allow-outside");
+    CHECK(run(folder, arguments).status == 0);
 }
 
 TEST_CASE("a line over a fold is avoided on both sides, and one beside the surface is refused") {

@@ -189,7 +189,11 @@ struct DeviceSpy::Functions {
 
     static VKAPI_ATTR void VKAPI_CALL dispatch(VkCommandBuffer commands, std::uint32_t x,
                                                std::uint32_t y, std::uint32_t z) {
-        tell_dispatch(x * y * z);
+        if (x * y * z > 0) {
+            tell_dispatch(x * y * z);
+        } else {
+            ++active->empty_dispatches;
+        }
         real<PFN_vkCmdDispatch>("vkCmdDispatch")(commands, x, y, z);
     }
 

@@ -42,8 +42,10 @@ class DeviceSpy {
     /// Called before each call that is watched.
     std::function<void(std::string_view)> on_call;
 
-    /// Called for each dispatch with its work groups, 0 where the device alone knows them.
+    /// Called for each dispatch with its work groups, 0 where the device alone knows them. Not
+    /// called for those of no work groups, which only have kernels compiled.
     std::function<void(std::uint32_t)> on_dispatch;
+    std::uint32_t empty_dispatches = 0; ///< Those of no work groups.
 
     bool never_signal = false; ///< Waiting for a fence times out, though the work ends.
     VkDeviceSize memory_left = std::numeric_limits<VkDeviceSize>::max();

@@ -130,6 +130,78 @@ TEST_SUITE("borrowed") {
         check_silent(app);
     }
 
+    TEST_CASE("pipelines compiled ahead serve a run, and each that fails leaves nothing") {
+        AppDevice app;
+        DeviceSpy spy(app.refs().get_instance_proc_addr);
+        DeviceRefs refs = app.refs();
+        refs.get_instance_proc_addr = &DeviceSpy::get_instance_proc_addr;
+        SamplerOptions options;
+        options.ahead = Ahead::surface;
+        constexpr const char* kCompiles = "vkCreateComputePipelines";
+        {
+            const auto sampler =
+                std::make_shared<const Sampler>(expect(Sampler::create(refs, options)));
+            const std::uint32_t ahead = spy.calls(kCompiles);
+            Runner runner = expect(Runner::create(sampler, app.queue()));
+            check_run(runner);
+            CHECK(spy.calls(kCompiles) == ahead);
+        }
+        std::uint32_t failed = 0;
+        for (bool fails = true; fails; ++failed) {
+            spy.fail(kCompiles, failed, VK_ERROR_OUT_OF_DEVICE_MEMORY);
+            const auto sampler = Sampler::create(refs, options);
+            fails = spy.end_of_fault();
+            CHECK(static_cast<bool>(sampler) != fails);
+        }
+        CHECK(failed > 10);
+        CHECK(spy.alive().empty());
+        CHECK(spy.strangers() == 0);
+        app.destroy_device();
+        check_silent(app);
+    }
+
+    TEST_CASE("the first run lets drivers compile at dispatches of no work groups") {
+        AppDevice app;
+        DeviceSpy spy(app.refs().get_instance_proc_addr);
+        DeviceRefs refs = app.refs();
+        refs.get_instance_proc_addr = &DeviceSpy::get_instance_proc_addr;
+        std::uint32_t real = 0;
+        std::uint32_t real_before = 0;
+        std::uint32_t last_empty = 0;
+        spy.on_dispatch = [&](std::uint32_t) {
+            real_before += spy.empty_dispatches != last_empty ? real : 0;
+            last_empty = spy.empty_dispatches;
+            ++real;
+        };
+        {
+            Runner runner = expect(Runner::create(refs, app.queue()));
+            real = 0; // Without that of the self test.
+            check_run(runner);
+            CHECK(spy.empty_dispatches > 12);
+            CHECK(real_before == 0); // All of them come first.
+            const std::uint32_t first = spy.empty_dispatches;
+            check_run(runner, 2);
+            CHECK(spy.empty_dispatches == first);
+        }
+        app.destroy_device();
+        check_silent(app);
+    }
+
+    TEST_CASE("pipelines compiled on several threads serve a run") {
+        AppDevice app;
+        SamplerOptions options;
+        options.ahead = Ahead::surface;
+        options.threads.most_threads = 8;
+        {
+            Runner runner = expect(Runner::create(
+                std::make_shared<const Sampler>(expect(Sampler::create(app.refs(), options))),
+                app.queue()));
+            check_run(runner);
+        }
+        app.destroy_device();
+        check_silent(app);
+    }
+
     TEST_CASE("lent allocation callbacks serve every object, and all memory comes back") {
         HostMemory memory;
         {

@@ -1,77 +1,26 @@
 // Flat triangles: a corner on the opposite side, to within rounding or exactly, sends paths on
 // beyond that side. Distances are compared with those of unfolding alone, which follows every
 // sequence of faces in extended precision.
-#include <algorithm>
 #include <cmath>
-#include <optional>
 #include <random>
 #include <vector>
 
 #include <doctest/doctest.h>
 
-#include "lib/frame.hpp"
 #include "ref/dart_check.hpp"
+#include "support/cap_distances.hpp"
 #include "support/cap_meshes.hpp"
-#include "support/geodesic_query.hpp"
-#include "support/unfolding.hpp"
 
 using namespace geodisk;
 using namespace geodisk::test;
 
 namespace {
 
-using Table = std::vector<std::vector<double>>;
-
-/// All distances between the points, of those up to a little more than `reach`.
-Table true_distances(const TestMesh& mesh, const std::vector<Point>& points, double reach) {
-    const Unfolding unfolding(mesh);
-    Table table;
-    for (const Point& source : points) {
-        table.push_back(unfolding.distances(source, points, 1.01 * reach));
-    }
-    return table;
-}
-
-/// Checks all distances from each point. Below the reach none may be missed or too long, and none
-/// too short.
-template <class From>
-void check_table(const char* kind, const Table& truth, double reach, double error,
-                 const From& from) {
-    for (std::size_t a = 0; a < truth.size(); ++a) {
-        const std::optional<std::vector<double>> found = from(a);
-        for (std::size_t b = 0; found && b < truth.size(); ++b) {
-            const double wanted = truth[a][b], distance = (*found)[b];
-            const bool is_long = wanted < reach - error && !(distance <= wanted + error);
-            CHECK_MESSAGE(!(is_long || distance < wanted - error), kind, ": from point ", a,
-                          " to point ", b, " ", distance, " in place of ", wanted);
-        }
-    }
-}
-
 /// Compares all ways to compute distances with the truth, from each point to each.
 void check_pairs(const TestMesh& mesh, const std::vector<Point>& points, double reach) {
-    const PreparedMesh surface = prepared(mesh);
-    const Table truth = true_distances(mesh, points, reach);
-    for (std::size_t a = 0; a < points.size(); ++a) {
-        for (std::size_t b = 0; b < a; ++b) {
-            const double nearer = std::min(truth[a][b], truth[b][a]);
-            CHECK((nearer > reach || std::abs(truth[a][b] - truth[b][a]) < 1e-11 * reach));
-        }
+    for (const WrongDistance& wrong : wrong_distances(mesh, prepared(mesh), points, reach)) {
+        FAIL_CHECK(wrong.text());
     }
-    const ref::Tolerances tolerances = ref::frame_of(surface, reach).tolerances();
-    GeodesicQuery<double> exact(surface, reach, points, ref::double_tolerances());
-    GeodesicQuery<float> twin(surface, reach, points, tolerances);
-    GeodesicQuery<float> trimming(surface, reach, points, tolerances);
-    trimming.trim_all();
-    const double guard = tolerances.guard * reach;
-    check_table("double", truth, reach, 2e-7 * reach,
-                [&](std::size_t a) { return std::optional(exact.from(points[a])); });
-    check_table("float", truth, reach, guard,
-                [&](std::size_t a) { return std::optional(twin.from(points[a])); });
-    check_table("float, trimming", truth, reach, guard,
-                [&](std::size_t a) { return std::optional(trimming.from(points[a])); });
-    check_table("float, by a group", truth, reach, guard,
-                [&](std::size_t a) { return twin.by_group_from(points[a]); });
 }
 
 } // namespace
@@ -97,6 +46,23 @@ TEST_CASE("caps: distances on random meshes of flat triangles are those of unfol
     }
 }
 
+TEST_CASE(
+    "caps: windows from a source close to an edge are not trimmed for one that lights beside") {
+    // Vertices 10 and 6 are 1.4e-7 of the reach apart. Light from 10 that passes 6 on the other
+    // side was dropped: a distance of 0.104 was 0.270.
+    std::mt19937_64 random(132480);
+    const Choose choose = [&](std::uint32_t below) {
+        return static_cast<std::uint32_t>(random() % below);
+    };
+    const TestMesh mesh = cap_mesh(choose);
+    std::vector<Point> points;
+    for (int i = 0; i < 8; ++i) {
+        points.push_back(point_of(mesh, choose));
+    }
+    const double part = 0.1 + choose(256) / 256.0;
+    check_pairs(mesh, points, part * prepared(mesh).statistics().diagonal);
+}
+
 TEST_CASE("caps: samples keep their distance along a path through a corner on the opposite side") {
     // Corner 4 of face 6 lies on its side from 8 to 3. Samples were 0.329 apart.
     const TestMesh mesh = shared_mesh("cases/cap_8.obj").value();
@@ -106,7 +72,7 @@ TEST_CASE("caps: samples keep their distance along a path through a corner on th
         CAPTURE(params.seed);
         const std::vector<Point> samples = thrown<float>(prepared(mesh), params).samples();
         REQUIRE(samples.size() > 4);
-        const Table truth = true_distances(mesh, samples, params.min_distance);
+        const DistanceTable truth = unfolded_distances(mesh, samples, params.min_distance);
         for (std::size_t a = 0; a < samples.size(); ++a) {
             for (std::size_t b = 0; b < samples.size(); ++b) {
                 CHECK((a == b || truth[a][b] >= params.min_distance));

@@ -1,5 +1,6 @@
 #include "files/sample_file.hpp"
 
+#include "files/line_file.hpp"
 #include "files/mesh_file.hpp"
 #include "files/output_file.hpp"
 #include "test_files.hpp"
@@ -228,6 +229,22 @@ TEST_CASE("sample files may lack and add columns in any order") {
     CHECK(samples.rows[0].bary[2] == 0.5f);
     CHECK(samples.rows[0].face == 3);
     CHECK(samples.header.entries.size() == 1);
+}
+
+TEST_CASE("lines of OBJ may be continued, and comments may follow them") {
+    const TemporaryFolder folder;
+    const auto path = folder.write("a.obj", "# mesh: b.obj\nv 1 2 \\\n3 # first\nv 4 5 6#\n"
+                                            "v 7 8 9\nl 1 2 \\\n  3 \\\r\n-3 # closed\np 1\n");
+    const SampleFile samples = read_points_and_lines(path);
+    REQUIRE(samples.rows.size() == 3);
+    CHECK(samples.rows[0].position[2] == 3);
+    CHECK(samples.rows[1].position[2] == 6);
+    CHECK(samples.segments == std::vector<std::array<std::uint32_t, 2>>{{0, 1}, {1, 2}, {2, 0}});
+    REQUIRE(samples.header.find("mesh") != nullptr);
+    CHECK(*samples.header.find("mesh") == "b.obj");
+    // Errors name the first of the lines joined.
+    check_fails(ExitCode::bad_input, "line 2: '7' is not one of the 1 vertex before it",
+                [&] { read_points_and_lines(folder.write("b.obj", "v 0 0 0\nl 1 \\\n 7\n")); });
 }
 
 TEST_CASE("broken sample files are refused with their line or record") {

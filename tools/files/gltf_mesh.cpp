@@ -9,7 +9,15 @@
 namespace geodisk::tools {
 namespace {
 
-enum Mode : std::uint64_t { kTriangles = 4, kStrip = 5, kFan = 6 };
+enum Mode : std::uint64_t {
+    kPoints,
+    kLines,
+    kLineLoop,
+    kLineStrip,
+    kTriangles,
+    kStrip,
+    kFan,
+};
 
 constexpr const char* kDraco = "KHR_draco_mesh_compression";
 
@@ -71,6 +79,18 @@ MeshField field_of(std::string_view name, const GltfAccessor& about) {
     return field;
 }
 
+/// Returns the ends of the lines from each vertex to the next, and in a loop back to the first.
+std::vector<std::uint32_t> line_ends(const std::vector<std::uint32_t>& vertices, bool is_loop) {
+    std::vector<std::uint32_t> ends;
+    for (std::size_t i = 0; i + 1 < vertices.size(); ++i) {
+        ends.insert(ends.end(), {vertices[i], vertices[i + 1]});
+    }
+    if (is_loop && vertices.size() > 2) {
+        ends.insert(ends.end(), {vertices.back(), vertices.front()});
+    }
+    return ends;
+}
+
 bool is_not_zero(double weight) {
     return weight != 0;
 }
@@ -114,7 +134,9 @@ GltfMesh GltfMeshReader::read(std::uint64_t index, std::vector<double> weights) 
 void GltfMeshReader::add_primitive(const GltfJson& primitive, std::uint32_t number,
                                    GltfMesh& mesh) {
     const std::uint64_t mode = document_.index_or(primitive, "mode", kTriangles, place_);
-    if (mode != kTriangles && mode != kStrip && mode != kFan) {
+    const bool is_of_kind =
+        kind_ == GltfKind::triangles ? mode >= kTriangles && mode <= kFan : mode <= kLineStrip;
+    if (!is_of_kind) {
         ++mesh.others;
         return;
     }
@@ -125,14 +147,17 @@ void GltfMeshReader::add_primitive(const GltfJson& primitive, std::uint32_t numb
     const std::optional<std::uint32_t> material = material_of(primitive);
     material_uvs_ = fields_.materials && material ? materials_.read(*material) : "";
     Source source{primitive, *attributes, {}, {}};
-    decode_draco(source);
+    if (kind_ == GltfKind::triangles) {
+        decode_draco(source);
+    }
     const auto [known, is_new] = known_.try_emplace(key_of(source), mesh.vertices.size());
     if (is_new) {
         mesh.vertices.push_back(read_vertices(source));
     }
     const std::size_t vertices = mesh.vertices[known->second].points.size();
     mesh.primitives.push_back({number, known->second, corners_of(source, mode, vertices), material,
-                               read_fields(source, vertices)});
+                               read_fields(source, vertices),
+                               mode >= kLines && mode <= kLineStrip});
 }
 
 /// A primitive may bear the same data as they are, for readers that know no compression; these are
@@ -341,11 +366,7 @@ void GltfMeshReader::read_joints(const Source& source, GltfVertices& vertices) {
 }
 
 /// Without indices, all vertices in order.
-std::vector<std::uint32_t> GltfMeshReader::corners_of(const Source& source, std::uint64_t mode,
-                                                      std::size_t vertices) {
-    if (!source.draco_ids.empty()) {
-        return source.draco.corners;
-    }
+std::vector<std::uint32_t> GltfMeshReader::indices_of(const Source& source, std::size_t vertices) {
     std::vector<std::uint32_t> indices;
     if (const auto accessor = document_.find_index(source.primitive, "indices", place_)) {
         indices = data_.integers(*accessor, place_);
@@ -361,11 +382,33 @@ std::vector<std::uint32_t> GltfMeshReader::corners_of(const Source& source, std:
             indices.push_back(static_cast<std::uint32_t>(i));
         }
     }
-    if (mode == kTriangles) {
-        if (indices.size() % 3 != 0) {
+    return indices;
+}
+
+std::vector<std::uint32_t> GltfMeshReader::corners_of(const Source& source, std::uint64_t mode,
+                                                      std::size_t vertices) {
+    if (!source.draco_ids.empty()) {
+        return source.draco.corners;
+    }
+    std::vector<std::uint32_t> indices = indices_of(source, vertices);
+    const auto check_multiple = [&](std::size_t corners, const char* of) {
+        if (indices.size() % corners != 0) {
             document_.fail(place_ + ": " + std::to_string(indices.size()) +
-                           " indices are not those of triangles");
+                           " indices are not those of " + of);
         }
+    };
+    if (mode == kPoints) {
+        return indices;
+    }
+    if (mode == kLines) {
+        check_multiple(2, "lines");
+        return indices;
+    }
+    if (mode == kLineLoop || mode == kLineStrip) {
+        return line_ends(indices, mode == kLineLoop);
+    }
+    if (mode == kTriangles) {
+        check_multiple(3, "triangles");
         return indices;
     }
     std::vector<std::uint32_t> corners;

@@ -38,27 +38,33 @@ struct GltfField {
 };
 
 struct GltfPrimitive {
-    std::uint32_t number = 0;           ///< In its mesh.
-    std::size_t vertices = 0;           ///< Index of its GltfVertices.
-    std::vector<std::uint32_t> corners; ///< Three of these vertices for each triangle.
+    std::uint32_t number = 0; ///< In its mesh.
+    std::size_t vertices = 0; ///< Index of its GltfVertices.
+    /// Vertices of it: three for each triangle, two for each line, or one for each point.
+    std::vector<std::uint32_t> corners;
     std::optional<std::uint32_t> material;
     std::vector<GltfField> fields; ///< All that it has.
+    bool has_lines = false;
 };
 
 struct GltfMesh {
     std::vector<GltfVertices> vertices;
-    std::vector<GltfPrimitive> primitives; ///< Those of triangles.
-    std::uint64_t others = 0;              ///< Number of those of points and lines.
+    std::vector<GltfPrimitive> primitives; ///< Those that are wanted.
+    std::uint64_t others = 0;              ///< Number of those that are not.
 };
 
-/// Reads triangles, strips and fans, also those that Draco has compressed. Primitives of the same
-/// positions share vertices. Throws UserError(bad_input) naming mesh and primitive.
+/// Primitives to read.
+enum class GltfKind : std::uint8_t { triangles, points_and_lines };
+
+/// Reads triangles, strips and fans, also those that Draco has compressed; or points, and lines,
+/// loops and strips of them. Primitives of the same positions share vertices. Throws
+/// UserError(bad_input) naming mesh and primitive.
 class GltfMeshReader {
   public:
     /// Reads `materials` of primitives if WantedFields::materials.
     GltfMeshReader(const GltfDocument& document, GltfData& data, const WantedFields& fields,
-                   GltfMaterials& materials)
-        : document_(document), data_(data), fields_(fields), materials_(materials) {}
+                   GltfMaterials& materials, GltfKind kind = GltfKind::triangles)
+        : document_(document), data_(data), fields_(fields), materials_(materials), kind_(kind) {}
 
     /// Reads mesh `index` with its morph targets by `weights`, or by its own for none.
     GltfMesh read(std::uint64_t index, std::vector<double> weights);
@@ -88,6 +94,7 @@ class GltfMeshReader {
     /// The same of any type.
     std::vector<double> attribute(const Source& source, const std::string& name,
                                   std::uint64_t accessor);
+    std::vector<std::uint32_t> indices_of(const Source& source, std::size_t vertices);
     std::vector<std::uint32_t> corners_of(const Source& source, std::uint64_t mode,
                                           std::size_t vertices);
 
@@ -95,6 +102,7 @@ class GltfMeshReader {
     GltfData& data_;
     const WantedFields& fields_;
     GltfMaterials& materials_;
+    GltfKind kind_;
     std::string place_;           ///< The primitive that is being read, for messages.
     std::string material_uvs_;    ///< Attribute that its material needs, or "".
     std::vector<double> weights_; ///< Of morph targets.

@@ -1,10 +1,8 @@
 #include <algorithm>
-#include <array>
 #include <limits>
 #include <optional>
 #include <span>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -13,9 +11,11 @@
 #include "files/file_scope.hpp"
 #include "files/gltf_chunks.hpp"
 #include "files/gltf_data.hpp"
+#include "files/gltf_extensions.hpp"
 #include "files/gltf_json.hpp"
 #include "files/gltf_materials.hpp"
 #include "files/gltf_mesh.hpp"
+#include "files/gltf_placing.hpp"
 #include "files/gltf_scene.hpp"
 #include "files/input_file.hpp"
 #include "files/polygon_mesh.hpp"
@@ -25,92 +25,6 @@
 
 namespace geodisk::tools {
 namespace {
-
-enum class Extension { read, ignored, unknown };
-
-/// What becomes of an extension that a file requires, also for the colours of materials if wanted.
-Extension kind_of(std::string_view name, bool has_materials) {
-    constexpr std::array<std::string_view, 6> kRead{
-        "EXT_mesh_gpu_instancing", "EXT_meshopt_compression", "KHR_draco_mesh_compression",
-        "KHR_meshopt_compression", "KHR_mesh_quantization",   "KHR_node_visibility"};
-    constexpr std::array<std::string_view, 2> kReadOfMaterials{
-        "KHR_materials_pbrSpecularGlossiness", "KHR_texture_transform"};
-    // Of materials, pictures and whatever else leaves the surface as it is.
-    constexpr std::array<std::string_view, 17> kHarmless{
-        "material",  "texture", "light",    "technique", "image",     "camera",
-        "animation", "audio",   "metadata", "xmp",       "packing",   "outline",
-        "features",  "_lod",    "hoverab",  "selectab",  "interactiv"};
-    if (std::ranges::find(kRead, name) != kRead.end() ||
-        (has_materials && std::ranges::find(kReadOfMaterials, name) != kReadOfMaterials.end())) {
-        return Extension::read;
-    }
-    const std::string lower = lower_case(std::string(name));
-    const bool is_harmless = std::ranges::any_of(
-        kHarmless, [&](std::string_view part) { return lower.find(part) != std::string::npos; });
-    return is_harmless ? Extension::ignored : Extension::unknown;
-}
-
-/// Places points: all in one way, or each by its joints.
-class Placing {
-  public:
-    explicit Placing(const glm::dmat4& transform)
-        : transform_(transform), mirrored_(glm::determinant(transform) < 0 ? 1 : 0) {}
-    Placing(const glm::dmat4& transform, const std::vector<glm::dmat4>& joints)
-        : transform_(transform), joints_(&joints) {}
-
-    /// Nothing if a weight belongs to a joint that there is not.
-    std::optional<glm::dvec3> place(const GltfVertices& vertices, std::size_t i) {
-        const std::optional<glm::dmat4> matrix = matrix_of(vertices, i);
-        if (!matrix) {
-            return std::nullopt;
-        }
-        if (joints_ != nullptr) {
-            mirrored_ += glm::determinant(*matrix) < 0 ? 1 : -1;
-        }
-        const glm::dvec4 placed = *matrix * glm::dvec4(vertices.points[i], 1);
-        return glm::dvec3(placed);
-    }
-    /// Returns a normal at a point that place() knows; of any length.
-    glm::dvec3 turn(const GltfVertices& vertices, std::size_t i, const glm::dvec3& normal) const {
-        const glm::dmat3 m(matrix_of(vertices, i).value_or(transform_));
-        const glm::dmat3 cofactors(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]),
-                                   glm::cross(m[0], m[1]));
-        return (glm::determinant(m) < 0 ? -1.0 : 1.0) * (cofactors * normal);
-    }
-    /// True if most of the points so far were mirrored.
-    bool is_mirrored() const { return mirrored_ > 0; }
-
-  private:
-    std::optional<glm::dmat4> matrix_of(const GltfVertices& vertices, std::size_t i) const {
-        if (joints_ == nullptr || vertices.joints_per_point == 0) {
-            return transform_;
-        }
-        const std::size_t begin = i * vertices.joints_per_point;
-        double sum = 0;
-        glm::dmat4 result(0);
-        for (std::size_t k = begin; k < begin + vertices.joints_per_point; ++k) {
-            const double weight = vertices.weights[k];
-            if (weight == 0) {
-                continue;
-            }
-            if (vertices.joints[k] >= joints_->size()) {
-                return std::nullopt;
-            }
-            sum += weight;
-            result += weight * (*joints_)[vertices.joints[k]];
-        }
-        if (sum != 0) {
-            return result / sum;
-        }
-        // Weights that are all zero: as viewers do, by the first joint alone.
-        const std::uint32_t joint = vertices.joints[begin];
-        return joint < joints_->size() ? std::optional((*joints_)[joint]) : std::nullopt;
-    }
-
-    glm::dmat4 transform_;
-    const std::vector<glm::dmat4>* joints_ = nullptr;
-    std::int64_t mirrored_ = 0;
-};
 
 class GltfReader {
   public:
@@ -122,7 +36,7 @@ class GltfReader {
 
     PolygonMesh read() && {
         mesh_.names = {"triangle ", "vertex ", {}, {}, 0};
-        check_extensions();
+        check_required_extensions(document_, has_materials_, mesh_.warnings);
         for (const GltfPlacement& placement : scene_.placements()) {
             add_mesh(placement);
         }
@@ -143,29 +57,6 @@ class GltfReader {
     }
 
   private:
-    void check_extensions() {
-        for (const GltfJson& value :
-             document_.array(document_.root(), "extensionsRequired", "the file")) {
-            const std::string name = value.is_string() ? value.get<std::string>() : value.dump();
-            switch (kind_of(name, has_materials_)) {
-            case Extension::read:
-                break;
-            case Extension::ignored:
-                mesh_.warnings.push_back(
-                    {"ignored_extension",
-                     1,
-                     "",
-                     "extension " + in_quotes(name) +
-                         " is required and ignored: it does not change the surface",
-                     {}});
-                break;
-            case Extension::unknown:
-                document_.fail("requires the extension " + in_quotes(name) +
-                               ", which is not read and may change the surface");
-            }
-        }
-    }
-
     /// Names of the elements of a top-level array; "" for those without.
     std::vector<std::string> names_of(const char* list) const {
         std::vector<std::string> names;
@@ -282,7 +173,7 @@ class GltfReader {
 
     void turn_normals(const GltfPlacement& placement, const GltfVertices& vertices,
                       const glm::dmat4& transform, std::span<double> normals) {
-        const Placing placing = placing_of(placement, transform);
+        const GltfPlacing placing(document_, scene_, placement, transform);
         for (std::size_t i = 0; i < vertices.points.size(); ++i) {
             double* const n = &normals[3 * i];
             const glm::dvec3 turned = placing.turn(vertices, i, {n[0], n[1], n[2]});
@@ -292,22 +183,13 @@ class GltfReader {
         }
     }
 
-    Placing placing_of(const GltfPlacement& placement, const glm::dmat4& transform) {
-        return placement.skin ? Placing(transform, scene_.joint_matrices(*placement.skin))
-                              : Placing(transform);
-    }
-
     /// Returns whether they are mirrored.
     bool add_vertices(const GltfPlacement& placement, const GltfVertices& vertices,
                       const glm::dmat4& transform) {
-        Placing placing = placing_of(placement, transform);
+        GltfPlacing placing(document_, scene_, placement, transform);
         for (std::size_t i = 0; i < vertices.points.size(); ++i) {
-            const std::optional<glm::dvec3> point = placing.place(vertices, i);
-            if (!point) {
-                document_.fail("mesh " + std::to_string(placement.mesh) + ": vertex " +
-                               std::to_string(i) + " has a joint that its skin has not");
-            }
-            mesh_.positions.insert(mesh_.positions.end(), {point->x, point->y, point->z});
+            const glm::dvec3 point = placing.place(vertices, i);
+            mesh_.positions.insert(mesh_.positions.end(), {point.x, point.y, point.z});
         }
         return placing.is_mirrored();
     }

@@ -7,8 +7,10 @@
 #include <utility>
 #include <vector>
 
+#include "files/file_scope.hpp"
 #include "files/input_file.hpp"
 #include "files/sample_columns.hpp"
+#include "files/sample_rows.hpp"
 #include "files/text_file.hpp"
 #include "files/text_lines.hpp"
 #include "program/exact_text.hpp"
@@ -114,8 +116,11 @@ void join_polylines(SampleFile& file) {
 
 } // namespace
 
-SampleFile read_points_and_lines(const Path& path, const std::string& numbers) {
-    if (lower_extension(path) != ".off") {
+SampleFile read_points_and_lines(const Path& path, const std::string& numbers,
+                                 bool allows_outside) {
+    const std::string extension = lower_extension(path);
+    const bool is_gltf = extension == ".gltf" || extension == ".glb";
+    if (extension != ".off" && !is_gltf) {
         SampleFile file = read_samples(path, numbers);
         join_polylines(file);
         return file;
@@ -123,7 +128,8 @@ SampleFile read_points_and_lines(const Path& path, const std::string& numbers) {
     if (!numbers.empty()) {
         fail_input(path, "has no columns, so none of the name " + numbers);
     }
-    return OffLines(path, read_text(path)).read();
+    return is_gltf ? read_gltf_lines(path, FileScope(path, allows_outside))
+                   : OffLines(path, read_text(path)).read();
 }
 
 } // namespace geodisk::tools

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "files/sample_target.hpp"
+#include "geometry/mesh_warning.hpp"
 #include "program/path.hpp"
 
 namespace geodisk::tools {
@@ -111,6 +112,7 @@ struct SampleFile {
     std::vector<WrongColumn> wrong_columns{}; ///< Left out.
     /// Lines between two rows each; only read_points_and_lines() reads them all.
     std::vector<std::array<std::uint32_t, 2>> segments{};
+    std::vector<MeshWarning> warnings{}; ///< Oddities of the file.
 
     /// The values of a column of `extra`; empty without it.
     std::span<const std::uint32_t> extra_values(std::string_view name) const;

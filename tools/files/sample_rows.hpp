@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "files/file_scope.hpp"
 #include "files/part_columns.hpp"
 #include "files/sample_columns.hpp"
 #include "files/sample_file.hpp"
@@ -143,6 +144,7 @@ SampleFile read_table_samples(const Path& path, std::string_view bytes, SampleDo
 SampleFile read_pcd_samples(const Path& path, std::string_view bytes, SampleDomain domain,
                             const std::string& numbers);
 SampleFile read_obj_points(const Path& path, std::string_view bytes);
+SampleFile read_gltf_lines(const Path& path, const FileScope& scope);
 SampleFile read_numpy_samples(const Path& path, std::string_view bytes, SampleDomain domain,
                               const std::string& numbers);
 

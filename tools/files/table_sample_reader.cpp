@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "files/input_file.hpp"
+#include "files/obj_lines.hpp"
 #include "files/sample_rows.hpp"
 #include "files/table_cells.hpp"
 #include "files/text_lines.hpp"
@@ -267,12 +268,15 @@ void add_line(const Cells& cells, const Fail& fail, SampleFile& samples) {
 SampleFile read_obj_points(const Path& path, std::string_view bytes) {
     SampleFile samples;
     samples.has_faces = false;
-    TextLines lines(bytes);
-    Cells cells;
-    for (std::string_view line; lines.next(line);) {
+    TextLines all(bytes);
+    for (std::string_view line; all.next(line);) {
         if (line.starts_with('#')) {
             add_entry(samples.header, trimmed(line.substr(1)));
         }
+    }
+    ObjLines lines(bytes);
+    Cells cells;
+    for (std::string_view line; lines.next(line);) {
         split_tokens(line, cells);
         const auto fail = [&](const std::string& message) {
             fail_input(path, "line " + std::to_string(lines.number()) + ": " + message);

@@ -224,6 +224,10 @@ std::vector<std::string> left_out_drivers() {
     return found;
 }
 
+std::string left_out_warning(const std::string& driver) {
+    return "the CPU is used, since a Vulkan driver is left out: " + driver;
+}
+
 std::vector<std::string> missing_drivers(std::span<const DeviceReport> devices) {
     const auto is_cpu = [](const DeviceReport& device) {
         return device.type == VK_PHYSICAL_DEVICE_TYPE_CPU;

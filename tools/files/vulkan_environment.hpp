@@ -29,6 +29,9 @@ std::string driver_fault();
 /// on Windows, where they are in the registry.
 std::vector<std::string> left_out_drivers();
 
+/// Returns the warning of a driver of left_out_drivers(), where the CPU is used.
+std::string left_out_warning(const std::string& driver);
+
 /// Returns left_out_drivers() if all of these devices are CPUs, where a driver may be missing.
 std::vector<std::string> missing_drivers(std::span<const DeviceReport> devices);
 

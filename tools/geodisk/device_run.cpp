@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <memory>
 #include <optional>
+#include <system_error>
 #include <utility>
 
 #include "files/tuning_file.hpp"
@@ -114,6 +115,15 @@ std::uint64_t cut_to(SampleSet& set, const Domain& domain, std::size_t count) {
     return cut;
 }
 
+/// Compiles on all cores what jobs on the device share.
+std::shared_ptr<OpenDevice> make_device(Context context, RunnerOptions options) {
+    options.sampler.tuning = load_tuning(context.report()).value_or(Tuning());
+    options.sampler.threads = ThreadOptions();
+    auto sampler =
+        std::make_shared<const Sampler>(take(Sampler::create(context.device(), options.sampler)));
+    return std::make_shared<OpenDevice>(std::move(context), options, std::move(sampler));
+}
+
 } // namespace
 
 double part_done(const Progress& state, double expected) {
@@ -166,20 +176,51 @@ void RunDevice::open(ProgressLine& progress) {
 }
 
 std::shared_ptr<OpenDevice> RunDevice::open_shared(ProgressLine& progress) {
-    Stopwatch watch;
-    Context context = open_device(device_, graphics_, progress);
-    open_seconds_ = watch.seconds();
-
-    progress.begin_stage("compiling the shaders");
-    watch = Stopwatch();
-    RunnerOptions options = options_;
-    options.sampler.tuning = load_tuning(context.report()).value_or(Tuning());
-    auto sampler =
-        std::make_shared<const Sampler>(take(Sampler::create(context.device(), options.sampler)));
-    compile_seconds_ = watch.seconds();
+    Begun begun = finish_open(progress);
+    open_seconds_ = begun.open_seconds;
+    compile_seconds_ = begun.compile_seconds;
     progress.clear();
-    log_.tell_device(context.report(), sampler->tuning(), open_seconds_, compile_seconds_);
-    return std::make_shared<OpenDevice>(std::move(context), options, std::move(sampler));
+    const OpenDevice& device = *begun.device;
+    log_.tell_device(device.context.report(), device.sampler->tuning(), open_seconds_,
+                     compile_seconds_);
+    return std::move(begun).device;
+}
+
+RunDevice::Begun RunDevice::finish_open(ProgressLine& progress) {
+    const Stopwatch watch;
+    if (begun_.valid()) {
+        progress.begin_stage("opening the device");
+        Begun begun = begun_.get();
+        progress.clear();
+        warn_of_unasked_cpu(device_, begun.device->context);
+        check_interrupted();
+        // Counts only the time that this thread has waited.
+        const double waited = watch.seconds();
+        begun.compile_seconds = std::min(begun.compile_seconds, waited);
+        begun.open_seconds = std::min(begun.open_seconds, waited - begun.compile_seconds);
+        return begun;
+    }
+    Context context = open_device(device_, graphics_, progress);
+    const double open_seconds = watch.seconds();
+    progress.begin_stage("compiling the shaders");
+    auto device = make_device(std::move(context), options_);
+    return {std::move(device), open_seconds, watch.seconds() - open_seconds};
+}
+
+void RunDevice::begin_open(Ahead ahead) {
+    RunnerOptions options = options_;
+    options.sampler.ahead = ahead;
+    try {
+        begun_ = std::async(std::launch::async, [device = device_, options, draws = graphics_] {
+            const Stopwatch watch;
+            Context context = create_context(device, draws);
+            const double open_seconds = watch.seconds();
+            auto open = make_device(std::move(context), options);
+            return Begun{std::move(open), open_seconds, watch.seconds() - open_seconds};
+        });
+    } catch (const std::system_error&) {
+        // No thread could be started; open() does it all.
+    }
 }
 
 void RunDevice::close() {

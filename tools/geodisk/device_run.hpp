@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cstdint>
 #include <functional>
+#include <future>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -115,6 +116,11 @@ class RunDevice {
     /// device was lost since, also by a run beside. Throws UserError.
     void open(ProgressLine& progress);
 
+    /// Begins to open the device on another thread and to compile pipelines there, of which
+    /// `ahead` are those that jobs will probably need. The next open() waits for it and reports its
+    /// errors. The device must not be shared.
+    void begin_open(Ahead ahead);
+
     /// Opens the device where need be, compiles there what the domain needs, and samples it. Where
     /// a number of samples is wanted and another comes out, it tries other distances (CountSearch)
     /// and takes the best; of an exact count just the first samples. Throws UserError, DeviceLost
@@ -144,7 +150,14 @@ class RunDevice {
         std::shared_ptr<OpenDevice> device;
         Runner runner;
     };
+    /// A device just opened, and how long that took.
+    struct Begun {
+        std::shared_ptr<OpenDevice> device;
+        double open_seconds, compile_seconds;
+    };
     std::shared_ptr<OpenDevice> open_shared(ProgressLine& progress);
+    /// Waits for begin_open().
+    Begun finish_open(ProgressLine& progress);
     /// After the device was lost.
     void close();
     SampleSet sample(const Task& task, double min_distance, ProgressLine& progress);
@@ -158,6 +171,7 @@ class RunDevice {
     DeviceLog log_;
     std::shared_ptr<SharedDevice> shared_;
     std::optional<Opened> opened_;
+    std::future<Begun> begun_; ///< Of begin_open().
     SurfaceSampler* sampler_ = nullptr;
     double open_seconds_ = 0, compile_seconds_ = 0; ///< That no run has told of yet.
 };

@@ -18,6 +18,7 @@ constexpr const char* kEnvironment = R"(
 
 Environment:
   GEODISK_DEVICE   device for commands without --device: name, index or UUID (geodisk info)
+  GEODISK_CACHE    off: keep no compiled pipelines in the user's cache folder
   NO_COLOR         no colours on a terminal, if set
 
 Each command has its own options and examples: geodisk COMMAND --help.)";

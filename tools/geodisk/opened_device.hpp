@@ -11,8 +11,14 @@
 
 namespace geodisk::tools {
 
-/// As --device and --validate ask; with a queue that draws as well, where `graphics` is set. Warns
-/// of missing drivers if that is a CPU that nobody asked for. Throws UserError.
+/// Opens the device that --device and --validate ask for, with a queue that draws as well if
+/// `graphics` is set. Any thread may call it. Throws UserError.
+Context create_context(const DeviceOptions& options, bool graphics);
+
+/// Warns of missing drivers if the device is a CPU that nobody asked for.
+void warn_of_unasked_cpu(const DeviceOptions& options, const Context& context);
+
+/// Opens a device by create_context(), and warns of missing drivers.
 Context open_device(const DeviceOptions& options, bool graphics, ProgressLine& progress);
 
 /// Prints a warning for each driver that is left out, if all devices are CPUs.

@@ -35,6 +35,12 @@ struct ContextOptions {
     /// The queue is to draw as well. Creation fails where the device has none for graphics and
     /// compute.
     bool graphics = false;
+    /// Keep compiled pipelines in a file for later processes, and take them from there. The file is
+    /// in the folder `geodisk` of the user's cache folder ($XDG_CACHE_HOME or ~/.cache, on Windows
+    /// %LOCALAPPDATA%, on macOS ~/Library/Caches), one per device, driver and version of geodisk.
+    /// It is read at creation and written at destruction. A file that is damaged or cannot be
+    /// written is ignored. GEODISK_CACHE=off in the environment turns it off.
+    bool keep_pipelines = false;
 };
 
 /// Index into `reports` of the device that `device` names.

@@ -31,6 +31,7 @@
 #include <geodisk/export.hpp>
 #include <geodisk/kernel_report.hpp>
 #include <geodisk/status.hpp>
+#include <geodisk/threads.hpp>
 
 namespace geodisk {
 
@@ -88,6 +89,13 @@ GEODISK_API Tuning overridden(Tuning tuning, const Tuning& wanted) noexcept;
 /// are too small.
 GEODISK_API Result<Tuning> chosen_tuning(const Tuning& wanted, const DeviceReport& report) noexcept;
 
+/// Jobs whose pipelines Sampler::create() compiles besides those that all jobs share.
+enum class Ahead : std::uint8_t {
+    nothing,       ///< Others are compiled by Sampler::prepare() or make_job().
+    surface,       ///< Those of most surfaces, sampled by geodesic distance.
+    varying_radii, ///< The same, with radii that vary.
+};
+
 /// How pipelines are made, and what they count.
 struct SamplerOptions {
     Tuning tuning;
@@ -96,6 +104,12 @@ struct SamplerOptions {
     /// Counts in gpu::ControlRec how long lanes of detect wait for others of their subgroup; takes
     /// a little time.
     bool count_trips = false;
+    /// Lets create() compile before a domain is known, for example while a mesh is read.
+    Ahead ahead = Ahead::nothing;
+    /// Threads that compile pipelines; by default only the calling thread. With more of them,
+    /// DeviceRefs::host_allocator is called on several threads at once, and
+    /// DeviceRefs::pipeline_cache must not be externally synchronized.
+    ThreadOptions threads{.most_threads = 1};
 };
 
 /// Buffers of a job, in the order of the bindings in shaders/shared/bindings.h.

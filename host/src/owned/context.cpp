@@ -6,6 +6,7 @@
 
 #include "owned/context_access.hpp"
 #include "owned/instance.hpp"
+#include "owned/pipeline_cache.hpp"
 #include "support/guard.hpp"
 #include "vk/extensions.hpp"
 #include "vk/result.hpp"
@@ -88,11 +89,13 @@ struct Context::Impl {
     VkQueue queue = VK_NULL_HANDLE;
     PFN_vkDestroyDevice vkDestroyDevice = nullptr;
     std::mutex queue_mutex;
+    PipelineCache cache;
 
     Impl() = default;
     Impl(const Impl&) = delete;
     Impl& operator=(const Impl&) = delete;
     ~Impl() {
+        cache.close();
         if (device != VK_NULL_HANDLE && vkDestroyDevice != nullptr)
             vkDestroyDevice(device, nullptr);
     }
@@ -100,6 +103,7 @@ struct Context::Impl {
     Result<Done> choose_family(bool graphics);
     Result<Done> choose_extensions(const ContextOptions& options);
     Result<Done> open_device();
+    void open_cache();
 };
 
 Result<Done> Context::Impl::choose_family(bool graphics) {
@@ -149,6 +153,17 @@ Result<Done> Context::Impl::open_device() {
     return Done{};
 }
 
+/// Opens the pipeline cache of the user, if there is to be one.
+void Context::Impl::open_cache() {
+    const auto folder = cache_folder();
+    if (!folder)
+        return;
+    VkPhysicalDeviceProperties properties{};
+    instance->functions().vkGetPhysicalDeviceProperties(physical_device, &properties);
+    cache.open(device, instance->owner_functions().vkGetDeviceProcAddr,
+               PipelineFile(*folder, properties));
+}
+
 Result<Context> ContextAccess::create(Loader loader, const ContextOptions& options) noexcept {
     return guarded([&]() -> Result<Context> {
         Result<std::unique_ptr<Instance>> instance = Instance::create(
@@ -180,6 +195,8 @@ Result<Context> ContextAccess::create(Loader loader, const ContextOptions& optio
         Result<Done> opened = impl->open_device();
         if (!opened)
             return std::move(opened).error();
+        if (options.keep_pipelines)
+            impl->open_cache();
         return Context(std::move(impl));
     });
 }
@@ -222,6 +239,7 @@ DeviceRefs Context::device() const noexcept {
     refs.device = impl_->device;
     refs.get_instance_proc_addr = impl_->instance->get_instance_proc_addr();
     refs.api_version = Instance::kApiVersion;
+    refs.pipeline_cache = impl_->cache.handle();
     refs.memory_budget = impl_->extensions.memory_budget;
     refs.pipeline_statistics = impl_->extensions.pipeline_statistics;
     refs.debug_utils = impl_->instance->validation_log() != nullptr;

@@ -89,7 +89,7 @@ std::vector<std::size_t> find_matches(Reports reports, std::string_view device) 
     });
 }
 
-std::string quoted(std::string_view text) {
+std::string in_quotation_marks(std::string_view text) {
     std::string result = "\"";
     result += text;
     result += '"';
@@ -99,9 +99,10 @@ std::string quoted(std::string_view text) {
 Error nothing_matches(Reports reports, std::string_view device) {
     if (reports.empty())
         return Error{Status::no_device, "there is no Vulkan device"};
-    std::string message = "no Vulkan device matches " + quoted(device) + "; there is ";
+    std::string message = "no Vulkan device matches " + in_quotation_marks(device) + "; there is ";
     for (std::size_t i = 0; i < reports.size(); ++i)
-        message += (i > 0 ? ", " : "") + std::to_string(i) + ' ' + quoted(reports[i].name);
+        message +=
+            (i > 0 ? ", " : "") + std::to_string(i) + ' ' + in_quotation_marks(reports[i].name);
     return Error{Status::no_device, std::move(message)};
 }
 
@@ -109,8 +110,8 @@ Error none_usable(Reports reports, const std::vector<std::size_t>& matches) {
     std::string message;
     for (const std::size_t match : matches) {
         message += message.empty() ? "" : "; ";
-        message += "the device " + std::to_string(match) + ' ' + quoted(reports[match].name) +
-                   " cannot run geodisk: ";
+        message += "the device " + std::to_string(match) + ' ' +
+                   in_quotation_marks(reports[match].name) + " cannot run geodisk: ";
         const char* separator = "";
         for (const std::string& reason : reports[match].reasons_against) {
             message += separator + reason;

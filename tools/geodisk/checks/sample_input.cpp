@@ -100,10 +100,15 @@ SampleInput read_silently(const std::string& path, const std::string& mesh_path,
                           const std::string& tolerance, std::vector<MeshWarning>& warnings,
                           ProgressLine& progress, const ReadAs& as = {}) {
     progress.begin_stage("reading the samples");
-    SampleInput input{as.has_lines ? read_points_and_lines(path, as.numbers)
+    SampleInput input{as.has_lines ? read_points_and_lines(path, as.numbers, as.allows_outside)
                                    : read_samples(path, as.numbers),
                       {}};
     progress.clear();
+    for (MeshWarning& warning : input.file.warnings) {
+        warning.file = path;
+        warnings.push_back(std::move(warning));
+    }
+    input.file.warnings.clear();
     check_columns(path, input.file, as.noun, warnings);
     check_dimensions(path, input.file, mesh_path, mesh);
     if (!input.file.has_faces) {

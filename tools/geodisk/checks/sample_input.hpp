@@ -22,6 +22,7 @@ struct ReadAs {
     std::string noun = "sample"; ///< Names a row in errors.
     std::string numbers;         ///< Column to read as well, see read_samples(), or "".
     bool has_lines = false;      ///< Formats of lines may be read, see read_points_and_lines().
+    bool allows_outside = false; ///< Files that a file of lines names may be anywhere.
 };
 
 /// Reads the samples in the file `path` of the mesh in the file `mesh_path`. Points without faces

@@ -1,6 +1,11 @@
+#include <filesystem>
 #include <memory>
+#include <string>
+#include <system_error>
+#include <utility>
 #include <vector>
 
+#include "files/mesh_file.hpp"
 #include "geodisk/checks/run_warnings.hpp"
 #include "geodisk/checks/sample_checks.hpp"
 #include "geodisk/commands/commands.hpp"
@@ -15,6 +20,7 @@
 #include "picture/png.hpp"
 #include "program/command.hpp"
 #include "program/failure.hpp"
+#include "program/path.hpp"
 
 namespace geodisk::tools {
 namespace {
@@ -44,20 +50,36 @@ void draw_samples(const SampleJob& job, const MeshInput& mesh, SampleResult& res
     check_validation(device.context());
 }
 
-/// Leaves the picture out where the device cannot draw and that will do.
-RunDevice open_device_for(SampleJob& job, bool may_lack_picture, ProgressLine& progress) {
-    if (may_lack_picture) {
-        try {
-            RunDevice device = device_for(job);
-            device.open(progress);
-            return device;
-        } catch (const UserError& error) {
-            if (error.code() != ExitCode::no_device) {
-                throw;
-            }
-        }
-        job.picture.clear();
+/// Begins to open the device, unless there is no mesh to be read meanwhile.
+RunDevice begin_device_for(const SampleJob& job) {
+    RunDevice device = device_for(job);
+    const std::string& mesh = job.mesh.mesh;
+    std::error_code error;
+    if (is_builtin(mesh) || std::filesystem::is_regular_file(Path(mesh), error)) {
+        const bool is_special =
+            !job.is_geodesic() || job.classes.is_given() || !job.constraints.avoid.empty();
+        device.begin_open(is_special               ? Ahead::nothing
+                          : job.density.is_given() ? Ahead::varying_radii
+                                                   : Ahead::surface);
     }
+    return device;
+}
+
+/// Leaves the picture out where the device cannot draw and that will do.
+RunDevice open_device_for(SampleJob& job, RunDevice device, bool may_lack_picture,
+                          ProgressLine& progress) {
+    if (!may_lack_picture) {
+        return device;
+    }
+    try {
+        device.open(progress);
+        return device;
+    } catch (const UserError& error) {
+        if (error.code() != ExitCode::no_device) {
+            throw;
+        }
+    }
+    job.picture.clear();
     return device_for(job);
 }
 
@@ -73,6 +95,7 @@ void sample_to_files(const SampleOptions& options, const UnnamedOutputs& unnamed
         check_picture_path(job.picture);
     }
     ProgressLine progress(job.out.quiet);
+    RunDevice begun = begin_device_for(job);
     const MeshInput mesh = load_mesh(job.mesh, progress, job.density, job.mask);
     if (!job.out.output.empty()) {
         check_target(job, mesh);
@@ -80,7 +103,7 @@ void sample_to_files(const SampleOptions& options, const UnnamedOutputs& unnamed
     if (!job.picture.empty()) {
         check_visible(job.mesh.mesh, mesh);
     }
-    RunDevice device = open_device_for(job, unnamed.may_lack_picture, progress);
+    RunDevice device = open_device_for(job, std::move(begun), unnamed.may_lack_picture, progress);
     device.sample_by(sampler);
     if (job.out.is_dry_run) {
         const DryRun dry = try_sampling(job, mesh, device, progress);

@@ -72,7 +72,7 @@ void avoid_file(const AvoidOption& option, const std::string& tolerance, const M
     const std::string& path = option.points;
     const SampleFile file =
         read_samples_silently_on(path, of_mesh.mesh, mesh, &additions, tolerance, warnings,
-                                 progress, {"point", option.column, true});
+                                 progress, {"point", option.column, true, of_mesh.allows_outside});
     warn_if_empty(file, path, "has no points to avoid, so --avoid does nothing", warnings);
     const std::size_t first = avoided.disks.size();
     for (std::size_t i = 0; i < file.rows.size(); ++i) {

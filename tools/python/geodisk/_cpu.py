@@ -12,7 +12,8 @@ from types import ModuleType
 from typing import Iterator
 
 from . import _library as c
-from ._errors import NoDevice
+from ._errors import GeodiskWarning, NoDevice
+from ._oddities import left_out_drivers
 
 # Each names drivers that the user chose.
 _CHOICES = ("VK_DRIVER_FILES", "VK_ICD_FILENAMES", "VK_ADD_DRIVER_FILES")
@@ -55,20 +56,31 @@ def _library_folder() -> str | None:
     return os.path.dirname(package.LOADER) if _is_there(package.LOADER) else None
 
 
+#: Warnings of drivers left out, from before provide() has chosen the package's driver.
+_left_out: tuple[GeodiskWarning, ...] | None = None
+
+
 @functools.lru_cache(maxsize=None)
 def provide() -> None:
     """Lets this process use the package's driver if no other device is usable.
 
     It sets VK_DRIVER_FILES and VK_ICD_FILENAMES, unless the user has chosen drivers.
     """
+    global _left_out
     package = _package()
     if package is None:
         return
     _library_folder()
     if _user_chose() or _a_device_is_usable():
         return
+    _left_out = left_out_drivers()
     for name in ("VK_DRIVER_FILES", "VK_ICD_FILENAMES"):  # Older loaders know the second alone.
         os.environ[name] = package.DRIVER
+
+
+def warnings_of_drivers() -> tuple[GeodiskWarning, ...]:
+    """Returns warnings of drivers that do not load, for a process that uses a CPU."""
+    return left_out_drivers() if _left_out is None else _left_out
 
 
 @contextlib.contextmanager

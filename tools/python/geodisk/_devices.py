@@ -9,12 +9,13 @@ import os
 import reprlib
 import threading
 from dataclasses import dataclass
-from typing import Iterator, Union
+from typing import ContextManager, Iterator, Union
 
 from . import _cpu
 from . import _errors as e
 from . import _library as c
 from . import _structs as s
+from ._oddities import warn
 from ._values import text
 
 
@@ -108,9 +109,10 @@ _uses_drivers = False
 
 
 def _open(name: str) -> c.Handle:
-    """Returns the device, opened at the first call."""
+    """Returns the device, opened at the first call, which warns of drivers left out."""
     global _uses_drivers
     _uses_drivers = True
+    found: tuple[e.GeodiskWarning, ...] = ()
     with _lock:
         if name not in _opened:
             _cpu.provide()
@@ -122,13 +124,26 @@ def _open(name: str) -> c.Handle:
                 if name and name == os.environ.get("GEODISK_DEVICE"):
                     raise e.NoDevice(f"{error} (GEODISK_DEVICE is {name})", error.status) from None
                 raise
-        return _opened[name]
+            if not name and _is_cpu(_opened[name]):
+                found = _cpu.warnings_of_drivers()
+        device = _opened[name]
+    warn(found)
+    return device
+
+
+def _is_cpu(device: c.Handle) -> bool:
+    info = s.DeviceInfo()
+    c.call("geodisk_device_describe", device.value, ctypes.byref(info))
+    return _TYPES.get(info.type) == "cpu"
+
+
+def sampler_on(name: str) -> ContextManager[ctypes.c_void_p]:
+    """Lends a sampler on a device, for one run. Pipelines are compiled at the first call."""
+    return _sampler_on(name, _open(name))
 
 
 @contextlib.contextmanager
-def sampler_on(name: str) -> Iterator[ctypes.c_void_p]:
-    """Lends a sampler on a device, for one run. Pipelines are compiled at the first call."""
-    device = _open(name)
+def _sampler_on(name: str, device: c.Handle) -> Iterator[ctypes.c_void_p]:
     idle = _idle.setdefault(name, [])
     try:
         sampler = idle.pop()

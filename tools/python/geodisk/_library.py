@@ -149,6 +149,7 @@ _FALLIBLE: dict[str, list[Any]] = {
     "geodisk_source_record": [c_void_p, POINTER(RecordParams)],
     "geodisk_warnings_list": [c_void_p, c_void_p, _HANDLE],
     "geodisk_warnings_of_set": [POINTER(SampledSet), _HANDLE],
+    "geodisk_warnings_of_drivers": [_HANDLE],
     "geodisk_warnings_get": [c_void_p, c_size_t, POINTER(Oddity)],
 }
 _RELEASES = [

@@ -59,6 +59,12 @@ def oddities_of_set(
     return tuple(GeodiskWarning(*one) for one in _listed(found))
 
 
+def left_out_drivers() -> tuple[GeodiskWarning, ...]:
+    """Returns what the program prints about drivers that do not load, where it uses a CPU."""
+    found = c.Handle("warnings", "geodisk_warnings_of_drivers")
+    return tuple(GeodiskWarning(*one) for one in _listed(found))
+
+
 def _listed(found: c.Handle) -> Iterator[tuple[str, str, int]]:
     """Yields message, kind and count of each."""
     for index in range(c.warnings_count(found.value)):

@@ -151,6 +151,10 @@ typedef struct geodisk_sampled_set {
 GEODISK_C_API geodisk_status geodisk_warnings_of_set(const geodisk_sampled_set *set,
                                                      geodisk_warnings **warnings,
                                                      geodisk_error *error);
+/* Lists the Vulkan drivers that the loader finds and leaves out, each with the reason, in the words of
+ * the program where it uses a CPU. */
+GEODISK_C_API geodisk_status geodisk_warnings_of_drivers(geodisk_warnings **warnings,
+                                                         geodisk_error *error);
 GEODISK_C_API size_t geodisk_warnings_count(const geodisk_warnings *warnings);
 GEODISK_C_API geodisk_status geodisk_warnings_get(const geodisk_warnings *warnings, size_t index,
                                                   geodisk_warning *warning, geodisk_error *error);

@@ -1,11 +1,13 @@
 #include <algorithm>
 #include <iterator>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include "c/c_call.hpp"
 #include "c/c_mesh.hpp"
+#include "files/vulkan_environment.hpp"
 #include "geometry/set_warnings.hpp"
 #include "geometry/shape_warnings.hpp"
 #include "geometry/surface_warnings.hpp"
@@ -103,6 +105,20 @@ geodisk_status geodisk_warnings_of_set(const geodisk_sampled_set* set, geodisk_w
             return wrong("warnings is NULL");
         }
         *warnings = new geodisk_warnings{warnings_of_set(*given)};
+        return Done{};
+    });
+}
+
+geodisk_status geodisk_warnings_of_drivers(geodisk_warnings** warnings, geodisk_error* error) {
+    return answer(error, [&]() -> Result<Done> {
+        if (warnings == nullptr) {
+            return wrong("warnings is NULL");
+        }
+        std::vector<MeshWarning> list;
+        for (const std::string& driver : left_out_drivers()) {
+            list.push_back({"left_out_driver", 1, "", left_out_warning(driver), {}});
+        }
+        *warnings = new geodisk_warnings{std::move(list)};
         return Done{};
     });
 }

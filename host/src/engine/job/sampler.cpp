@@ -60,13 +60,23 @@ Result<Sampler> Sampler::create(const DeviceRefs& device, const SamplerOptions& 
             (options.rounding == Rounding::automatic && report->rounds_natively);
         choices.counted_lanes =
             options.count_trips ? std::max(report->limits.subgroup_size, 1u) : 0;
-        auto impl =
-            std::make_unique<Impl>(device, std::move(*report), *table, choices, options.events);
-        if (auto created = impl->pipelines.create(); !created) {
+        auto impl = std::make_unique<Impl>(device, std::move(*report), *table, choices, options);
+        const auto ahead = impl->variant_ahead(options.ahead);
+        if (auto created = impl->pipelines.create(ahead); !created) {
             return created.error();
         }
         return Sampler(std::move(impl));
     });
+}
+
+std::optional<KernelVariant> Sampler::Impl::variant_ahead(Ahead ahead) const {
+    if (ahead == Ahead::nothing) {
+        return std::nullopt;
+    }
+    KernelVariant variant;
+    variant.adaptive = ahead == Ahead::varying_radii;
+    variant.event_heap = events == Events::nearest;
+    return variant;
 }
 
 KernelVariant Sampler::Impl::variant_for(const Domain& domain) const {

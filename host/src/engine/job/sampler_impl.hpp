@@ -32,15 +32,17 @@ struct Sampler::Impl {
     mutable std::atomic<bool> rounds_well = false;
 
     Impl(const DeviceRefs& refs, DeviceReport of_device, const DeviceTable& table,
-         const KernelChoices& chosen, Events order)
-        : device(refs), report(std::move(of_device)), vk(table), choices(chosen), events(order),
-          pipelines(device, vk, choices) {}
+         const KernelChoices& chosen, const SamplerOptions& options)
+        : device(refs), report(std::move(of_device)), vk(table), choices(chosen),
+          events(options.events), pipelines(device, vk, choices, options.threads) {}
 
     static const Impl& of(const Sampler& sampler) { return *sampler.impl_; }
     void abandon() {
         abandoned = true;
         pipelines.abandon();
     }
+    /// Returns what SamplerOptions::ahead asks for.
+    std::optional<KernelVariant> variant_ahead(Ahead ahead) const;
     /// Of the kernels for a domain.
     KernelVariant variant_for(const Domain& domain) const;
     /// Of the two variants of the kernels, which.

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <functional>
 #include <string>
 #include <vector>
 
 #include "constants.h"
 #include "push.h"
+#include "support/blocks.hpp"
 #include "vk/debug.hpp"
 #include "vk/result.hpp"
 
@@ -16,6 +18,15 @@ namespace {
 /// Returns true for the kernels of surfaces of which a job has one, lanes_kernel().
 constexpr bool computes_by_lanes(Kernel kernel) {
     return kernel == Kernel::detect || kernel == Kernel::light || kernel == Kernel::reach;
+}
+
+/// Returns true if a job of the variant has the kernel, or for DomainKind::any if all jobs have it.
+bool has_kernel(const KernelVariant& variant, Kernel kernel) {
+    const KernelInfo& info = kernel_info(kernel);
+    const bool is_common = variant.domain == DomainKind::any;
+    return (info.domain == DomainKind::any) == is_common && info.serves(variant.domain) &&
+           (kernel != Kernel::group_detect || variant.groups) &&
+           (!computes_by_lanes(kernel) || kernel == lanes_kernel(variant));
 }
 
 } // namespace
@@ -33,13 +44,18 @@ Pipelines::~Pipelines() {
     }
 }
 
-Result<Done> Pipelines::create() {
+Result<Done> Pipelines::create(const std::optional<KernelVariant>& ahead) {
     for (std::size_t k = 0; k < kKernels; ++k) {
         if (auto created = create_layout(k); !created) {
             return created;
         }
     }
-    return compile_all(common_, {DomainKind::any});
+    using Set = std::pair<KernelVariant, KernelPipelines*>;
+    const Set common{{DomainKind::any}, &common_};
+    if (!ahead) {
+        return compile_all({&common, 1});
+    }
+    return compile_all(std::array{common, Set{*ahead, &own_[*ahead]}});
 }
 
 Result<const KernelPipelines*> Pipelines::of(const KernelVariant& variant) {
@@ -48,7 +64,8 @@ Result<const KernelPipelines*> Pipelines::of(const KernelVariant& variant) {
         return &found->second;
     }
     KernelPipelines pipelines{};
-    if (auto compiled = compile_all(pipelines, variant); !compiled) {
+    const std::pair<KernelVariant, KernelPipelines*> set{variant, &pipelines};
+    if (auto compiled = compile_all({&set, 1}); !compiled) {
         drop_unused();
         return compiled.error();
     }
@@ -69,35 +86,57 @@ void Pipelines::drop_unused() {
     });
 }
 
-Result<Done> Pipelines::compile_all(KernelPipelines& pipelines, const KernelVariant& variant) {
-    const bool is_common = variant.domain == DomainKind::any;
-    for (std::size_t k = 0; k < kKernels; ++k) {
-        const auto kernel = static_cast<Kernel>(k);
-        const KernelInfo& info = kernel_info(kernel);
-        if ((info.domain == DomainKind::any) != is_common || !info.serves(variant.domain) ||
-            (kernel == Kernel::group_detect && !variant.groups) ||
-            (computes_by_lanes(kernel) && kernel != lanes_kernel(variant))) {
-            continue;
+Result<Done>
+Pipelines::compile_all(std::span<const std::pair<KernelVariant, KernelPipelines*>> sets) {
+    struct Work {
+        Kernel kernel;
+        KernelVariant variant;
+        VkPipeline* pipeline; ///< In compiled_.
+        std::optional<Error> error;
+    };
+    std::vector<Work> all;
+    for (const auto& [variant, pipelines] : sets) {
+        for (const Kernel kernel : kEachKernel) {
+            if (has_kernel(variant, kernel)) {
+                const KernelVariant key = variant.of(kernel);
+                VkPipeline& pipeline = compiled_[{kernel, key}];
+                if (pipeline == VK_NULL_HANDLE) {
+                    all.push_back({kernel, key, &pipeline, std::nullopt});
+                }
+            }
         }
-        const auto compiled = pipeline_of(kernel, variant.of(kernel));
-        if (!compiled) {
-            return compiled.error();
+    }
+    // The largest takes as long as all others, so it comes first.
+    std::ranges::stable_sort(all, std::ranges::greater(), [](const Work& work) {
+        return kernel_info(work.kernel).spirv.size();
+    });
+    std::atomic<bool> has_failed = false;
+    for_parts(threads_, all.size(), [&](std::size_t i) {
+        if (has_failed) {
+            return;
         }
-        pipelines[k] = *compiled;
+        auto compiled = compile(all[i].kernel, all[i].variant);
+        if (compiled) {
+            *all[i].pipeline = *compiled;
+        } else {
+            all[i].error = std::move(compiled).error();
+            has_failed = true;
+        }
+    });
+    for (Work& work : all) {
+        if (work.error) {
+            return *std::move(work.error);
+        }
+    }
+    for (const auto& [variant, pipelines] : sets) {
+        for (const Kernel kernel : kEachKernel) {
+            if (has_kernel(variant, kernel)) {
+                (*pipelines)[static_cast<std::size_t>(kernel)] =
+                    compiled_[{kernel, variant.of(kernel)}];
+            }
+        }
     }
     return Done{};
-}
-
-Result<VkPipeline> Pipelines::pipeline_of(Kernel kernel, const KernelVariant& variant) {
-    VkPipeline& pipeline = compiled_[{kernel, variant}];
-    if (pipeline == VK_NULL_HANDLE) {
-        const auto compiled = compile(kernel, variant);
-        if (!compiled) {
-            return compiled.error();
-        }
-        pipeline = *compiled;
-    }
-    return pipeline;
 }
 
 Result<Done> Pipelines::create_layout(std::size_t kernel) {

@@ -6,10 +6,13 @@
 #include <cstdint>
 #include <map>
 #include <mutex>
+#include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
 #include <geodisk/sampler.hpp>
+#include <geodisk/threads.hpp>
 
 #include "engine/kernels/kernel_table.hpp"
 #include "vk/dispatch.hpp"
@@ -29,14 +32,17 @@ struct KernelChoices {
 /// Any number of threads may use it at a time.
 class Pipelines {
   public:
-    Pipelines(const DeviceRefs& device, const DeviceTable& vk, const KernelChoices& choices)
-        : device_(device), vk_(vk), choices_(choices) {}
+    /// Compiles on as many threads as the options allow.
+    Pipelines(const DeviceRefs& device, const DeviceTable& vk, const KernelChoices& choices,
+              const ThreadOptions& threads)
+        : device_(device), vk_(vk), choices_(choices), threads_(threads) {}
     Pipelines(const Pipelines&) = delete;
     Pipelines& operator=(const Pipelines&) = delete;
     ~Pipelines();
 
-    /// Makes the layouts of all kernels and compiles those that every domain has.
-    Result<Done> create();
+    /// Makes the layouts of all kernels and compiles those that every domain has, and at the same
+    /// time those of a job if `ahead` is set.
+    Result<Done> create(const std::optional<KernelVariant>& ahead);
     /// Those of a job, compiled unless they were before. They stay where they are.
     Result<const KernelPipelines*> of(const KernelVariant& variant);
     const KernelPipelines& common() const { return common_; }
@@ -58,16 +64,15 @@ class Pipelines {
     std::vector<Specialization> specializations(const KernelVariant& variant) const;
     Result<Done> create_layout(std::size_t kernel);
     Result<VkPipeline> compile(Kernel kernel, const KernelVariant& variant) const;
-    /// Compiled unless it was before.
-    Result<VkPipeline> pipeline_of(Kernel kernel, const KernelVariant& variant);
-    /// Compiles the kernels that serve these domains alone.
-    Result<Done> compile_all(KernelPipelines& pipelines, const KernelVariant& variant);
+    /// Finds or compiles the kernels that serve these domains alone, for all sets at the same time.
+    Result<Done> compile_all(std::span<const std::pair<KernelVariant, KernelPipelines*>> sets);
     /// Destroys those that no job has: a failed call keeps none.
     void drop_unused();
 
     DeviceRefs device_;
     const DeviceTable& vk_;
     KernelChoices choices_;
+    ThreadOptions threads_;
     std::array<VkDescriptorSetLayout, kKernels> set_layouts_{};
     std::array<VkPipelineLayout, kKernels> layouts_{};
     KernelPipelines common_{};

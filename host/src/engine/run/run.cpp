@@ -17,6 +17,7 @@
 #include "engine/run/run_result.hpp"
 #include "engine/run/submissions.hpp"
 #include "support/blocks.hpp"
+#include "vk/barriers.hpp"
 
 namespace geodisk {
 namespace {
@@ -42,6 +43,7 @@ class Run {
 
   private:
     Result<Done> prepare(const RunPlan& plan);
+    Task<Result<Done>> compile_at_dispatch();
     Task<Result<Done>> upload();
     Task<Result<Done>> stage(BufferRole role, std::size_t at, const UploadPart& part);
     void write_staged();
@@ -130,6 +132,46 @@ Result<Done> Run::prepare(const RunPlan& plan) {
     }
     submissions_.use(*job_, plan);
     return Done{};
+}
+
+/// Dispatches every kernel of the job once with no work groups, since some drivers compile only at
+/// the first dispatch. Does nothing if that was done before.
+Task<Result<Done>> Run::compile_at_dispatch() {
+    if (kept_.dispatched == job().own_pipelines) {
+        co_return Done{};
+    }
+    const auto record = [&](VkCommandBuffer commands) {
+        const DeviceTable& vk = job().sampler->vk;
+        const gpu::Push push{};
+        for (std::size_t i = 0; i < kSetRoles * kKernels; ++i) {
+            const std::size_t k = i % kKernels;
+            const std::size_t role = i / kKernels;
+            const VkPipeline pipeline = job().has(k) ? job().pipeline(k) : VK_NULL_HANDLE;
+            const bool is_scan = k == static_cast<std::size_t>(Kernel::sum_blocks) ||
+                                 k == static_cast<std::size_t>(Kernel::scan_sums) ||
+                                 k == static_cast<std::size_t>(Kernel::scan_blocks);
+            if (pipeline == VK_NULL_HANDLE || (role > 0 && !is_scan)) {
+                continue;
+            }
+            // llvmpipe compiles again for buffers of other sizes, so scans take all their sets.
+            const VkPipelineLayout layout = job().sampler->pipelines.layout(k);
+            vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline);
+            vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, layout, 0, 1,
+                                       &job().sets[role][k], 0, nullptr);
+            vk.vkCmdPushConstants(commands, layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof push,
+                                  &push);
+            vk.vkCmdDispatch(commands, 0, 0, 0);
+            barrier_compute_to_compute(vk, commands);
+        }
+    };
+    auto done = runner_.submitter->submit(record);
+    if (done) {
+        done = co_await runner_.submitter->ended();
+    }
+    if (done) {
+        kept_.dispatched = job().own_pipelines;
+    }
+    co_return done;
 }
 
 /// Stages what the device lacks. Submits it in pieces if it does not fit; the last piece goes with
@@ -421,6 +463,13 @@ Task<Result<std::optional<SampleSet>>> Run::go(RunPlan& plan) {
     if (auto done = prepare(plan); !done) {
         co_return done.error();
     }
+    report_.seconds.upload += runner_.now() - start;
+    start = runner_.now();
+    if (auto done = co_await compile_at_dispatch(); !done) {
+        co_return done.error();
+    }
+    report_.seconds.compile += runner_.now() - start;
+    start = runner_.now();
     if (auto done = co_await upload(); !done) {
         co_return done.error();
     }

@@ -56,6 +56,8 @@ struct Runner::Impl {
     struct KeptJob {
         std::optional<Job> job;
         std::uint32_t made = 0; ///< RunMemory::made() when it was bound.
+        /// Pipelines that were dispatched with no work groups, so that they are compiled.
+        const KernelPipelines* dispatched = nullptr;
     };
     std::array<KeptJob, kDomainKinds> jobs; ///< Indexed by index_of(DomainKind).
     std::map<KernelVariant, Paces> paces;
