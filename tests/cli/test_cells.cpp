@@ -106,6 +106,10 @@ TEST_CASE("cells: what cannot be found leaves no file") {
     check_cells_refused(folder, 3, "far.csv",
                         {mesh, "far.csv", "-o", "no.csv", "--dual", "no.obj"});
     check_cells_refused(folder, 3, "lacks.csv", {mesh, "lacks.csv", "-o", "no.csv"});
+    const std::string large = "builtin:showpiece";
+    REQUIRE(run(folder, {"sample", large, "-n", "100", "-o", "few.ply", "-q"}).status == 0);
+    check_cells_refused(folder, 6, "give more with --memory",
+                        {large, "few.ply", "-o", "no.csv", "--memory", "16M"});
 }
 
 } // namespace geodisk::test

@@ -252,7 +252,8 @@ std::vector<Triangle> plane_triangles(const std::vector<Vec3>& at) {
 }
 
 /// Checks cells in a mesh of the unit square against polygons, and the triangulation of the plane.
-void check_plane(const TestMesh& square) {
+/// Areas are known up to a part of a mean cell.
+void check_plane(const TestMesh& square, double known) {
     const PreparedMesh mesh = prepared(square);
     const std::vector<Point> samples = random_points(mesh, 5, 40);
     std::vector<Vec3> at;
@@ -269,7 +270,7 @@ void check_plane(const TestMesh& square) {
         }
         CHECK(std::abs(cells.areas[i] - polygon.area()) < 1e-4 / 40);
     }
-    CHECK(cells.area_error < 0.01 / 40);
+    CHECK(cells.area_error < known / 40);
     CHECK(sorted(cells.triangles) == sorted(plane_triangles(at)));
     CHECK(cells.dual.euler == 1);
 }
@@ -319,7 +320,7 @@ TEST_SUITE("cells") {
     }
 
     TEST_CASE("are those of the plane") {
-        check_plane(flat_irregular(6, 3));
+        check_plane(flat_irregular(6, 3), 0.01);
     }
 
     TEST_CASE("are those of the plane where it is cut into slivers") {
@@ -334,7 +335,7 @@ TEST_SUITE("cells") {
             strips.add_triangle(v, v + 2, v + 1);
             strips.add_triangle(v + 2, v + 3, v + 1);
         }
-        check_plane(strips);
+        check_plane(strips, 0.1);
     }
 
     TEST_CASE("end on slivers around holes") {

@@ -20,14 +20,19 @@ function(geodisk_target name)
         if(GEODISK_WERROR)
             target_compile_options(${name} PRIVATE -Werror)
         endif()
-        # CMake's -O3 takes a quarter longer to compile; what it gains is lost in the noise of measuring.
-        target_compile_options(${name} PRIVATE "$<$<CONFIG:Release>:-O2>")
+        target_compile_options(${name} PRIVATE ${geodisk_optimization})
         geodisk_harden(${name})
     endif()
     if(GEODISK_UNITY)
         geodisk_unity(${name})
     endif()
 endfunction()
+
+# How targets of a folder optimize. CMake's -O3 takes a quarter longer to compile; what it gains is lost in
+# the noise of measuring.
+if(NOT MSVC)
+    set(geodisk_optimization "$<$<CONFIG:Release>:-O2>")
+endif()
 
 # geodisk_harden(NAME): programs read files from anywhere. What compilers and linkers can do against
 # errors in that; tests/package/hardening.cmake looks whether it is there.

@@ -1,5 +1,6 @@
 #include "geodisk/cell_run.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "geodisk/search_progress.hpp"
@@ -8,9 +9,27 @@
 #include "program/stopwatch.hpp"
 
 namespace geodisk::tools {
+namespace {
+
+// A record, and its number in its face.
+constexpr std::uint64_t kBytesPerRecord = 40;
+
+} // namespace
+
+std::uint64_t most_records(std::uint64_t bytes) {
+    const std::uint64_t most = CellParams().most_records;
+    return bytes == 0 ? most : std::min(most, bytes / kBytesPerRecord);
+}
+
+void check_cells(const Error& error, std::uint64_t bytes) {
+    if (bytes != 0 && error.status == Status::job_too_large) {
+        throw UserError(ExitCode::out_of_memory, error.message + ", or give more with --memory");
+    }
+    check_run(error, bytes != 0);
+}
 
 CellResult run_cells(std::span<const SampleRow> rows, bool has_dual, const MeshInput& mesh,
-                     RunDevice& device, bool is_bounded, ProgressLine& progress) {
+                     RunDevice& device, std::uint64_t bytes, ProgressLine& progress) {
     const Stopwatch watch;
     device.open(progress);
     const double open_seconds = watch.seconds();
@@ -24,12 +43,13 @@ CellResult run_cells(std::span<const SampleRow> rows, bool has_dual, const MeshI
     }
     CellParams params;
     params.has_dual = has_dual;
+    params.most_records = most_records(bytes);
     auto found = find_cells(device.runner(), mesh.prepared, samples, params,
                             search_progress(progress, "samples"));
     progress.clear();
     check_interrupted();
     if (!found) {
-        check_run(found.error(), is_bounded);
+        check_cells(found.error(), bytes);
     }
     result.cells = take(std::move(found));
     if (mesh.dimension() > 0) {

@@ -1,6 +1,7 @@
 // The cells of samples on a mesh, and the mesh that is their dual graph.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -22,9 +23,16 @@ struct CellResult {
     DeviceRun done;
 };
 
-/// Opens the device where need be and finds the cells of the samples in `rows`. Throws UserError.
+/// Returns how many records of paths the host may keep with --memory `bytes`, 0 where it is not
+/// given.
+std::uint64_t most_records(std::uint64_t bytes);
+/// Throws UserError for an error of a search for cells, which was bounded by --memory `bytes`.
+void check_cells(const Error& error, std::uint64_t bytes);
+
+/// Opens the device where need be and finds the cells of the samples in `rows`, with --memory
+/// `bytes`. Throws UserError.
 CellResult run_cells(std::span<const SampleRow> rows, bool has_dual, const MeshInput& mesh,
-                     RunDevice& device, bool is_bounded, ProgressLine& progress);
+                     RunDevice& device, std::uint64_t bytes, ProgressLine& progress);
 
 /// Returns the column `area` of a sample file.
 SampleField area_field(const SurfaceCells& cells);

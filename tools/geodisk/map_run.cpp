@@ -10,6 +10,7 @@
 #include <geodisk/cells.hpp>
 #include <geodisk/nearest.hpp>
 
+#include "geodisk/cell_run.hpp"
 #include "geodisk/search_progress.hpp"
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
@@ -72,7 +73,7 @@ std::vector<std::array<std::uint32_t, 2>> find_touching(const NearestSamples& di
 } // namespace
 
 MapResult run_map(std::span<const SampleRow> rows, TextureSize size, const std::string& path,
-                  const MeshInput& mesh, bool has_touching, RunDevice& device, bool is_bounded,
+                  const MeshInput& mesh, bool has_touching, RunDevice& device, std::uint64_t bytes,
                   ProgressLine& progress) {
     check_range(path, mesh.file, size);
     progress.begin_stage("finding texels");
@@ -91,12 +92,12 @@ MapResult run_map(std::span<const SampleRow> rows, TextureSize size, const std::
     }
     progress.begin_stage("finding cells");
     auto nearest =
-        NearestSamples::create(device.runner(), mesh.prepared, samples, CellParams().most_records,
+        NearestSamples::create(device.runner(), mesh.prepared, samples, most_records(bytes),
                                search_progress(progress, "samples"));
     progress.clear();
     check_interrupted();
     if (!nearest) {
-        check_run(nearest.error(), is_bounded);
+        check_cells(nearest.error(), bytes);
     }
     const NearestSamples disks = take(std::move(nearest));
     if (has_touching) {

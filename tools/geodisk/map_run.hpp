@@ -33,7 +33,7 @@ struct MapResult {
 /// have been read with texture coordinates. Finds the pairs that touch if `has_touching`. Takes 12
 /// bytes for each texel besides what is the same for all sizes. Throws UserError.
 MapResult run_map(std::span<const SampleRow> rows, TextureSize size, const std::string& path,
-                  const MeshInput& mesh, bool has_touching, RunDevice& device, bool is_bounded,
+                  const MeshInput& mesh, bool has_touching, RunDevice& device, std::uint64_t bytes,
                   ProgressLine& progress);
 
 } // namespace geodisk::tools

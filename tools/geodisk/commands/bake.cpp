@@ -102,7 +102,7 @@ void run_bake(BakeOptions options) {
     RunDevice device(options.run.device, runner);
     const bool is_cells = format == MapFormat::png && style == picture::Style::voronoi;
     MapResult result = run_map(file.rows, size, options.mesh.mesh, mesh, is_cells, device,
-                               runner.device_bytes != 0, progress);
+                               runner.device_bytes, progress);
     check_validation(device.context());
     const MapReport report{options.mesh,      mesh, warnings, result, file.rows.size(),
                            options.out.output};

@@ -103,8 +103,8 @@ void run_cells_command(const CellOptions& options) {
     print_warnings(warnings);
     warnings.insert(warnings.begin(), mesh.warnings.begin(), mesh.warnings.end());
     RunDevice device(options.run.device, runner);
-    const CellResult result = run_cells(file.rows, !options.dual.empty(), mesh, device,
-                                        runner.device_bytes != 0, progress);
+    const CellResult result =
+        run_cells(file.rows, !options.dual.empty(), mesh, device, runner.device_bytes, progress);
     check_validation(device.context());
     print_precision_note(options.out, file.rows, mesh.dimension());
     const SampleHeader header = header_with_areas(options, file.header, result.cells);
