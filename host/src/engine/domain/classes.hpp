@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include <geodisk/export.hpp>
 #include <geodisk/params.hpp>
 #include <geodisk/status.hpp>
 
@@ -12,7 +13,7 @@
 namespace geodisk {
 
 /// Returns the number of classes; 1 if samples have none.
-std::uint32_t class_count(const SampleParams& params) noexcept;
+GEODISK_API std::uint32_t class_count(const SampleParams& params) noexcept;
 
 /// Returns how many times as many samples fit as with the minimum distance for all: each class has
 /// those of its own distance.

@@ -33,7 +33,7 @@ Stages stages_in(const JobFrame& frame, const SampleParams& params);
 Stages stages_in(const JobFrame& frame, const PreparedMesh& mesh, const SampleParams& params);
 
 /// Checks parameters by themselves and against the mesh.
-Result<Done> check_params(const PreparedMesh& mesh, const SampleParams& params);
+GEODISK_API Result<Done> check_params(const PreparedMesh& mesh, const SampleParams& params);
 
 /// Checks the number of candidates, of all faces and of each. Returns the candidates of the job.
 Result<std::uint32_t> check_candidates(const PreparedMesh& mesh, const SampleParams& params,
