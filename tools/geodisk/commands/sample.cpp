@@ -1,3 +1,4 @@
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -50,15 +51,22 @@ void draw_samples(const SampleJob& job, const MeshInput& mesh, SampleResult& res
     check_validation(device.context());
 }
 
+// Smaller files are read sooner than it is worth to compile for a surface that may need other
+// kernels.
+constexpr std::uintmax_t kLargeFile = std::uintmax_t{1} << 18;
+
 /// Begins to open the device, unless there is no mesh to be read meanwhile.
 RunDevice begin_device_for(const SampleJob& job) {
     RunDevice device = device_for(job);
     const std::string& mesh = job.mesh.mesh;
     std::error_code error;
-    if (is_builtin(mesh) || std::filesystem::is_regular_file(Path(mesh), error)) {
-        const bool is_special =
-            !job.is_geodesic() || job.classes.is_given() || !job.constraints.avoid.empty();
-        device.begin_open(is_special               ? Ahead::nothing
+    const bool is_file = std::filesystem::is_regular_file(Path(mesh), error);
+    if (is_file || is_builtin(mesh)) {
+        const bool is_usual =
+            job.is_geodesic() && !job.classes.is_given() && job.constraints.avoid.empty();
+        const bool is_large =
+            is_file && std::filesystem::file_size(Path(mesh), error) >= kLargeFile;
+        device.begin_open(!is_usual || !is_large   ? Ahead::nothing
                           : job.density.is_given() ? Ahead::varying_radii
                                                    : Ahead::surface);
     }
