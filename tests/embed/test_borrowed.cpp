@@ -52,6 +52,13 @@ struct QueueLock {
     }
 };
 
+/// Returns the device with functions that a DeviceSpy watches.
+DeviceRefs spied(const AppDevice& app) {
+    DeviceRefs refs = app.refs();
+    refs.get_instance_proc_addr = &DeviceSpy::get_instance_proc_addr;
+    return refs;
+}
+
 } // namespace
 
 TEST_SUITE("borrowed") {
@@ -80,8 +87,7 @@ TEST_SUITE("borrowed") {
     TEST_CASE("every submission holds the queue's lock, and nothing else does") {
         AppDevice app;
         DeviceSpy spy(app.refs().get_instance_proc_addr);
-        DeviceRefs refs = app.refs();
-        refs.get_instance_proc_addr = &DeviceSpy::get_instance_proc_addr;
+        DeviceRefs refs = spied(app);
         QueueLock lock;
         QueueRef queue = app.queue();
         queue.lock_user = &lock;
@@ -111,8 +117,7 @@ TEST_SUITE("borrowed") {
         DeviceSpy spy(app.refs().get_instance_proc_addr);
         VkPipelineCacheCreateInfo info{};
         info.sType = VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO;
-        DeviceRefs refs = app.refs();
-        refs.get_instance_proc_addr = &DeviceSpy::get_instance_proc_addr;
+        DeviceRefs refs = spied(app);
         REQUIRE(app.function<PFN_vkCreatePipelineCache>("vkCreatePipelineCache")(
                     refs.device, &info, nullptr, &refs.pipeline_cache) == VK_SUCCESS);
         for (int i = 0; i < 2; ++i) {
@@ -133,8 +138,7 @@ TEST_SUITE("borrowed") {
     TEST_CASE("pipelines compiled ahead serve a run, and each that fails leaves nothing") {
         AppDevice app;
         DeviceSpy spy(app.refs().get_instance_proc_addr);
-        DeviceRefs refs = app.refs();
-        refs.get_instance_proc_addr = &DeviceSpy::get_instance_proc_addr;
+        const DeviceRefs refs = spied(app);
         SamplerOptions options;
         options.ahead = Ahead::surface;
         constexpr const char* kCompiles = "vkCreateComputePipelines";
@@ -163,8 +167,7 @@ TEST_SUITE("borrowed") {
     TEST_CASE("the first run lets drivers compile at dispatches of no work groups") {
         AppDevice app;
         DeviceSpy spy(app.refs().get_instance_proc_addr);
-        DeviceRefs refs = app.refs();
-        refs.get_instance_proc_addr = &DeviceSpy::get_instance_proc_addr;
+        const DeviceRefs refs = spied(app);
         std::uint32_t real = 0;
         std::uint32_t real_before = 0;
         std::uint32_t last_empty = 0;

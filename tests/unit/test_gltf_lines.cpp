@@ -47,7 +47,7 @@ TEST_CASE("glTF lines, loops and strips are lines, and points are points") {
     const Places square{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
     const std::vector<Ends> plain{
         {}, {{0, 1}, {2, 3}}, {{0, 1}, {1, 2}, {2, 3}, {3, 0}}, {{0, 1}, {1, 2}, {2, 3}}};
-    // By the indices 0 1 2 0 2 3.
+    // The indices are 0 1 2 0 2 3.
     const std::vector<Ends> indexed{{},
                                     {{0, 1}, {2, 0}, {2, 3}},
                                     {{0, 1}, {1, 2}, {2, 0}, {0, 2}, {2, 3}, {3, 0}},

@@ -13,14 +13,15 @@ namespace {
 
 enum class Extension { read, ignored, unknown };
 
-/// What becomes of an extension that a file requires, also for the colours of materials if wanted.
+/// Returns whether an extension that a file requires is read, also for colours of materials if
+/// wanted.
 Extension kind_of(std::string_view name, bool has_materials) {
     constexpr std::array<std::string_view, 6> kRead{
         "EXT_mesh_gpu_instancing", "EXT_meshopt_compression", "KHR_draco_mesh_compression",
         "KHR_meshopt_compression", "KHR_mesh_quantization",   "KHR_node_visibility"};
     constexpr std::array<std::string_view, 2> kReadOfMaterials{
         "KHR_materials_pbrSpecularGlossiness", "KHR_texture_transform"};
-    // Of materials, pictures and whatever else leaves the surface as it is.
+    // Parts of names of extensions that leave the surface as it is.
     constexpr std::array<std::string_view, 17> kHarmless{
         "material",  "texture", "light",    "technique", "image",     "camera",
         "animation", "audio",   "metadata", "xmp",       "packing",   "outline",

@@ -42,9 +42,7 @@ class GltfLineReader {
                 add_placed(placement, mesh, transform);
             }
         }
-        add_warning(file_.warnings, "hidden_nodes", scene_.hidden_nodes(), "",
-                    "hidden node left out with what is below it",
-                    "hidden nodes left out with what is below them");
+        scene_.add_warnings(file_.warnings);
         file_.warnings.insert(file_.warnings.end(), data_.warnings().begin(),
                               data_.warnings().end());
         return std::move(file_);

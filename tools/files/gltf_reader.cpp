@@ -198,9 +198,7 @@ class GltfReader {
         add_warning(mesh_.warnings, "other_primitives", others_, "",
                     "primitive of points or lines ignored",
                     "primitives of points or lines ignored");
-        add_warning(mesh_.warnings, "hidden_nodes", scene_.hidden_nodes(), "",
-                    "hidden node left out with what is below it",
-                    "hidden nodes left out with what is below them");
+        scene_.add_warnings(mesh_.warnings);
         mesh_.warnings.insert(mesh_.warnings.end(), data_.warnings().begin(),
                               data_.warnings().end());
     }

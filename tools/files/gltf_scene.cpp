@@ -218,4 +218,10 @@ const std::vector<glm::dmat4>& GltfScene::joint_matrices(std::uint64_t skin) {
     return known->second;
 }
 
+void GltfScene::add_warnings(std::vector<MeshWarning>& warnings) const {
+    add_warning(warnings, "hidden_nodes", hidden_nodes_, "",
+                "hidden node left out with what is below it",
+                "hidden nodes left out with what is below them");
+}
+
 } // namespace geodisk::tools

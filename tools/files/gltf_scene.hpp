@@ -11,6 +11,7 @@
 
 #include "files/gltf_data.hpp"
 #include "files/gltf_json.hpp"
+#include "geometry/mesh_warning.hpp"
 
 namespace geodisk::tools {
 
@@ -36,8 +37,8 @@ class GltfScene {
     /// Returns the node that each one is directly below, of those that placements() met.
     const std::vector<std::optional<std::uint32_t>>& nodes_above() const noexcept { return above_; }
 
-    /// Number of nodes, with those below them, that the file says are hidden.
-    std::uint64_t hidden_nodes() const noexcept { return hidden_nodes_; }
+    /// Warns of the nodes that placements() left out because the file says that they are hidden.
+    void add_warnings(std::vector<MeshWarning>& warnings) const;
 
     /// Returns the matrices that place vertices by the joints of `skin`, in their order.
     const std::vector<glm::dmat4>& joint_matrices(std::uint64_t skin);
@@ -57,7 +58,7 @@ class GltfScene {
     std::vector<std::optional<std::uint64_t>> parents_; ///< Made for the first skin.
     std::map<std::uint64_t, glm::dmat4> globals_;       ///< By node, as skins need them.
     std::map<std::uint64_t, std::vector<glm::dmat4>> skins_;
-    std::uint64_t hidden_nodes_ = 0;
+    std::uint64_t hidden_nodes_ = 0; ///< Without those below them.
 };
 
 } // namespace geodisk::tools

@@ -11,7 +11,8 @@ namespace {
 // Cells of a face that are split, per light. Far fewer are needed but where samples are equally
 // near along lines that no linear function tells.
 constexpr std::uint64_t kSplitsPerLight = 1u << 14;
-// Halves of a sliver are no smaller, in parts of the unit of the frame and of the error.
+// A part of a sliver that reaches no farther is not cut: in units of the frame, and in errors of
+// distances.
 constexpr double kSmallestHalf = 0x1p-11;
 constexpr double kErrorsPerHalf = 8;
 // Shares are summed when there are more.
@@ -61,8 +62,9 @@ void CellSplitter::split(std::uint32_t face, FoundCells& found) {
 }
 
 void CellSplitter::split(const GapCell& cell, const State& around) {
+    const FacePart part = cell.part();
     const LitFaces::Target target = lit_.target(cell);
-    const NearLights::View view = near_.look(cell.part(), target, around.lights);
+    const NearLights::View view = near_.look(part, target, around.lights);
     const auto lights = near_.at(view.lights);
     const double area = around.has_area ? 0 : lit_.area(cell.face) * cell.step() * cell.step();
     if (lights.empty()) {
@@ -78,8 +80,7 @@ void CellSplitter::split(const GapCell& cell, const State& around) {
         give(nearest, area, area); // A crack that rounding leaves between paths.
         return;
     }
-    const bool is_flat =
-        flat_.find(cell.part(), target, view, lights, FlatPieces::Detail::computed);
+    const bool is_flat = flat_.find(part, target, view, lights, FlatPieces::Detail::computed);
     const bool is_last = cell.level == grid_.level() || left_ == 0;
     const bool shares = is_flat && (flat_.is_exact() || is_last);
     const bool has_area = around.has_area || shares || is_last;

@@ -9,7 +9,7 @@
 namespace geodisk {
 namespace {
 
-// Of so many lights in a part most are far from the nearest everywhere.
+// If a part has more lights, most of them are farther than the nearest one all over it.
 constexpr std::size_t kMany = 12;
 
 } // namespace
