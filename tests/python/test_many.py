@@ -1,5 +1,7 @@
 """Many meshes as one job: the samples of each by itself."""
 
+import importlib
+
 import numpy as np
 import pytest
 
@@ -22,6 +24,20 @@ def test_each_gets_its_own_samples():
         assert np.array_equal(samples.radius, alone.radius)
     assert found[2].polygon_index is not None and found[0].polygon_index is None
     assert geodisk.sample_many([], min_distance=1) == []
+
+
+@pytest.mark.parametrize("limit, value", [("_RUN_FACES", 2 * len(FACES)), ("_RUN_CANDIDATES", 300)])
+def test_many_take_several_jobs(monkeypatch, limit, value):
+    many = importlib.import_module("geodisk._many")
+    jobs = []
+    make = many._domain
+    monkeypatch.setattr(many, "_domain", lambda group: jobs.append(len(group)) or make(group))
+    monkeypatch.setattr(many, limit, value)
+    meshes = [MESHES[0]] * 5
+    found = geodisk.sample_many(meshes, min_distance=0.6, seed=[1, 2, 1, 3, 1])
+    assert len(jobs) > 1 and sum(jobs) == 5
+    for seed, samples in zip([1, 2, 1, 3, 1], found):
+        assert same(samples, geodisk.sample(MESHES[0], min_distance=0.6, seed=seed))
 
 
 def test_counts_densities_and_keys():

@@ -14,6 +14,7 @@ namespace geodisk::tools {
 namespace {
 
 struct vec3 {
+    constexpr vec3(double r, double g, double b) : red(r), green(g), blue(b) {}
     double red, green, blue;
 };
 constexpr vec3 kColours[] = {

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ctypes
 import os
 import reprlib
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from ctypes import byref, c_double
 from typing import Any, Iterable
 
@@ -78,23 +78,33 @@ class _Job:
         self._features = features
         self.search: CountSearch | None = None
         if distance is None:
-            first = c_double()
-            c.call(
-                "geodisk_distance_for_count",
-                mesh._handle.value,
-                radii,
-                self.params.face_mask,
-                float(count or 0),
-                byref(first),
-            )
-            distance = first.value
+            distance = self._distance_for(float(count or 0))
             self.search = CountSearch(float(count or 0), distance, exact)
         else:
             distance /= self.distance_part
         self.params.min_distance = distance
+        self._distance_of_one = self._distance_for(1)
         self.result: Samples | None = None
         self._count = count
         self._exact_count = count if exact and count else 0
+
+    def _distance_for(self, count: float) -> float:
+        found = c_double()
+        c.call(
+            "geodisk_distance_for_count",
+            self.mesh._handle.value,
+            self.params.radii,
+            self.params.face_mask,
+            count,
+            byref(found),
+        )
+        return found.value
+
+    def candidates(self) -> float:
+        """Returns about how many candidates its next run draws."""
+        distance = float(self.params.min_distance)
+        samples = (self._distance_of_one / distance) ** 2 if distance > 0 else 0.0
+        return samples * float(self.params.pool_ratio)
 
     def told_distance(self) -> float:
         """Returns the distance as :func:`sample` has it, see Radii."""
@@ -165,9 +175,9 @@ def sample_many(
     progress: bool | ProgressCallback = False,
     **others: object,
 ) -> list[Samples]:
-    """Samples several meshes as one job, which is faster than sampling them separately.
+    """Samples several meshes together, which is faster than sampling them separately.
 
-    Each mesh gets the same samples as from :func:`sample`.
+    Each mesh gets the same samples as from :func:`sample`. Many meshes take several jobs.
 
     Parameters
     ----------
@@ -186,7 +196,7 @@ def sample_many(
     Returns
     -------
     list of Samples
-        Samples in the order of the meshes. Their reports describe the whole job.
+        Samples in the order of the meshes. Their reports describe the whole job of a mesh.
 
     Raises
     ------
@@ -279,13 +289,29 @@ def _refuse(others: dict[str, object]) -> None:
         )
 
 
-def _groups(jobs: list[_Job]) -> list[list[_Job]]:
-    """Returns jobs that one run can have: of as many coordinates, and all with radii or none."""
-    groups: dict[tuple[int, bool], list[_Job]] = {}
+#: What one run takes, unless a single mesh has more: every device binds as much. A run of more is no
+#: faster, also on a wide device.
+_RUN_FACES = 1 << 18
+_RUN_CANDIDATES = 1 << 21
+
+
+def _groups(jobs: list[_Job]) -> Iterator[list[_Job]]:
+    """Yields jobs that one run takes: of as many coordinates, and all with radii or none."""
+    kinds: dict[tuple[int, bool], list[_Job]] = {}
     for job in jobs:
         kind = job.mesh._surface.dimension(), job.has_radii
-        groups.setdefault(kind, []).append(job)
-    return list(groups.values())
+        kinds.setdefault(kind, []).append(job)
+    for of_kind in kinds.values():
+        group: list[_Job] = []
+        faces, candidates = 0, 0.0
+        for job in of_kind:
+            own_faces, own_candidates = len(job.mesh.triangles), job.candidates()
+            faces, candidates = faces + own_faces, candidates + own_candidates
+            if group and (faces > _RUN_FACES or candidates > _RUN_CANDIDATES):
+                yield group
+                group, faces, candidates = [], own_faces, own_candidates
+            group.append(job)
+        yield group
 
 
 def _run(runs: Runs, jobs: list[_Job]) -> list[_Job]:
