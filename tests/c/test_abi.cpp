@@ -20,6 +20,7 @@ CHECK_FIELD(geodisk_device_info, driver, 320);
 CHECK_FIELD(geodisk_device_info, reasons, 832);
 CHECK_FIELD(geodisk_device_options, device, 8);
 CHECK_FIELD(geodisk_device_options, validation, 16);
+CHECK_FIELD(geodisk_device_options, keep_pipelines, 20);
 CHECK_FIELD(geodisk_vulkan_device, get_instance_proc_addr, 32);
 CHECK_FIELD(geodisk_vulkan_device, queue, 48);
 CHECK_FIELD(geodisk_vulkan_device, pipeline_cache, 56);

@@ -132,6 +132,10 @@ typedef struct geodisk_device_options {
     const char *device;
     /* Not 0: load the validation layer. For development. */
     int32_t validation;
+    /* Not 0: keep compiled pipelines in a file for later processes, and take them from there. The
+     * file is in the folder geodisk of the user's cache folder; a damaged one, or one that cannot be
+     * written, is ignored. GEODISK_CACHE=off in the environment turns it off. */
+    int32_t keep_pipelines;
 } geodisk_device_options;
 
 /* Opens a device that only geodisk uses. `options` may be NULL. */

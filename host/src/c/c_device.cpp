@@ -140,6 +140,7 @@ geodisk_status geodisk_device_open(const geodisk_device_options* options, geodis
         ContextOptions wanted;
         wanted.device = given->device != nullptr ? given->device : "";
         wanted.validation = given->validation != 0;
+        wanted.keep_pipelines = given->keep_pipelines != 0;
         auto context = Context::create(wanted);
         if (!context) {
             return context.error();

@@ -66,7 +66,12 @@ class DeviceInfo(_Sized):
 
 
 class DeviceOptions(_Sized):
-    _fields_ = [("struct_size", c_size_t), ("device", c_char_p), ("validation", c_int32)]
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("device", c_char_p),
+        ("validation", c_int32),
+        ("keep_pipelines", c_int32),
+    ]
 
 
 class MeshParams(_Sized):
