@@ -481,7 +481,7 @@ TEST_CASE("an image that is finer than faces are split says how fine it was read
     const TemporaryFolder folder;
     write_plane(folder);
     const Outcome made =
-        run(folder, {"sample", "two.obj", "-o", "a.ply", "-d", "0.1", "--density", "map:fine.png"});
+        run(folder, {"sample", "two.obj", "-o", "a.ply", "-d", "0.01", "--density", "map:fine.png"});
     CHECK(made.status == 0);
     CHECK(contains(made.err, "fine.png: is finer than faces are split for it: on large faces it is "
                              "read every 4 pixels"));
