@@ -7,8 +7,8 @@
 
 namespace geodisk::tools {
 
-/// The job at its distance.
-Task box_task(const BoxJob& job);
+/// The runs that the job takes; it must outlive them.
+RequestRun box_request(const BoxJob& job);
 
 /// Samples the box as the job asks for, and sets the job's distance to the one used. Throws
 /// UserError, DeviceLost among them.

@@ -68,51 +68,26 @@ ProgressCallback show_part(ProgressLine& progress, DeviceLog& log) {
     };
 }
 
-std::uint64_t count_of(const SampleSet& set, const Domain& domain) {
-    return domain.dimension() == 0 ? set.samples.size() : set.points.size() / domain.dimension();
+/// Tells what comes next.
+std::string stage_of(const RequestStep& step) {
+    return step.is_on_features ? "sampling features"
+           : step.level > 0    ? "sampling level " + std::to_string(step.level)
+           : step.attempt > 0  ? "sampling at another distance"
+                               : "sampling";
 }
 
-/// Factor between two distances that give equally many samples, above which there is no room.
-constexpr double kNoRoom = 16;
-/// The same where no sample fits.
-constexpr double kNoneFits = 4;
-
-/// Notes counts of samples at ever smaller distances, until they show that no more samples fit.
-class RoomCheck {
-  public:
-    /// Throws UserError if there is no room for the `wanted` samples: at still smaller distances a
-    /// run would only take longer.
-    void note(double distance, std::uint64_t count, double wanted) {
-        if (count != count_) {
-            count_ = count;
-            largest_ = distance;
-        }
-        largest_ = std::max(largest_, distance);
-        if (count == 0 && distance * kNoneFits <= largest_) {
-            fail_usage("--count: found no room for a sample, down to distance " +
-                       rounded(distance, 6) +
-                       "; leave more room, such as by smaller radii of --avoid");
-        }
-        if (static_cast<double>(count) < wanted && distance * kNoRoom <= largest_) {
-            fail_usage("--count: found room for " + counted(count, "sample", "samples") +
-                       " only, down to distance " + rounded(distance, 6) +
-                       "; leave more room, or give --min-distance");
+/// Throws UserError for an error of a request, which names its fields as options.
+void check_taken(const Result<Done>& taken) {
+    if (taken) {
+        return;
+    }
+    Error error = taken.error();
+    for (const std::string field : {"stop_count: ", "count: "}) {
+        if (error.message.starts_with(field)) {
+            fail_usage("--count: " + error.message.substr(field.size()));
         }
     }
-
-  private:
-    std::uint64_t count_ = 0;
-    double largest_ = 0; ///< Distance that gave this count.
-};
-
-/// Leaves out all but the first samples. Returns how many those left out were.
-std::uint64_t cut_to(SampleSet& set, const Domain& domain, std::size_t count) {
-    const std::uint64_t cut = count_of(set, domain) - count;
-    set.samples.resize(std::min(set.samples.size(), count));
-    set.points.resize(std::min(set.points.size(), count * domain.dimension()));
-    set.given = std::min(set.given, count);
-    set.classes.resize(std::min(set.classes.size(), count));
-    return cut;
+    take(Result<Done>(std::move(error)));
 }
 
 /// Compiles on all cores what jobs on the device share.
@@ -236,15 +211,16 @@ double RunDevice::compile(const Domain& domain, ProgressLine& progress) {
     return std::exchange(compile_seconds_, 0) + watch.seconds();
 }
 
-SampleSet RunDevice::sample(const Task& task, double min_distance, ProgressLine& progress) {
-    log_.tell_task(min_distance, task.expected);
-    const std::size_t avoided = task.surface ? task.surface->params.avoid.size() : 0;
-    const bool is_divided = sampler_ != nullptr && task.surface;
+SampleSet RunDevice::sample(const RequestStep& step, ProgressLine& progress) {
+    progress.begin_stage(stage_of(step));
+    log_.tell_task(step.params.min_distance, step.expected);
+    const std::size_t avoided = step.params.avoid.size();
+    const bool is_divided = sampler_ != nullptr && step.surface != nullptr;
     const ProgressCallback shown = is_divided
                                        ? show_part(progress, log_)
-                                       : show_progress(progress, log_, task.expected, avoided);
-    auto result = is_divided ? sampler_->sample(opened_->runner, *task.surface, shown)
-                             : opened_->runner.sample_and_wait(task.domain, shown);
+                                       : show_progress(progress, log_, step.expected, avoided);
+    auto result = is_divided ? sampler_->sample(opened_->runner, step, shown)
+                             : opened_->runner.sample_and_wait(step.domain, shown);
     progress.clear();
     check_interrupted();
     if (!result) {
@@ -261,85 +237,29 @@ SampleSet RunDevice::sample(const Task& task, double min_distance, ProgressLine&
     return set;
 }
 
-SampleSet RunDevice::sample_all(const Task& first, double min_distance, ProgressLine& progress,
-                                std::vector<std::size_t>& ends) {
-    SampleSet set = sample(first, min_distance, progress);
-    ends = {count_of(set, first.domain)};
-    for (auto next = first.next; next;) {
-        const Task task = next(set.samples);
-        const std::size_t given = set.given;
-        const RunReport before = set.report;
-        progress.begin_stage("sampling level " + std::to_string(ends.size()));
-        set = sample(task, min_distance, progress);
-        set.given = given; // Those before are samples of this set.
-        set.report.starts += before.starts;
-        set.report.add(before);
-        ends.push_back(count_of(set, task.domain));
-        next = task.next;
-    }
-    return set;
-}
-
-DeviceResult RunDevice::run(const TaskAt& task_at, double min_distance, const WantedCount& wanted,
-                            ProgressLine& progress) {
-    Task task = task_at(min_distance); // Fails before a device is needed.
+DeviceResult RunDevice::run(RequestRun request, ProgressLine& progress) {
     DeviceRun done;
-    done.compile_seconds = compile(task.domain, progress);
+    while (const RequestStep* step = request.step()) {
+        if (step->attempt == 0 && step->level == 0) { // Others need the same kernels.
+            done.compile_seconds += compile(step->domain, progress);
+            check_interrupted();
+        }
+        check_taken(request.take(sample(*step, progress)));
+    }
+    check_validation(context());
+    RequestedSet found = std::move(request).finish();
     done.open_seconds = std::exchange(open_seconds_, 0);
     done.device = context().report();
     done.tuning = opened_->runner.sampler().tuning();
-    check_interrupted();
-
-    SampleSet best;
-    RunSeconds seconds;
-    std::uint32_t starts = 0;
-    CountSearch search = wanted.search();
-    std::uint64_t most = 0;
-    RoomCheck room;
-    for (;;) {
-        progress.begin_stage(done.runs == 0 ? "sampling" : "sampling at another distance");
-        std::vector<std::size_t> ends;
-        SampleSet set = sample_all(task, min_distance, progress, ends);
-        ++done.runs;
-        starts += set.report.starts;
-        seconds.compile += set.report.seconds.compile;
-        seconds.upload += set.report.seconds.upload;
-        seconds.sample += set.report.seconds.sample;
-        seconds.readback += set.report.seconds.readback;
-        std::optional<double> next;
-        const std::uint64_t count = count_of(set, task.domain);
-        most = std::max(most, count);
-        if (wanted.samples > 0) {
-            room.note(min_distance, count, wanted.samples);
-            next = search.note(min_distance, count);
-        }
-        if (wanted.samples == 0 || search.is_nearest()) {
-            best = std::move(set);
-            done.ends = std::move(ends);
-            done.min_distance = min_distance;
-        }
-        if (!next) {
-            wanted.check_reached(most, min_distance);
-            break;
-        }
-        min_distance = *next;
-        task = task_at(min_distance);
-    }
-    check_validation(context());
-    if (wanted.is_exact) {
-        const auto kept = static_cast<std::size_t>(wanted.samples);
-        done.cut = cut_to(best, task.domain, kept);
-        for (std::size_t& end : done.ends) {
-            end = std::min(end, kept);
-        }
-    }
+    done.min_distance = found.min_distance;
+    done.runs = found.tries;
+    done.cut = found.cut;
+    done.run = found.set.report;
+    done.ends = found.ends;
     if (sampler_ != nullptr) {
         done.processes = sampler_->processes();
     }
-    done.run = best.report;
-    done.run.seconds = seconds;
-    done.run.starts = starts;
-    return {std::move(best), std::move(done)};
+    return {std::move(found), std::move(done)};
 }
 
 void RunDevice::check(const Error& error) {

@@ -3,7 +3,6 @@
 
 #include <atomic>
 #include <cstdint>
-#include <functional>
 #include <future>
 #include <memory>
 #include <mutex>
@@ -12,11 +11,10 @@
 #include <vector>
 
 #include <geodisk/context.hpp>
-#include <geodisk/domain.hpp>
 #include <geodisk/process_report.hpp>
+#include <geodisk/request.hpp>
 #include <geodisk/runner.hpp>
 
-#include "geodisk/options/method_options.hpp"
 #include "geodisk/options/run_options.hpp"
 #include "geodisk/outputs/device_log.hpp"
 #include "geodisk/outputs/progress.hpp"
@@ -31,8 +29,8 @@ struct DeviceRun {
     double min_distance = 0;       ///< As used.
     std::uint32_t runs = 0;        ///< At this distance and those tried before.
     std::uint64_t cut = 0;         ///< Last samples of the run that an exact count left out.
-    RunReport run;                 ///< With the seconds of all runs. Of all tasks together.
-    std::vector<std::size_t> ends; ///< Number of samples after each task.
+    RunReport run;                 ///< With the seconds of all runs. Of all levels together.
+    std::vector<std::size_t> ends; ///< Number of samples at the end of each level.
     /// 0 where that was done before; those of the stages after are in `run`.
     double open_seconds = 0, compile_seconds = 0;
     /// Shares of processes, where several sampled one surface.
@@ -40,32 +38,16 @@ struct DeviceRun {
 };
 
 struct DeviceResult {
-    SampleSet set;
+    RequestedSet found;
     DeviceRun done;
 };
-
-/// A surface by geodesic distance, and its parameters, which must outlive the task.
-struct SurfaceTask {
-    const PreparedMesh* mesh;
-    SampleParams params;
-};
-
-/// What there is to sample at a distance, and about how many samples that gives.
-struct Task {
-    Domain domain;
-    double expected;
-    std::optional<SurfaceTask> surface{}; ///< What the domain is of, where it is just a surface.
-    /// Makes the task that goes on from all samples so far, where one set takes several tasks.
-    std::function<Task(const std::vector<Sample>& before)> next{};
-};
-using TaskAt = std::function<Task(double min_distance)>;
 
 /// Samples a surface together with other processes.
 class SurfaceSampler {
   public:
     virtual ~SurfaceSampler() = default;
-    /// Gives the set that the runner alone gives.
-    virtual Result<SampleSet> sample(Runner& runner, const SurfaceTask& surface,
+    /// Gives the set that the runner alone gives for the step, which is of a surface.
+    virtual Result<SampleSet> sample(Runner& runner, const RequestStep& step,
                                      const ProgressCallback& progress) = 0;
     /// Returns the shares of all processes in the last set.
     virtual const std::vector<ProcessReport>& processes() const = 0;
@@ -121,12 +103,9 @@ class RunDevice {
     /// errors. The device must not be shared.
     void begin_open(Ahead ahead);
 
-    /// Opens the device where need be, compiles there what the domain needs, and samples it. Where
-    /// a number of samples is wanted and another comes out, it tries other distances (CountSearch)
-    /// and takes the best; of an exact count just the first samples. Throws UserError, DeviceLost
-    /// among them.
-    DeviceResult run(const TaskAt& task_at, double min_distance, const WantedCount& wanted,
-                     ProgressLine& progress);
+    /// Opens the device where need be, compiles there what the request needs, and samples all of
+    /// its steps. Throws UserError, DeviceLost among them.
+    DeviceResult run(RequestRun request, ProgressLine& progress);
 
     /// Throws UserError for an error of a run on this device, DeviceLost among them; after that,
     /// the device has to be opened again.
@@ -160,10 +139,7 @@ class RunDevice {
     Begun finish_open(ProgressLine& progress);
     /// After the device was lost.
     void close();
-    SampleSet sample(const Task& task, double min_distance, ProgressLine& progress);
-    /// Does all tasks of a set, and notes where each one ends.
-    SampleSet sample_all(const Task& first, double min_distance, ProgressLine& progress,
-                         std::vector<std::size_t>& ends);
+    SampleSet sample(const RequestStep& step, ProgressLine& progress);
 
     DeviceOptions device_;
     RunnerOptions options_;

@@ -34,14 +34,14 @@ std::uint64_t planned_bytes(const Sampler& sampler, const RunnerOptions& options
     }
 }
 
-/// Runs the task, or what of it takes no longer than the pilot.
-void run_pilot(Runner& runner, const Task& task, bool is_bounded, ProgressLine& progress,
+/// Runs the step, or what of it takes no longer than the pilot.
+void run_pilot(Runner& runner, const RequestStep& step, bool is_bounded, ProgressLine& progress,
                DryRun& dry) {
     progress.begin_stage("running a pilot");
     double start_part = 0, start_seconds = 0;
     const Stopwatch watch;
-    auto result = runner.sample_and_wait(task.domain, [&](const Progress& state) {
-        dry.pilot_part = part_done(state, task.expected);
+    auto result = runner.sample_and_wait(step.domain, [&](const Progress& state) {
+        dry.pilot_part = part_done(state, step.expected);
         dry.pilot_seconds = watch.seconds();
         if (dry.pilot_seconds < kStartSeconds) {
             start_part = dry.pilot_part;
@@ -73,17 +73,18 @@ std::uint64_t whole(double count) {
 
 } // namespace
 
-DryRun dry_run_on_device(RunDevice& device, const Task& task, double min_distance,
-                         std::uint64_t seed, ProgressLine& progress) {
+DryRun dry_run_on_device(RunDevice& device, const RequestRun& request, std::uint64_t seed,
+                         ProgressLine& progress) {
+    const RequestStep& step = *request.step();
     DryRun dry;
-    dry.min_distance = min_distance;
+    dry.min_distance = step.params.min_distance;
     dry.seed = seed;
-    dry.expected = task.expected;
-    dry.candidates = task.domain.stages().candidates();
-    dry.compile_seconds = device.compile(task.domain, progress);
+    dry.expected = step.expected;
+    dry.candidates = step.domain.stages().candidates();
+    dry.compile_seconds = device.compile(step.domain, progress);
     dry.device = device.context().report();
-    dry.device_bytes = planned_bytes(device.runner().sampler(), device.options(), task.domain);
-    run_pilot(device.runner(), task, device.options().device_bytes != 0, progress, dry);
+    dry.device_bytes = planned_bytes(device.runner().sampler(), device.options(), step.domain);
+    run_pilot(device.runner(), step, device.options().device_bytes != 0, progress, dry);
     check_validation(device.context());
     return dry;
 }

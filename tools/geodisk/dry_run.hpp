@@ -23,10 +23,10 @@ struct DryRun {
     double sample_seconds = 0; ///< Of the run, where the rest goes on as the pilot did.
 };
 
-/// Compiles on the device what the task needs, and begins the run: a pilot that ends when it is
-/// complete, or after about two seconds. Throws UserError.
-DryRun dry_run_on_device(RunDevice& device, const Task& task, double min_distance,
-                         std::uint64_t seed, ProgressLine& progress);
+/// Compiles on the device what the first step of a request needs, and begins it: a pilot that ends
+/// when it is complete, or after about two seconds. Throws UserError.
+DryRun dry_run_on_device(RunDevice& device, const RequestRun& request, std::uint64_t seed,
+                         ProgressLine& progress);
 
 /// For programs.
 Json dry_run_json(const DryRun& run);

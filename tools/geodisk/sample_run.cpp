@@ -6,14 +6,13 @@
 #include <utility>
 #include <vector>
 
-#include <geodisk/domain.hpp>
+#include <geodisk/request.hpp>
 
 #include "files/block_writer.hpp"
 #include "files/part_columns.hpp"
 #include "files/sample_columns.hpp"
 #include "geodisk/checks/run_warnings.hpp"
 #include "geodisk/checks/spacing.hpp"
-#include "geodisk/feature_run.hpp"
 #include "geodisk/inputs/given_input.hpp"
 #include "geodisk/outputs/outputs.hpp"
 #include "geodisk/records.hpp"
@@ -42,35 +41,27 @@ void check_space(const SampleJob& job, const MeshInput& mesh) {
                    " needs three coordinates per vertex; the mesh has " +
                    (mesh.dimension() == 0 ? "none" : std::to_string(mesh.dimension())));
     }
+    if (job.features && mesh.dimension() == 0) {
+        fail_usage("--features needs the coordinates of the mesh, and it has edge lengths alone");
+    }
 }
 
-/// Returns the frame of parts of faces. Its guard allows for the steps of weights on the faces of
-/// the file, to which samples are moved.
-JobFrame frame_of_parts(const MeshInput& mesh, const SampleParams& params) {
-    JobFrame frame = take(frame_of(mesh.sampled(), params));
-    SampleParams plain;
-    plain.min_distance = params.min_distance;
-    const JobFrame whole = take(frame_of(mesh.prepared, plain));
-    frame.longest_edge = std::max(frame.longest_edge, whole.longest_edge * whole.unit / frame.unit);
-    // A step is 2^-16 of the edges of the smallest parts, where radii change fourfold at most.
-    constexpr double kOfRadii = 6 * 0x1p-16;
-    frame.error_bound = 2 * std::max(frame.error_bound, whole.error_bound) +
-                        (params.radii != nullptr ? kOfRadii : 0);
-    return frame;
-}
-
-/// In the frame of another mesh, unless it is null.
-Domain domain_of(const SampleJob& job, const MeshInput& mesh, const SampleParams& params,
-                 const JobFrame* frame = nullptr) {
-    if (frame != nullptr) {
-        return take(Domain::surface(mesh.prepared, params, *frame), edit_text(job));
-    }
-    if (job.is_geodesic()) {
-        return mesh.split
-                   ? take(Domain::surface(mesh.sampled(), params, frame_of_parts(mesh, params)))
-                   : take(Domain::surface(mesh.prepared, params));
-    }
-    return take(Domain::surface_in_space(mesh.sampled_view(), mesh.sampled(), params, *job.metric));
+/// Returns what the job asks for on a mesh, in the frame of another unless it is null. The view
+/// must outlive it.
+SampleRequest request_of(const SampleJob& job, const MeshInput& mesh, const SampleParams& params,
+                         const MeshView& view, const JobFrame* frame = nullptr) {
+    SampleRequest request;
+    request.params = params;
+    request.count = job.wanted_count.samples;
+    request.is_exact = job.wanted_count.is_exact;
+    request.features = job.features.value_or(0);
+    request.order = job.method.has_levels ? SampleOrder::progressive : SampleOrder::dart;
+    request.levels = job.method.levels;
+    request.metric = job.metric;
+    request.view = &view;
+    request.frame = frame;
+    request.split_from = job.is_geodesic() && mesh.split ? &mesh.prepared : nullptr;
+    return request;
 }
 
 std::vector<SampleRow> to_rows(const MeshInput& mesh, double min_distance,
@@ -85,15 +76,6 @@ std::vector<SampleRow> to_rows(const MeshInput& mesh, double min_distance,
         row.radius = mesh.radius(sample.face, sample.weights, min_distance);
     });
     return rows;
-}
-
-Task task_of(const SampleJob& job, const MeshInput& mesh, const SampleParams& params,
-             double expected, const JobFrame* frame = nullptr) {
-    Task task{domain_of(job, mesh, params, frame), expected};
-    if (job.is_geodesic()) {
-        task.surface = SurfaceTask{&mesh.sampled(), params};
-    }
-    return task;
 }
 
 /// Adds what is to be told of the samples that were given, the first of `result`.
@@ -124,34 +106,6 @@ void note_given(const SampleJob& job, const MeshInput& mesh, SampleResult& resul
              std::to_string(closest.row_a) + " and " + std::to_string(closest.row_b) + ", at " +
              rounded(closest.distance, 6),
          job.constraints.existing});
-}
-
-/// Checks that the samples on features leave room for those on faces, where their number is given.
-void check_settled(const SampleJob& job, std::size_t settled, std::size_t given) {
-    if (job.method.stop_count != 0 && settled > given && settled >= job.method.stop_count) {
-        fail_usage("--count: " + counted(settled - given, "sample", "samples") +
-                   " on features count too, so ask for more than " + grouped(settled));
-    }
-}
-
-/// Level by level, from the samples of the levels before.
-Task level_task(const SampleJob& job, const MeshInput& mesh, const SampleParams& last,
-                const Levels& levels, std::uint32_t level, const std::vector<Sample>& before) {
-    const SampleParams params = take(params_of_level(last, levels, level, before));
-    const double area = effective_area(mesh.sampled(), params);
-    Task task = task_of(job, mesh, params, expected_count(area, params.min_distance));
-    if (level + 1 < levels.count) {
-        task.next = [&job, &mesh, last, levels, level](const std::vector<Sample>& samples) {
-            return level_task(job, mesh, last, levels, level + 1, samples);
-        };
-    }
-    return task;
-}
-
-/// The levels that --order asks for, where `last` are the parameters of the last one.
-Levels levels_of(const Method& method, const MeshInput& mesh, const SampleParams& last) {
-    return method.levels.count > 0 ? method.levels
-                                   : levels_for(mesh.sampled(), last, method.levels.factor);
 }
 
 /// The columns that the file has besides those that all have.
@@ -189,7 +143,7 @@ std::optional<JobFrame> frame_to_tell(const SampleJob& job, const MeshInput& mes
         return update->frame();
     }
     if (job.is_geodesic() && mesh.split) {
-        return frame_of_parts(mesh, params);
+        return take(frame_of(mesh.sampled(), params, mesh.prepared));
     }
     return job.is_geodesic() && mesh.distance_part != 1
                ? std::optional(take(frame_of(mesh.prepared, params)))
@@ -260,29 +214,18 @@ SampleResult sample_mesh(const SampleJob& job, const MeshInput& mesh, RunDevice&
         update.emplace(job, mesh, progress);
         params.min_distance = update->min_distance();
     }
-    FeatureRun features(job, mesh);
-    std::vector<Sample> settled; // Of the latest distance.
-    const auto task_at = [&](double min_distance) {
-        params.min_distance = min_distance;
-        params.given = given.samples;
-        settled = features.settle(params, device, progress);
-        check_settled(job, settled.size(), given.samples.size());
-        params.given = settled;
-        if (job.method.has_levels) {
-            return level_task(job, mesh, params, levels_of(job.method, mesh, params), 0, {});
-        }
-        const double room = expected_count(effective_area(mesh.sampled(), params), min_distance);
-        return task_of(job, mesh, params, job.method.expected(room),
-                       update ? &update->frame() : nullptr);
-    };
+    const MeshView view = mesh.sampled_view();
+    auto request = RequestRun::create(
+        mesh.sampled(), request_of(job, mesh, params, view, update ? &update->frame() : nullptr));
+    RequestRun run = take(std::move(request), update ? edit_text(job) : "");
     if (update && update->has_samples()) {
         device.sample_by(&*update);
     }
-    auto [set, done] = device.run(task_at, params.min_distance, job.wanted_count, progress);
+    auto [found, done] = device.run(std::move(run), progress);
     if (update && update->has_samples()) {
         device.sample_by(nullptr); // It ends with this run.
     }
-    features.add_seconds(done);
+    const SampleSet& set = found.set;
     params.min_distance = done.min_distance;
     if (set.samples.empty() && !given.avoided.empty()) {
         fail_usage("--avoid: none of " + grouped(done.run.candidates) +
@@ -300,16 +243,18 @@ SampleResult sample_mesh(const SampleJob& job, const MeshInput& mesh, RunDevice&
     result.rows = to_rows(mesh, params.min_distance, set.samples);
     set_normals(job.out.record, mesh, result.rows);
     result.given = given.samples.size();
-    result.features = feature_kinds(set.samples, result.given, set.given);
-    result.feature_corners = features.corners();
-    result.feature_length = features.length();
+    result.features.assign(set.samples.size(), 0);
+    std::ranges::transform(found.features, result.features.begin(),
+                           [](FeatureKind kind) { return static_cast<std::uint32_t>(kind); });
+    result.feature_corners = found.corners;
+    result.feature_length = found.feature_length;
     result.classes.assign(set.classes.begin(), set.classes.end());
     result.classes.resize(result.rows.size()); // A single class has no table.
     for (std::size_t i = 0; i < result.rows.size() && job.classes.has_radii(); ++i) {
         result.rows[i].radius = job.classes.radius(result.classes[i], params.min_distance);
     }
-    if (job.method.has_levels) {
-        result.levels = levels_of(job.method, mesh, params);
+    if (found.levels.count > 0) {
+        result.levels = found.levels;
     }
     result.avoided = given.points_to_avoid;
     result.avoided_length = given.lines_to_avoid;
@@ -324,7 +269,7 @@ SampleResult sample_mesh(const SampleJob& job, const MeshInput& mesh, RunDevice&
     if (update && update->warning()) {
         result.warnings.push_back(*update->warning());
     }
-    if (features.are_missing()) {
+    if (found.lacks_features) {
         result.warnings.push_back({"no_features", 1, "",
                                    "no edge where samples may lie turns by more than " +
                                        rounded(*job.features, 6) +
@@ -363,9 +308,13 @@ DryRun try_sampling(const SampleJob& job, const MeshInput& mesh, RunDevice& devi
     params.given = given.samples;
     params.given_classes = given.classes;
     params.avoid = given.avoided;
-    const double room = expected_count(effective_area(mesh.sampled(), params), params.min_distance);
-    return dry_run_on_device(device, {domain_of(job, mesh, params), job.method.expected(room)},
-                             params.min_distance, params.seed, progress);
+    const MeshView view = mesh.sampled_view();
+    SampleRequest request = request_of(job, mesh, params, view);
+    request.count = 0; // Just the first distance is tried, and the faces at once.
+    request.features = 0;
+    request.order = SampleOrder::dart;
+    return dry_run_on_device(device, take(RequestRun::create(mesh.sampled(), request)), params.seed,
+                             progress);
 }
 
 } // namespace geodisk::tools

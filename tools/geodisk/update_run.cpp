@@ -231,9 +231,9 @@ void UpdateRun::decide_all(const std::string& reason) {
                 reason + "; so all samples are decided again, as without --update", job_.mesh.mesh};
 }
 
-Result<SampleSet> UpdateRun::sample(Runner& runner, const SurfaceTask& surface,
+Result<SampleSet> UpdateRun::sample(Runner& runner, const RequestStep& step,
                                     const ProgressCallback& progress) {
-    const SurfaceJob after{view_of(mesh_), surface.params};
+    const SurfaceJob after{view_of(mesh_), step.params};
     auto updater = Updater::create({view_of(before_), params_}, after, frame_, samples_);
     if (!updater) {
         return checked(updater.error(), job_.update);

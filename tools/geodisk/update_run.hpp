@@ -34,7 +34,7 @@ class UpdateRun : public SurfaceSampler {
     /// Returns the warning that samples of --update do not help, if so.
     const std::optional<MeshWarning>& warning() const { return warning_; }
 
-    Result<SampleSet> sample(Runner& runner, const SurfaceTask& surface,
+    Result<SampleSet> sample(Runner& runner, const RequestStep& step,
                              const ProgressCallback& progress) override;
     const std::vector<ProcessReport>& processes() const override { return processes_; }
 

@@ -122,23 +122,36 @@ SampleResult sample_ranged(const SampleJob& job, MeshInput& mesh, Session& sessi
     const RangedSurface& surface = *session.ranges();
     SampleParams params = params_on(mesh, job);
     std::optional<StandIn> triangle;
-    const auto task_at = [&](double min_distance) {
+    std::optional<TakesWhole> needs;
+    const auto step_at = [&](double min_distance) -> Result<RequestStep> {
         params.min_distance = min_distance;
         const auto frame = surface.frame(params);
-        if (!frame && frame.error().status == Status::mesh_rejected) {
-            throw TakesWhole{frame.error().message};
+        if (!frame) {
+            if (frame.error().status == Status::mesh_rejected) {
+                needs = TakesWhole{frame.error().message};
+            }
+            return frame.error();
         }
         triangle.emplace(surface, job, params);
-        const double room = expected_count(mesh.effective_area(params), min_distance);
-        Task task{
-            take(Domain::surface(triangle->mesh, triangle->params, take(Result<JobFrame>(frame)))),
-            job.method.expected(room)};
-        task.surface = SurfaceTask{&mesh.prepared, params};
-        return task;
+        auto domain = Domain::surface(triangle->mesh, triangle->params, *frame);
+        if (!domain) {
+            return domain.error();
+        }
+        RequestStep step{std::move(*domain), params, &mesh.prepared};
+        step.expected =
+            job.method.expected(expected_count(mesh.effective_area(params), min_distance));
+        return step;
     };
+    auto request = RequestRun::create(step_at, params.min_distance, job.wanted_count.samples,
+                                      job.wanted_count.is_exact);
+    if (needs) {
+        throw TakesWhole(*needs);
+    }
+    RequestRun begun = take(std::move(request));
     RunDevice device = device_for(job);
     device.sample_by(&session);
-    auto [set, done] = device.run(task_at, params.min_distance, job.wanted_count, progress);
+    auto [found, done] = device.run(std::move(begun), progress);
+    const SampleSet& set = found.set;
     params.min_distance = done.min_distance;
     job.method.check_count(set.samples.size(), params.min_distance * mesh.distance_part,
                            done.run.candidates);

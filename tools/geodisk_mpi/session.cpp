@@ -214,16 +214,16 @@ void Session::write_rows(AtomicFile& file, const SampleTarget& target, const Sam
     }
 }
 
-Result<SampleSet> Session::sample(Runner& runner, const SurfaceTask& surface,
+Result<SampleSet> Session::sample(Runner& runner, const RequestStep& step,
                                   const ProgressCallback& progress) {
     const Checkpoints* checkpoints = nullptr;
     if (checkpoints_ != nullptr) {
         const std::uint64_t mesh = ranges_
                                        ? ranges()->statistics().digest
-                                       : mesh_digest(*surface.mesh) + fields_digest(surface.params);
-        const JobFrame frame = take(ranges_ ? ranges()->frame(surface.params)
-                                            : frame_of(*surface.mesh, surface.params));
-        checkpoints = &checkpoints_->begin({mesh, job_digest(frame, surface.params)});
+                                       : mesh_digest(*step.surface) + fields_digest(step.params);
+        const JobFrame frame =
+            take(ranges_ ? ranges()->frame(step.params) : frame_of(*step.surface, step.params));
+        checkpoints = &checkpoints_->begin({mesh, job_digest(frame, step.params)});
     }
     next(ranges_ ? Task::sample_ranges : Task::sample_whole);
     auto result = together([&]() -> Result<PartsResult> {
@@ -231,12 +231,12 @@ Result<SampleSet> Session::sample(Runner& runner, const SurfaceTask& surface,
             return well.error();
         }
         if (ranges_) {
-            const auto job = all_hear(*exchange_, RangedJob(surface.params));
+            const auto job = all_hear(*exchange_, RangedJob(step.params));
             return job ? ranges_->sample(runner, job->params(), checkpoints, progress)
                        : Result<PartsResult>(job.error());
         }
         const Cut cut = cut_surface;
-        WholeSurface whole{*surface.mesh, surface.params, cut};
+        WholeSurface whole{*step.surface, step.params, cut};
         whole.checkpoints = checkpoints;
         return sample_parts(*exchange_, runner, &whole, progress);
     });

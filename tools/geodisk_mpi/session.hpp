@@ -55,7 +55,7 @@ class Session : public SurfaceSampler {
     void write_rows(AtomicFile& file, const SampleTarget& target, const SampleHeader& header);
 
     /// Samples by all processes.
-    Result<SampleSet> sample(Runner& runner, const SurfaceTask& surface,
+    Result<SampleSet> sample(Runner& runner, const RequestStep& step,
                              const ProgressCallback& progress) override;
     const std::vector<ProcessReport>& processes() const override { return processes_; }
     /// From now on, saves checkpoints there, if it is not null. It must outlive all samples.

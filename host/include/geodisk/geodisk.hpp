@@ -20,6 +20,7 @@
 #include <geodisk/params.hpp>
 #include <geodisk/placement.hpp>
 #include <geodisk/radius_field.hpp>
+#include <geodisk/request.hpp>
 #include <geodisk/runner.hpp>
 #include <geodisk/sample.hpp>
 #include <geodisk/sampler.hpp>

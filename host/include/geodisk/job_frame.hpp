@@ -48,6 +48,11 @@ GEODISK_API bool decide_alike(const JobFrame& a, const JobFrame& b) noexcept;
 GEODISK_API Result<JobFrame> frame_of(const PreparedMesh& mesh,
                                       const SampleParams& params) noexcept;
 
+/// Derives the frame of a job on a mesh that was split from another, on whose faces its samples
+/// will be told. The guard allows for the steps of weights there.
+GEODISK_API Result<JobFrame> frame_of(const PreparedMesh& mesh, const SampleParams& params,
+                                      const PreparedMesh& split_from) noexcept;
+
 /// Size of a frame as bytes.
 inline constexpr std::size_t kJobFrameBytes = 64;
 

@@ -110,10 +110,21 @@ FoundSet find_on_surfaces(const SampleJob& job, std::span<const std::string> nam
             expected_count(effective_area(mesh.prepared, part.params), part.params.min_distance);
         parts.push_back(part);
     }
-    const auto task = [&](double) { return Task{take(Domain::surfaces(parts)), expected}; };
-    const auto [set, done] = device.run(task, parts.front().params.min_distance, {}, progress);
+    const double distance = parts.front().params.min_distance;
+    const auto step_at = [&](double) -> Result<RequestStep> {
+        auto domain = Domain::surfaces(parts);
+        if (!domain) {
+            return domain.error();
+        }
+        RequestStep step{std::move(*domain)};
+        step.params.min_distance = distance;
+        step.expected = expected;
+        return step;
+    };
+    const auto [result, done] = device.run(take(RequestRun::create(step_at, distance)), progress);
+    const std::vector<Sample>& samples = result.set.samples;
     std::vector<SampleRow> rows;
-    for (const Sample& sample : set.samples) {
+    for (const Sample& sample : samples) {
         SampleRow row;
         row.face = sample.face;
         std::copy_n(sample.weights, 3, row.bary);
@@ -123,8 +134,9 @@ FoundSet find_on_surfaces(const SampleJob& job, std::span<const std::string> nam
 }
 
 FoundSet find_in_box(BoxJob job, RunDevice& device, ProgressLine& progress) {
-    const auto [set, done] = sample_box(job, device, progress);
-    return found(fingerprint_of(set.points), set.points.size() / job.box.extents.size(), done);
+    const auto [result, done] = sample_box(job, device, progress);
+    const std::vector<double>& points = result.set.points;
+    return found(fingerprint_of(points), points.size() / job.box.extents.size(), done);
 }
 
 FoundSet find(const std::string& text, const DeviceOptions& options, RunDevice& device,

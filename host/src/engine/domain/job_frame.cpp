@@ -59,4 +59,22 @@ Result<JobFrame> frame_of(const PreparedMesh& mesh, const SampleParams& params) 
     });
 }
 
+Result<JobFrame> frame_of(const PreparedMesh& mesh, const SampleParams& params,
+                          const PreparedMesh& split_from) noexcept {
+    auto frame = frame_of(mesh, params);
+    SampleParams plain;
+    plain.min_distance = params.min_distance;
+    const auto whole = frame ? frame_of(split_from, plain) : frame;
+    if (!whole) {
+        return whole;
+    }
+    frame->longest_edge =
+        std::max(frame->longest_edge, whole->longest_edge * whole->unit / frame->unit);
+    // A step is 2^-16 of the edges of the smallest parts, where radii change fourfold at most.
+    constexpr double kOfRadii = 6 * 0x1p-16;
+    frame->error_bound = 2 * std::max(frame->error_bound, whole->error_bound) +
+                         (params.radii != nullptr ? kOfRadii : 0);
+    return frame;
+}
+
 } // namespace geodisk

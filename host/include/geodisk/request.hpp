@@ -1,0 +1,185 @@
+// SampleRequest: all that a set of samples on a surface depends on, and the runs that make the set.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <geodisk/domain.hpp>
+#include <geodisk/export.hpp>
+#include <geodisk/farthest.hpp>
+#include <geodisk/features.hpp>
+#include <geodisk/job_frame.hpp>
+#include <geodisk/levels.hpp>
+#include <geodisk/mesh.hpp>
+#include <geodisk/mesh_view.hpp>
+#include <geodisk/params.hpp>
+#include <geodisk/runner.hpp>
+#include <geodisk/status.hpp>
+
+namespace geodisk {
+
+/// Order of the samples of a set.
+enum class SampleOrder : std::uint8_t {
+    dart,        ///< As sequential dart throwing accepts them.
+    progressive, ///< Coarse levels first, see Levels.
+    farthest,    ///< Each one as far as possible from all before it, see FarthestOrder.
+};
+
+/// What is to be sampled on a surface. What it points to must outlive the run.
+struct SampleRequest {
+    /// The run at one distance. With `count`, its distance is the first one to try, or 0 for
+    /// distance_for_count().
+    SampleParams params;
+    /// Number of samples, at least 1, for which a distance is found by trial (CountSearch); 0 if
+    /// `params` tell the distance.
+    double count = 0;
+    /// Return exactly `count` samples, the first ones of a run that has up to 1 % more.
+    bool is_exact = false;
+    /// Sample corners first, then edges whose faces meet at more than this angle in degrees, 1 to
+    /// 180, borders and edges of more than two faces, then the faces. 0 for no features.
+    double features = 0;
+    SampleOrder order = SampleOrder::dart;
+    /// For SampleOrder::progressive; a count of 0 is that of levels_for().
+    Levels levels{0};
+    /// For SampleOrder::farthest: number of samples to keep; 0 for all.
+    std::uint32_t keep = 0;
+    /// Distances through space instead of along the surface, to compare with other methods.
+    std::optional<Metric> metric;
+    /// Coordinates of the mesh, for `features` and `metric`.
+    const MeshView* view = nullptr;
+    /// Sample in the frame of another mesh; null for the mesh's own.
+    const JobFrame* frame = nullptr;
+    /// Mesh that the sampled one was split from, on whose faces samples will be told; or null. The
+    /// guard then allows for the steps of weights there.
+    const PreparedMesh* split_from = nullptr;
+};
+
+/// Fields of a request that may exclude each other.
+enum class RequestField : std::uint8_t {
+    min_distance,
+    count,
+    is_exact,
+    throws,
+    stop_count,
+    maximal,
+    radii,
+    class_factors,
+    given,
+    features,
+    progressive,
+    farthest,
+    keep,
+    metric,
+    frame,
+    split_from,
+};
+
+/// Returns the name of a field as spelled above.
+GEODISK_API const char* to_string(RequestField field) noexcept;
+
+/// Two fields that exclude each other.
+struct RequestRule {
+    RequestField field, other;
+    const char* reason; ///< A sentence without a full stop.
+};
+
+/// Returns all rules.
+GEODISK_API std::span<const RequestRule> request_rules() noexcept;
+
+/// Returns the first rule that a request breaks, or null. Front ends name both fields as their
+/// users spell them.
+GEODISK_API const RequestRule* broken_rule(const SampleRequest& request) noexcept;
+
+/// Samples that a request asked for.
+struct RequestedSet {
+    /// The samples, and the report of the run that made them: with the work of all its levels, and
+    /// with the seconds of all runs. `given` are those of the request.
+    SampleSet set;
+    double min_distance = 0;         ///< As asked for, or as found for the count.
+    std::uint32_t tries = 0;         ///< Distances tried.
+    std::uint64_t cut = 0;           ///< Last samples of the run that an exact count left out.
+    Levels levels{0};                ///< Count 0 without levels.
+    std::vector<std::size_t> ends{}; ///< Number of samples at the end of each level, or of the run.
+    /// Where each sample lies, for a request of features. Given samples count as on faces.
+    std::vector<FeatureKind> features{};
+    std::size_t corners = 0;   ///< Corners on faces that take samples.
+    double feature_length = 0; ///< Length of all curves, in mesh units.
+    /// The request asked for features, and there are none on faces that take samples.
+    bool lacks_features = false;
+    /// For SampleOrder::farthest, in which `set` then is.
+    std::optional<FarthestOrder> farthest{};
+};
+
+/// One run of a request.
+struct RequestStep {
+    Domain domain;
+    SampleParams params{}; ///< Of a surface. Refer to the request, or to its run.
+    /// What the domain is of, where that is just a surface by distances along it; else null.
+    const PreparedMesh* surface = nullptr;
+    double expected = 0;         ///< About how many samples there will be.
+    std::uint32_t attempt = 0;   ///< Number of the distance that is tried.
+    std::uint32_t level = 0;     ///< Level that it samples.
+    bool is_on_features = false; ///< Samples the features alone, before the faces.
+};
+
+/// The runs that a request takes, one after another: features, levels, and trials for a count.
+/// Whoever has a device samples each step, in any way that gives the samples of its domain:
+///
+///     while (const RequestStep* step = run.step()) {
+///         auto set = runner.sample_and_wait(step->domain);
+///         ...
+///         run.take(std::move(set).value());
+///     }
+///     auto found = std::move(run).finish();
+///
+/// Does not order samples by distance: farthest_order() needs a device.
+class GEODISK_API RequestRun {
+  public:
+    /// Makes the first step. The mesh and what the request refers to must outlive the run.
+    ///
+    /// Errors: those of Domain::surface() and what else the request needs; `invalid_argument` for
+    /// fields out of range, and for two that exclude each other, naming both.
+    static Result<RequestRun> create(const PreparedMesh& mesh,
+                                     const SampleRequest& request) noexcept;
+
+    /// Makes the step at a distance, for what is no single surface.
+    using StepAt = std::function<Result<RequestStep>(double min_distance)>;
+    /// Makes the run of another domain, at this distance, or at one found for a count, from this
+    /// one on.
+    static Result<RequestRun> create(StepAt step_at, double min_distance, double count = 0,
+                                     bool is_exact = false) noexcept;
+
+    RequestRun(RequestRun&&) noexcept;
+    RequestRun& operator=(RequestRun&&) noexcept;
+    ~RequestRun();
+
+    /// Returns what to sample next, valid until take(); null if all is done.
+    const RequestStep* step() const noexcept;
+    /// Takes the samples of the step.
+    ///
+    /// Errors: as create(); `invalid_argument` if there is no room for so many samples, or an exact
+    /// count is not reached. The run has then ended.
+    Result<Done> take(SampleSet set) noexcept;
+    /// Returns the samples. All steps must have been taken.
+    RequestedSet finish() && noexcept;
+
+    struct Impl; ///< Internal.
+
+  private:
+    explicit RequestRun(std::unique_ptr<Impl> impl) noexcept;
+    std::unique_ptr<Impl> impl_;
+};
+
+/// Samples what the request asks for, and waits. `progress` is called for each run anew.
+///
+/// Errors: those of RequestRun, Runner::sample_and_wait() and farthest_order().
+GEODISK_API Result<RequestedSet> sample(Runner& runner, const PreparedMesh& mesh,
+                                        const SampleRequest& request,
+                                        const ProgressCallback& progress = {}) noexcept;
+
+} // namespace geodisk

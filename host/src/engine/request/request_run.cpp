@@ -1,0 +1,468 @@
+// The runs of a request: each try for a count samples the features, then the levels or all at once.
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <type_traits>
+#include <utility>
+
+#include <geodisk/request.hpp>
+
+#include "engine/domain/stages.hpp"
+#include "engine/request/tries.hpp"
+#include "support/guard.hpp"
+#include "support/invalid.hpp"
+#include "support/number_text.hpp"
+
+namespace geodisk {
+namespace {
+
+/// By how much the distance for a count is larger for a maximal set, by packing density.
+constexpr double kMaximalFactor = 0.778 / 0.721;
+/// Samples on curves per minimum distance along them (measured).
+constexpr double kCurveSamples = 0.75;
+
+/// Makes the steps of a request on a surface.
+class SurfaceSteps {
+  public:
+    SurfaceSteps(const PreparedMesh& mesh, const SampleRequest& request)
+        : mesh_(mesh), request_(request) {}
+
+    /// Finds the features. Fails for fields that are out of range.
+    Result<Done> prepare();
+
+    bool has_features() const { return has_features_; }
+    bool has_levels() const { return request_.order == SampleOrder::progressive; }
+    const SampleRequest& request() const { return request_; }
+
+    /// Returns the first distance to try.
+    Result<double> first_distance() const;
+    Levels levels_at(double distance) const;
+
+    /// Makes the step of the features at a distance.
+    Result<RequestStep> on_features(double distance) const;
+    /// Makes the step of the faces, or of a level of them, with samples that stand already.
+    Result<RequestStep> on_faces(double distance, std::uint32_t level,
+                                 std::span<const Sample> standing) const;
+
+    /// Fails if no room is left for samples on faces beside those on features.
+    Result<Done> check_settled(std::size_t settled) const;
+    /// Adds what is known of the features.
+    void describe(RequestedSet& found, std::size_t settled) const;
+
+  private:
+    SampleParams params_at(double distance) const;
+    Result<Domain> domain(const SampleParams& params) const;
+    std::size_t sampled_corners() const;
+
+    const PreparedMesh& mesh_;
+    SampleRequest request_;
+    std::optional<Features> features_;
+    bool has_features_ = false; ///< Some are on faces that take samples.
+    std::size_t corners_ = 0;
+};
+
+Result<Done> SurfaceSteps::prepare() {
+    if (const RequestRule* rule = broken_rule(request_)) {
+        return invalid(std::string(to_string(rule->field)) + " and " + to_string(rule->other) +
+                       " exclude each other: " + rule->reason);
+    }
+    const double count = request_.count;
+    if (count != 0 && !(count >= 1 && std::isfinite(count))) {
+        return invalid("count is " + number_text(count) + ", not a number of samples");
+    }
+    if (request_.is_exact && (count == 0 || count != std::floor(count))) {
+        return invalid("is_exact needs a whole number of samples as count");
+    }
+    if (request_.keep != 0 && request_.order != SampleOrder::farthest) {
+        return invalid("keep is for SampleOrder::farthest");
+    }
+    if ((request_.features != 0 || request_.metric) && request_.view == nullptr) {
+        return invalid(std::string(request_.metric ? "metric" : "features") +
+                       " needs the coordinates of the mesh: view is null");
+    }
+    if (request_.features != 0) {
+        auto found = Features::find(*request_.view, mesh_, request_.features);
+        if (!found) {
+            return found.error();
+        }
+        features_ = std::move(*found);
+        has_features_ = features_->are_sampled(mesh_, request_.params);
+        corners_ = sampled_corners();
+    }
+    return Done{};
+}
+
+std::size_t SurfaceSteps::sampled_corners() const {
+    const std::span<const std::uint8_t> mask = request_.params.face_mask;
+    const auto takes_samples = [&](std::uint32_t corner) {
+        return mask.empty() || (corner / 3 < mask.size() && mask[corner / 3] != 0);
+    };
+    const auto is_sampled = [&](std::uint32_t vertex) {
+        const VertexFan& fan = mesh_.fans()[vertex];
+        return std::ranges::any_of(mesh_.corners().subspan(fan.first_corner, fan.corner_count),
+                                   takes_samples);
+    };
+    return static_cast<std::size_t>(std::ranges::count_if(features_->corners(), is_sampled));
+}
+
+Result<double> SurfaceSteps::first_distance() const {
+    const SampleParams& params = request_.params;
+    if (request_.count == 0 || params.min_distance != 0) {
+        return params.min_distance;
+    }
+    SampleParams any = params;
+    any.min_distance = 1; // Is not looked at, but checked.
+    if (const auto checked = check_params(mesh_, any); !checked) {
+        return checked.error();
+    }
+    return distance_for_count(mesh_, params, request_.count) *
+           (params.maximal ? kMaximalFactor : 1);
+}
+
+Levels SurfaceSteps::levels_at(double distance) const {
+    return request_.levels.count > 0
+               ? request_.levels
+               : levels_for(mesh_, params_at(distance), request_.levels.factor);
+}
+
+SampleParams SurfaceSteps::params_at(double distance) const {
+    SampleParams params = request_.params;
+    params.min_distance = distance;
+    if (request_.count != 0) {
+        params.stop_count = 0; // Or it would hide how many samples the distance gives.
+    }
+    return params;
+}
+
+Result<RequestStep> SurfaceSteps::on_features(double distance) const {
+    SampleParams params = params_at(distance);
+    params.throws = 0;
+    params.stop_count = 0;
+    auto domain = feature_domain(mesh_, params, *features_);
+    if (!domain) {
+        return domain.error();
+    }
+    const double expected = static_cast<double>(params.given.size() + corners_) +
+                            kCurveSamples * features_->length() / distance;
+    RequestStep step{std::move(*domain), params};
+    step.expected = expected;
+    step.is_on_features = true;
+    return step;
+}
+
+Result<RequestStep> SurfaceSteps::on_faces(double distance, std::uint32_t level,
+                                           std::span<const Sample> standing) const {
+    SampleParams params = params_at(distance);
+    if (has_levels()) {
+        auto own = params_of_level(params, levels_at(distance), level, standing); // 0: the given.
+        if (!own) {
+            return own.error();
+        }
+        params = *own;
+    } else if (has_features_) {
+        params.given = standing;
+    }
+    auto made = domain(params);
+    if (!made) {
+        return made.error();
+    }
+    const double room =
+        std::max(1.0, expected_count(effective_area(mesh_, params), params.min_distance));
+    const double expected =
+        params.stop_count != 0 ? std::min<double>(room, params.stop_count) : room;
+    RequestStep step{std::move(*made), params, request_.metric ? nullptr : &mesh_};
+    step.expected = expected;
+    step.level = level;
+    return step;
+}
+
+Result<Domain> SurfaceSteps::domain(const SampleParams& params) const {
+    if (request_.metric) {
+        return Domain::surface_in_space(*request_.view, mesh_, params, *request_.metric);
+    }
+    if (request_.frame != nullptr) {
+        return Domain::surface(mesh_, params, *request_.frame);
+    }
+    if (request_.split_from == nullptr) {
+        return Domain::surface(mesh_, params);
+    }
+    const auto frame = frame_of(mesh_, params, *request_.split_from);
+    return frame ? Domain::surface(mesh_, params, *frame) : frame.error();
+}
+
+Result<Done> SurfaceSteps::check_settled(std::size_t settled) const {
+    const std::size_t given = request_.params.given.size();
+    const std::uint32_t stop_count = request_.params.stop_count;
+    if (stop_count != 0 && settled > given && settled >= stop_count) {
+        const std::size_t own = settled - given;
+        return invalid("stop_count: " + std::to_string(own) + (own == 1 ? " sample" : " samples") +
+                       " on features count too, so ask for more than " + std::to_string(settled));
+    }
+    return Done{};
+}
+
+void SurfaceSteps::describe(RequestedSet& found, std::size_t settled) const {
+    if (!features_) {
+        return;
+    }
+    const std::vector<Sample>& samples = found.set.samples;
+    found.features.assign(samples.size(), FeatureKind::face);
+    const std::size_t end = std::min(settled, samples.size());
+    for (std::size_t i = std::min(request_.params.given.size(), end); i < end; ++i) {
+        found.features[i] = feature_of(samples[i]);
+    }
+    found.corners = corners_;
+    found.feature_length = features_->length();
+    found.lacks_features = !has_features_;
+}
+
+void add_seconds(RunSeconds& sum, const RunSeconds& other) {
+    sum.compile += other.compile;
+    sum.upload += other.upload;
+    sum.sample += other.sample;
+    sum.readback += other.readback;
+}
+
+/// Puts the samples in farthest-point order, and leaves out those that are not to be kept.
+Result<Done> put_farthest_first(Runner& runner, const PreparedMesh& mesh, std::uint32_t keep,
+                                const ProgressCallback& progress, RequestedSet& found) {
+    if (found.set.samples.empty()) {
+        return Done{};
+    }
+    auto order = farthest_order(runner, mesh, found.set.samples, keep, progress);
+    if (!order) {
+        return order.error();
+    }
+    const auto chosen = [&](const auto& values) {
+        std::remove_cvref_t<decltype(values)> rows;
+        for (const std::uint32_t index : order->indices) {
+            if (index < values.size()) {
+                rows.push_back(values[index]);
+            }
+        }
+        return rows;
+    };
+    found.set.samples = chosen(found.set.samples);
+    found.set.classes = chosen(found.set.classes);
+    found.features = chosen(found.features);
+    found.ends = {found.set.samples.size()};
+    found.farthest = std::move(*order);
+    return Done{};
+}
+
+/// Leaves out all but the first samples.
+void cut_to(SampleSet& set, std::size_t dimension, std::size_t count) {
+    set.samples.resize(std::min(set.samples.size(), count));
+    set.points.resize(std::min(set.points.size(), count * dimension));
+    set.classes.resize(std::min(set.classes.size(), count));
+    set.given = std::min(set.given, count);
+}
+
+} // namespace
+
+struct RequestRun::Impl {
+    Impl(double distance, double wanted, bool exact)
+        : tries(distance, wanted, exact), count(wanted), is_exact(exact) {}
+
+    /// Makes the first step at the distance that the tries have come to.
+    Result<Done> begin_try();
+    /// Makes the first step on faces, with samples that stand already.
+    Result<Done> begin_faces();
+    Result<Done> use(Result<RequestStep> made);
+    /// Takes the samples of the last step of a try.
+    Result<Done> end_try(SampleSet set);
+
+    Tries tries;
+    double count;
+    bool is_exact;
+    std::optional<SurfaceSteps> surface;
+    StepAt step_at; ///< Without a surface.
+    std::optional<RequestStep> step;
+    std::vector<Sample> standing;    ///< Those that the step goes on from, besides the given ones.
+    std::optional<SampleSet> levels; ///< Report of the levels before.
+    std::vector<std::size_t> ends;
+    RunSeconds seconds;
+    std::uint32_t starts = 0;
+    RequestedSet best;
+    std::size_t settled = 0; ///< Samples of `best` that are given or on features.
+};
+
+Result<Done> RequestRun::Impl::use(Result<RequestStep> made) {
+    step.reset();
+    if (!made) {
+        return made.error();
+    }
+    step = std::move(*made);
+    step->attempt = tries.count();
+    return Done{};
+}
+
+Result<Done> RequestRun::Impl::begin_try() {
+    ends.clear();
+    levels.reset();
+    if (!surface) {
+        return use(step_at(*tries.distance()));
+    }
+    const std::span<const Sample> given = surface->request().params.given;
+    standing.assign(given.begin(), given.end());
+    return surface->has_features() ? use(surface->on_features(*tries.distance())) : begin_faces();
+}
+
+Result<Done> RequestRun::Impl::begin_faces() {
+    return use(surface->on_faces(*tries.distance(), 0, standing));
+}
+
+Result<Done> RequestRun::Impl::end_try(SampleSet set) {
+    const std::size_t dimension = step->domain.dimension();
+    const std::size_t samples = dimension == 0 ? set.samples.size() : set.points.size() / dimension;
+    const double distance = *tries.distance();
+    starts += set.report.starts;
+    add_seconds(seconds, set.report.seconds);
+    const auto is_best = tries.note(samples);
+    if (!is_best) {
+        step.reset();
+        return is_best.error();
+    }
+    if (*is_best) {
+        settled = set.given;
+        best = {};
+        best.set = std::move(set);
+        best.min_distance = distance;
+        best.ends = std::move(ends);
+        if (is_exact) {
+            const auto kept = static_cast<std::size_t>(count);
+            best.cut = samples - std::min(samples, kept);
+            cut_to(best.set, dimension, kept);
+        } else if (surface && count != 0 && surface->request().params.stop_count != 0) {
+            cut_to(best.set, dimension, surface->request().params.stop_count);
+        }
+        for (std::size_t& end : best.ends) {
+            end = std::min(end, samples - best.cut);
+        }
+    }
+    if (tries.distance()) {
+        return begin_try();
+    }
+    step.reset();
+    best.tries = tries.count();
+    best.set.report.seconds = seconds;
+    best.set.report.starts = starts;
+    if (surface) {
+        surface->describe(best, settled);
+        best.set.given = std::min(surface->request().params.given.size(), best.set.given);
+        if (surface->has_levels()) {
+            best.levels = surface->levels_at(best.min_distance);
+        }
+    }
+    return Done{};
+}
+
+RequestRun::RequestRun(std::unique_ptr<Impl> impl) noexcept : impl_(std::move(impl)) {}
+RequestRun::RequestRun(RequestRun&&) noexcept = default;
+RequestRun& RequestRun::operator=(RequestRun&&) noexcept = default;
+RequestRun::~RequestRun() = default;
+
+Result<RequestRun> RequestRun::create(const PreparedMesh& mesh,
+                                      const SampleRequest& request) noexcept {
+    return guarded([&]() -> Result<RequestRun> {
+        SurfaceSteps steps(mesh, request);
+        if (const auto prepared = steps.prepare(); !prepared) {
+            return prepared.error();
+        }
+        const auto distance = steps.first_distance();
+        if (!distance) {
+            return distance.error();
+        }
+        auto impl = std::make_unique<Impl>(*distance, request.count, request.is_exact);
+        impl->surface.emplace(std::move(steps));
+        if (const auto begun = impl->begin_try(); !begun) {
+            return begun.error();
+        }
+        return RequestRun(std::move(impl));
+    });
+}
+
+Result<RequestRun> RequestRun::create(StepAt step_at, double min_distance, double count,
+                                      bool is_exact) noexcept {
+    return guarded([&]() -> Result<RequestRun> {
+        auto impl = std::make_unique<Impl>(min_distance, count, is_exact);
+        impl->step_at = std::move(step_at);
+        if (const auto begun = impl->begin_try(); !begun) {
+            return begun.error();
+        }
+        return RequestRun(std::move(impl));
+    });
+}
+
+const RequestStep* RequestRun::step() const noexcept {
+    return impl_->step ? &*impl_->step : nullptr;
+}
+
+Result<Done> RequestRun::take(SampleSet set) noexcept {
+    return guarded([&]() -> Result<Done> {
+        Impl& run = *impl_;
+        if (!run.step) {
+            return invalid("the request has no step to take samples of");
+        }
+        if (run.step->is_on_features) {
+            add_seconds(run.seconds, set.report.seconds);
+            if (const auto checked = run.surface->check_settled(set.samples.size()); !checked) {
+                run.step.reset();
+                return checked.error();
+            }
+            run.standing = std::move(set.samples);
+            return run.begin_faces();
+        }
+        if (run.levels) { // Those before are samples of this set, not given ones.
+            set.given = run.levels->given;
+            set.report.starts += run.levels->report.starts;
+            set.report.add(run.levels->report);
+        }
+        run.ends.push_back(set.samples.size());
+        if (run.surface && run.surface->has_levels()) {
+            const double distance = *run.tries.distance();
+            const std::uint32_t next = run.step->level + 1;
+            if (next < run.surface->levels_at(distance).count) {
+                run.standing = std::move(set.samples);
+                set.samples.clear();
+                run.levels = std::move(set);
+                return run.use(run.surface->on_faces(distance, next, run.standing));
+            }
+        }
+        return run.end_try(std::move(set));
+    });
+}
+
+RequestedSet RequestRun::finish() && noexcept {
+    return std::move(impl_->best);
+}
+
+Result<RequestedSet> sample(Runner& runner, const PreparedMesh& mesh, const SampleRequest& request,
+                            const ProgressCallback& progress) noexcept {
+    return guarded([&]() -> Result<RequestedSet> {
+        auto run = RequestRun::create(mesh, request);
+        if (!run) {
+            return run.error();
+        }
+        while (const RequestStep* step = run->step()) {
+            auto set = runner.sample_and_wait(step->domain, progress);
+            if (!set) {
+                return set.error();
+            }
+            if (const auto taken = run->take(std::move(*set)); !taken) {
+                return taken.error();
+            }
+        }
+        RequestedSet found = std::move(*run).finish();
+        if (request.order != SampleOrder::farthest) {
+            return found;
+        }
+        if (const auto ordered = put_farthest_first(runner, mesh, request.keep, progress, found);
+            !ordered) {
+            return ordered.error();
+        }
+        return found;
+    });
+}
+
+} // namespace geodisk

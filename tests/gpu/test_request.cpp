@@ -1,0 +1,284 @@
+// Requests: their runs are those of the parts they consist of, and what contradicts is refused.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <vector>
+
+#include <geodisk/count_search.hpp>
+#include <geodisk/request.hpp>
+
+#include "device_run.hpp"
+#include "sets.hpp"
+#include "support/meshes.hpp"
+#include "support/radius_fields.hpp"
+
+namespace geodisk::test {
+namespace {
+
+Runner request_runner() {
+    return expect(Runner::create(shared_context().device(), shared_context().queue()));
+}
+
+Points run_of(Runner& runner, const PreparedMesh& mesh, const SampleParams& params) {
+    return points_of(expect(runner.sample_and_wait(mesh, params)));
+}
+
+/// A request with a valid value in each of two fields.
+class PairRequest {
+  public:
+    PairRequest(RequestField a, RequestField b)
+        : shape_(builtin("cube", 2)), mesh_(prepared(shape_)),
+          radii_(expect(RadiusField::prepare(mesh_, std::vector<double>(mesh_.vertex_count(), 1)))),
+          view_(shape_.view()) {
+        request_.view = &view_;
+        request_.params.min_distance = 0.5;
+        set(a);
+        set(b);
+        SampleParams plain; // But for radii, a frame knows no more.
+        plain.min_distance = 0.5;
+        plain.radii = request_.params.radii;
+        frame_ = expect(frame_of(mesh_, plain));
+    }
+
+    const SampleRequest& request() const { return request_; }
+    const PreparedMesh& mesh() const { return mesh_; }
+
+  private:
+    void set(RequestField field) {
+        SampleParams& params = request_.params;
+        switch (field) {
+        case RequestField::min_distance:
+            break;
+        case RequestField::count:
+            request_.count = 20;
+            break;
+        case RequestField::is_exact:
+            request_.count = 20;
+            request_.is_exact = true;
+            break;
+        case RequestField::throws:
+            params.throws = 100;
+            break;
+        case RequestField::stop_count:
+            params.stop_count = 10;
+            break;
+        case RequestField::maximal:
+            params.maximal = true;
+            break;
+        case RequestField::radii:
+            params.radii = &radii_;
+            break;
+        case RequestField::class_factors:
+            params.class_factors = factors_;
+            break;
+        case RequestField::given:
+            params.given = given_;
+            break;
+        case RequestField::features:
+            request_.features = 30;
+            break;
+        case RequestField::progressive:
+            request_.order = SampleOrder::progressive;
+            break;
+        case RequestField::farthest:
+            request_.order = SampleOrder::farthest;
+            break;
+        case RequestField::keep:
+            if (request_.order == SampleOrder::dart) {
+                request_.order = SampleOrder::farthest;
+            }
+            request_.keep = 3;
+            break;
+        case RequestField::metric:
+            request_.metric = Metric::euclidean;
+            break;
+        case RequestField::frame:
+            request_.frame = &frame_;
+            break;
+        case RequestField::split_from:
+            request_.split_from = &mesh_;
+            break;
+        }
+    }
+
+    TestMesh shape_;
+    PreparedMesh mesh_;
+    RadiusField radii_;
+    MeshView view_;
+    JobFrame frame_;
+    std::array<float, 4> factors_{1, 0.5F, 0.5F, 1};
+    std::array<Sample, 1> given_{{{0, {1, 0, 0}}}};
+    SampleRequest request_;
+};
+
+constexpr auto kLastField = RequestField::split_from;
+
+} // namespace
+
+TEST_SUITE("request") {
+    TEST_CASE("features come first, at each distance that a count tries") {
+        const TestMesh shape = builtin("cube", 3);
+        const PreparedMesh mesh = prepared(shape);
+        const MeshView view = shape.view();
+        Runner runner = request_runner();
+        SampleRequest request;
+        request.params.seed = 4;
+        request.count = 300;
+        request.is_exact = true;
+        request.features = 30;
+        request.view = &view;
+        const RequestedSet found = expect(sample(runner, mesh, request));
+
+        const Features features = expect(Features::find(view, mesh, 30));
+        CountSearch search = CountSearch::exact(300);
+        SampleParams params = request.params;
+        params.min_distance = distance_for_count(mesh, params, 300);
+        Points best;
+        double distance = 0;
+        std::size_t on_features = 0;
+        for (;;) {
+            params.given = {};
+            const SampleSet first =
+                expect(runner.sample_and_wait(expect(feature_domain(mesh, params, features))));
+            params.given = first.samples;
+            const Points points = run_of(runner, mesh, params);
+            const auto next = search.note(params.min_distance, points.size());
+            if (search.is_nearest()) {
+                best = points;
+                distance = params.min_distance;
+                on_features = first.samples.size();
+            }
+            if (!next) {
+                break;
+            }
+            params.min_distance = *next;
+        }
+        CHECK(found.tries == search.tries());
+        CHECK(found.tries > 1);
+        CHECK(found.min_distance == distance);
+        CHECK(found.cut == best.size() - 300);
+        best.resize(300);
+        CHECK(points_of(found.set) == best);
+        CHECK(found.set.given == 0);
+        CHECK(found.corners == 8);
+        REQUIRE(found.features.size() == 300);
+        const auto faces = std::ranges::count(found.features, FeatureKind::face);
+        CHECK(static_cast<std::size_t>(faces) == 300 - on_features);
+        CHECK(std::ranges::count(found.features, FeatureKind::corner) == 8);
+    }
+
+    TEST_CASE("levels go on from one another, also when a count chooses the distance") {
+        const PreparedMesh mesh = prepared(builtin("torus-knot", 16));
+        Runner runner = request_runner();
+        SampleRequest request;
+        request.count = 400;
+        request.order = SampleOrder::progressive;
+        const RequestedSet found = expect(sample(runner, mesh, request));
+
+        SampleParams last = request.params;
+        last.min_distance = found.min_distance;
+        const Levels levels = levels_for(mesh, last);
+        CHECK(found.levels.count == levels.count);
+        REQUIRE(found.ends.size() == levels.count);
+        std::vector<Sample> before;
+        for (std::uint32_t level = 0; level < levels.count; ++level) {
+            const SampleParams params = expect(params_of_level(last, levels, level, before));
+            before = expect(runner.sample_and_wait(mesh, params)).samples;
+            CHECK(found.ends[level] == before.size());
+        }
+        SampleSet by_hand;
+        by_hand.samples = before;
+        CHECK(points_of(found.set) == points_of(by_hand));
+        CHECK(found.set.given == 0);
+    }
+
+    TEST_CASE("the farthest order takes along what belongs to the samples") {
+        const PreparedMesh mesh = prepared(builtin("icosphere", 3));
+        Runner runner = request_runner();
+        SampleRequest request;
+        request.params.min_distance = 0.4;
+        const RequestedSet all = expect(sample(runner, mesh, request));
+        request.order = SampleOrder::farthest;
+        request.keep = 12;
+        const RequestedSet found = expect(sample(runner, mesh, request));
+        REQUIRE(found.farthest);
+        const FarthestOrder order = expect(farthest_order(runner, mesh, all.set.samples, 12));
+        CHECK(found.farthest->indices == order.indices);
+        const Points of_all = points_of(all.set), points = points_of(found.set);
+        REQUIRE(points.size() == 12);
+        for (std::size_t i = 0; i < 12; ++i) {
+            CHECK(points[i] == of_all[order.indices[i]]);
+        }
+    }
+
+    TEST_CASE("a count with no room for it is refused") {
+        const PreparedMesh mesh = prepared(builtin("icosphere", 2));
+        Runner runner = request_runner();
+        const std::array<KeepOut, 1> everywhere{{{{0, {1, 0, 0}}, 10}}};
+        SampleRequest request;
+        request.count = 20;
+        request.params.avoid = everywhere;
+        const auto none = sample(runner, mesh, request);
+        REQUIRE_FALSE(none);
+        CHECK(none.error().status == Status::invalid_argument);
+        CHECK(none.error().message.starts_with("count: found no room for a sample"));
+    }
+
+    TEST_CASE("fields that exclude each other are refused by name, and no others") {
+        const int last = static_cast<int>(kLastField);
+        for (int i = 0; i <= last; ++i) {
+            for (int k = 0; k <= last; ++k) {
+                const auto a = static_cast<RequestField>(i), b = static_cast<RequestField>(k);
+                const PairRequest pair(a, b);
+                const RequestRule* const rule = broken_rule(pair.request());
+                const auto is_rule = [&](RequestField x, RequestField y) {
+                    return std::ranges::any_of(request_rules(), [&](const RequestRule& one) {
+                        return one.field == x && one.other == y;
+                    });
+                };
+                CAPTURE(to_string(a));
+                CAPTURE(to_string(b));
+                const auto run = RequestRun::create(pair.mesh(), pair.request());
+                if (is_rule(a, b) || is_rule(b, a)) {
+                    REQUIRE(rule != nullptr);
+                }
+                if (rule != nullptr) {
+                    REQUIRE_FALSE(run);
+                    const std::string text = run.error().message;
+                    CHECK(run.error().status == Status::invalid_argument);
+                    CHECK(text.find(to_string(rule->field)) != std::string::npos);
+                    CHECK(text.find(to_string(rule->other)) != std::string::npos);
+                } else {
+                    INFO((run ? "" : run.error().message));
+                    CHECK(run);
+                }
+            }
+        }
+    }
+
+    TEST_CASE("fields out of range are refused") {
+        const PreparedMesh mesh = prepared(builtin("cube", 1));
+        const auto refusal = [&](const SampleRequest& request) {
+            const auto run = RequestRun::create(mesh, request);
+            return run ? std::string() : run.error().message;
+        };
+        SampleRequest request;
+        CHECK_FALSE(refusal(request).empty()); // No distance.
+        request.count = 0.5;
+        CHECK(refusal(request).starts_with("count is 0.5"));
+        request.count = 10.5;
+        request.is_exact = true;
+        CHECK(refusal(request).starts_with("is_exact needs a whole number"));
+        request = {};
+        request.params.min_distance = 0.3;
+        request.keep = 5;
+        CHECK(refusal(request).starts_with("keep is for"));
+        request.keep = 0;
+        request.features = 30;
+        CHECK(refusal(request).starts_with("features needs the coordinates"));
+    }
+}
+
+} // namespace geodisk::test
