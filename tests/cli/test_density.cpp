@@ -480,8 +480,8 @@ TEST_CASE("samples drawn on parts of faces go with the other options") {
 TEST_CASE("an image that is finer than faces are split says how fine it was read") {
     const TemporaryFolder folder;
     write_plane(folder);
-    const Outcome made =
-        run(folder, {"sample", "two.obj", "-o", "a.ply", "-d", "0.01", "--density", "map:fine.png"});
+    const Outcome made = run(
+        folder, {"sample", "two.obj", "-o", "a.ply", "-d", "0.01", "--density", "map:fine.png"});
     CHECK(made.status == 0);
     CHECK(contains(made.err, "fine.png: is finer than faces are split for it: on large faces it is "
                              "read every 4 pixels"));

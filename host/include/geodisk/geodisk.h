@@ -495,6 +495,46 @@ GEODISK_C_API geodisk_status geodisk_sample(geodisk_sampler *sampler, const geod
                                             geodisk_progress_fn progress, void *user,
                                             geodisk_samples **samples, geodisk_error *error);
 
+/* Order of samples. */
+typedef int32_t geodisk_order;
+enum {
+    GEODISK_ORDER_DART = 0,        /* As sequential dart throwing accepts them. */
+    GEODISK_ORDER_PROGRESSIVE = 1, /* In levels, coarse ones first. */
+    GEODISK_ORDER_FARTHEST = 2     /* Each as far as possible from all before it. */
+};
+
+/* What is to be sampled on a surface, in one run or several: features first, levels, or runs at
+ * other distances until there are as many samples as wanted. */
+typedef struct geodisk_request {
+    size_t struct_size;
+    /* The run at one distance. With `count`, its distance is the first one to try, or 0 for
+     * geodisk_distance_for_count. */
+    const geodisk_surface_params *params;
+    double count;         /* Not 0: find the distance for about so many samples. */
+    int32_t is_exact;     /* Not 0: return exactly `count` samples. */
+    geodisk_order order;
+    double features;      /* Not 0: sample features first, as geodisk_domain_features finds them from
+                           * this angle in degrees on. */
+    double level_factor;  /* Distance of a level, divided by that of the next; 0 for 2. */
+    uint32_t levels;      /* Levels of GEODISK_ORDER_PROGRESSIVE; 0 for as many as suit. */
+    uint32_t keep;        /* Samples to keep of GEODISK_ORDER_FARTHEST; 0 for all. */
+} geodisk_request;
+
+/* Samples what the request asks for, and waits for the result. `progress` may be NULL, and is called
+ * for each run anew; `user` is passed to it. Fields that exclude each other are refused by name. */
+GEODISK_C_API geodisk_status geodisk_sample_request(geodisk_sampler *sampler,
+                                                    const geodisk_mesh *mesh,
+                                                    const geodisk_request *request,
+                                                    geodisk_progress_fn progress, void *user,
+                                                    geodisk_samples **samples,
+                                                    geodisk_error *error);
+/* Begins to serve a request without waiting, and copies what it refers to. Call geodisk_poll until
+ * it ends. Not for GEODISK_ORDER_FARTHEST: call geodisk_farthest_order on the samples. */
+GEODISK_C_API geodisk_status geodisk_start_request(geodisk_sampler *sampler,
+                                                   const geodisk_mesh *mesh,
+                                                   const geodisk_request *request,
+                                                   geodisk_error *error);
+
 /* Begins a run without waiting. Call geodisk_poll until it ends. */
 GEODISK_C_API geodisk_status geodisk_start(geodisk_sampler *sampler, const geodisk_domain *domain,
                                            geodisk_error *error);
@@ -538,7 +578,12 @@ enum {
                               * class, unless radii vary. */
     GEODISK_PART = 5,        /* 1 integer: index of the sample's surface. GEODISK_FACE is an index
                               * into that surface. */
-    GEODISK_CLASS = 6        /* 1 integer: class, if samples have classes. */
+    GEODISK_CLASS = 6,       /* 1 integer: class, if samples have classes. */
+    /* Of geodisk_request: */
+    GEODISK_FEATURE = 7,     /* 1 integer: 2 on a corner, 1 on a curve, 0 on a face, if `features`. */
+    GEODISK_LEVEL = 8,       /* 1 integer: level, from 0 on, for GEODISK_ORDER_PROGRESSIVE. */
+    GEODISK_COVER = 9        /* 1 number: distance to the nearest sample before, for
+                              * GEODISK_ORDER_FARTHEST; infinite for the first of a component. */
 };
 
 /* Returns the count of numbers per sample of an attribute; 0 if the samples lack it. */
@@ -580,6 +625,17 @@ typedef struct geodisk_report {
     uint64_t maximal_cells;  /* Parts of faces that were tested. */
     double largest_gap;      /* Bound on the distance from any point to the nearest sample; if radii
                               * vary, on its excess over the sum of two radii, plus min_distance. */
+    /* Of a geodisk_request, else 0: */
+    uint32_t tries;          /* Distances tried. */
+    uint32_t levels;         /* Levels. The distance of the last one is min_distance, and that of
+                              * each before it level_factor times as large. */
+    double level_factor;
+    uint64_t cut;            /* Last samples of the run that an exact count left out. */
+    uint64_t corners;        /* Corners on faces that take samples. */
+    double feature_length;   /* Length of all curves. */
+    int32_t lacks_features;  /* 1 if features were asked for, and no face that takes samples has one. */
+    double cover;            /* Largest distance of a sample left out of the farthest order to the
+                              * nearest one kept. */
 } geodisk_report;
 
 /* Reports how the run of these samples went. */

@@ -90,15 +90,15 @@ Result<Domain> make_surface(const Part& part, geodisk_metric metric) {
     if (metric == GEODISK_GEODESIC) {
         return Domain::surface(part.mesh->prepared, part.params);
     }
-    if (metric != GEODISK_EUCLIDEAN && metric != GEODISK_APPROXIMATE) {
-        return wrong("params->metric is none of the three");
+    const auto through_space = metric_of(metric);
+    if (!through_space) {
+        return through_space.error();
     }
     if (part.mesh->dimension == 0) {
         return wrong("params->metric needs coordinates, which the mesh lacks");
     }
     return Domain::surface_in_space(part.mesh->view(), part.mesh->prepared, part.params,
-                                    metric == GEODISK_EUCLIDEAN ? Metric::euclidean
-                                                                : Metric::approximate);
+                                    *through_space);
 }
 
 Result<Done> keep(Result<Domain> made, std::shared_ptr<DomainState> state,
@@ -147,6 +147,13 @@ double factor_of(double factor) {
 }
 
 } // namespace
+
+Result<Metric> metric_of(geodisk_metric metric) {
+    if (metric != GEODISK_EUCLIDEAN && metric != GEODISK_APPROXIMATE) {
+        return wrong("params->metric is none of the three");
+    }
+    return metric == GEODISK_EUCLIDEAN ? Metric::euclidean : Metric::approximate;
+}
 
 Result<geodisk_surface_params> fill_part(const geodisk_mesh* mesh,
                                          const geodisk_surface_params* params, Part& part) {

@@ -31,11 +31,15 @@ struct Part {
 Result<geodisk_surface_params> fill_part(const geodisk_mesh* mesh,
                                          const geodisk_surface_params* params, Part& part);
 
+/// Returns a metric through space. Errors: for none of the three, and for geodesic distances.
+Result<Metric> metric_of(geodisk_metric metric);
+
 /// A domain with its surfaces, or a box if there are none. Must not move.
 struct DomainState {
     std::vector<Part> parts;
     double min_distance = 0;      ///< Minimum distance of the first surface.
-    std::optional<Domain> domain; ///< Empty for a surface whose samples were updated.
+    std::optional<Domain> domain; ///< Empty for a surface whose samples were updated,
+                                  ///< or took several runs.
 
     bool is_box() const noexcept { return parts.empty(); }
 };

@@ -29,13 +29,47 @@ ProgressCallback SamplerState::callback(geodisk_progress_fn progress, void* user
 
 namespace {
 
-Result<Done> hand_over(const SamplerState& state, std::shared_ptr<const DomainState> domain,
-                       SampleSet set, geodisk_samples** samples) {
+Result<Done> hand_over(const SamplerState& state, geodisk_samples made, geodisk_samples** samples) {
     if (const auto checked = state.device->check_validation(); !checked) {
         return checked.error();
     }
-    *samples = new geodisk_samples{std::move(domain), std::move(set)};
+    *samples = new geodisk_samples(std::move(made));
     return Done{};
+}
+
+/// The samples of a request, with the surface at their distance.
+geodisk_samples samples_of(RequestState& request, RequestedSet found) {
+    SampleSet set = std::move(found.set);
+    found.set = {};
+    auto surface = at_found_distance(request, found);
+    return {std::move(surface), std::move(set), std::move(found)};
+}
+
+/// Begins the next run of the request in progress. Returns true if there is one.
+Result<bool> start_step(SamplerState& state) {
+    const RequestStep* const step = state.requested->run->step();
+    if (step == nullptr) {
+        return false;
+    }
+    const auto go_on = [&state](const Progress&) { return !state.is_cancelled; };
+    if (const auto started = state.runner.start(step->domain, go_on); !started) {
+        return started.error();
+    }
+    return true;
+}
+
+/// Takes the samples of a run of the request in progress. Returns the samples if it was the last
+/// one.
+Result<std::optional<RequestedSet>> go_on(SamplerState& state, SampleSet set) {
+    RequestRun& run = *state.requested->run;
+    if (const auto taken = run.take(std::move(set)); !taken) {
+        return taken.error();
+    }
+    const auto is_started = start_step(state);
+    if (!is_started) {
+        return is_started.error();
+    }
+    return *is_started ? std::optional<RequestedSet>() : std::move(run).finish();
 }
 
 RunnerOptions options_of(const geodisk_sampler_options& given) {
@@ -95,7 +129,7 @@ geodisk_status geodisk_sample(geodisk_sampler* sampler, const geodisk_domain* do
         if (!set) {
             return set.error();
         }
-        return hand_over(state, domain->shared, std::move(*set), samples);
+        return hand_over(state, {domain->shared, std::move(*set)}, samples);
     });
 }
 
@@ -124,7 +158,7 @@ geodisk_status geodisk_poll(geodisk_sampler* sampler, uint32_t milliseconds,
         if (samples == nullptr) {
             return wrong("samples is NULL");
         }
-        if (!state.running) {
+        if (!state.running && !state.requested) {
             return wrong("the sampler has no run in progress");
         }
         auto polled = state.runner.poll(std::chrono::milliseconds(milliseconds));
@@ -132,11 +166,70 @@ geodisk_status geodisk_poll(geodisk_sampler* sampler, uint32_t milliseconds,
             *samples = nullptr;
             return Done{};
         }
-        const auto domain = std::exchange(state.running, nullptr);
-        if (!polled) {
-            return polled.error();
+        if (const auto domain = std::exchange(state.running, nullptr)) {
+            return polled ? hand_over(state, {domain, std::move(**polled)}, samples)
+                          : polled.error();
         }
-        return hand_over(state, domain, std::move(**polled), samples);
+        auto found = polled ? go_on(state, std::move(**polled)) : polled.error();
+        if (found && !*found) {
+            *samples = nullptr;
+            return Done{};
+        }
+        const auto request = std::exchange(state.requested, nullptr);
+        return found ? hand_over(state, samples_of(*request, std::move(**found)), samples)
+                     : found.error();
+    });
+}
+
+geodisk_status geodisk_sample_request(geodisk_sampler* sampler, const geodisk_mesh* mesh,
+                                      const geodisk_request* request, geodisk_progress_fn progress,
+                                      void* user, geodisk_samples** samples, geodisk_error* error) {
+    return with_sampler(sampler, error, [&](SamplerState& state) -> Result<Done> {
+        if (samples == nullptr) {
+            return wrong("samples is NULL");
+        }
+        if (state.is_busy()) {
+            return run_in_progress();
+        }
+        const auto wanted = request_of(mesh, request);
+        if (!wanted) {
+            return wanted.error();
+        }
+        state.is_cancelled = false;
+        auto found = sample(state.runner, (*wanted)->of->parts[0].mesh->prepared,
+                            (*wanted)->request, state.callback(progress, user));
+        if (!found) {
+            return found.error();
+        }
+        return hand_over(state, samples_of(**wanted, std::move(*found)), samples);
+    });
+}
+
+geodisk_status geodisk_start_request(geodisk_sampler* sampler, const geodisk_mesh* mesh,
+                                     const geodisk_request* request, geodisk_error* error) {
+    return with_sampler(sampler, error, [&](SamplerState& state) -> Result<Done> {
+        if (state.is_busy()) {
+            return run_in_progress();
+        }
+        const auto wanted = request_of(mesh, request);
+        if (!wanted) {
+            return wanted.error();
+        }
+        if ((*wanted)->request.order == SampleOrder::farthest) {
+            return wrong("request->order: call geodisk_farthest_order on the samples");
+        }
+        auto run = RequestRun::create((*wanted)->of->parts[0].mesh->prepared, (*wanted)->request);
+        if (!run) {
+            return run.error();
+        }
+        (*wanted)->run.emplace(std::move(*run));
+        state.is_cancelled = false;
+        state.requested = *wanted;
+        if (const auto started = start_step(state); !started) {
+            state.requested = nullptr;
+            return started.error();
+        }
+        return Done{};
     });
 }
 

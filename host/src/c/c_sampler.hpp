@@ -11,6 +11,7 @@
 #include "c/c_call.hpp"
 #include "c/c_device.hpp"
 #include "c/c_domain.hpp"
+#include "c/c_request.hpp"
 
 namespace geodisk::c {
 
@@ -26,9 +27,10 @@ struct SamplerState {
     std::atomic<bool> is_cancelled = false;
     std::shared_ptr<const DomainState> running; ///< Domain of the run in progress, if one was
                                                 ///< started.
+    std::shared_ptr<RequestState> requested;    ///< The request in progress, likewise.
     std::shared_ptr<NeighbourSearch> searching; ///< The search in progress, likewise.
 
-    bool is_busy() const { return running || searching; }
+    bool is_busy() const { return running || requested || searching; }
 
     /// Returns what tells the caller's function of progress, if there is one, and stops the run
     /// once it is cancelled.

@@ -97,7 +97,8 @@ class Places {
 };
 
 bool is_integer(geodisk_attribute attribute) noexcept {
-    return attribute == GEODISK_FACE || attribute == GEODISK_PART || attribute == GEODISK_CLASS;
+    return attribute == GEODISK_FACE || attribute == GEODISK_PART || attribute == GEODISK_CLASS ||
+           attribute == GEODISK_FEATURE || attribute == GEODISK_LEVEL;
 }
 
 std::size_t count_of(const geodisk_samples& samples) noexcept {
@@ -113,7 +114,9 @@ std::uint32_t dimension_of(const DomainState& domain) noexcept {
     return same ? first : 0;
 }
 
-std::uint32_t width_of(const DomainState& domain, geodisk_attribute attribute) noexcept {
+std::uint32_t width_of(const geodisk_samples& samples, geodisk_attribute attribute) noexcept {
+    const DomainState& domain = *samples.of;
+    const RequestedSet& found = samples.found;
     if (domain.is_box()) {
         return attribute == GEODISK_POSITION ? domain.domain->dimension()
                : attribute == GEODISK_RADIUS ? 1
@@ -125,7 +128,13 @@ std::uint32_t width_of(const DomainState& domain, geodisk_attribute attribute) n
     case GEODISK_PART:
         return 1;
     case GEODISK_CLASS:
-        return domain.domain && Domain::Impl::of(*domain.domain).kernels.classes ? 1 : 0;
+        return domain.parts[0].params.class_factors.empty() ? 0 : 1;
+    case GEODISK_FEATURE:
+        return found.features.empty() ? 0 : 1;
+    case GEODISK_LEVEL:
+        return found.levels.count > 0 ? 1 : 0;
+    case GEODISK_COVER:
+        return found.farthest ? 1 : 0;
     case GEODISK_BARYCENTRIC:
         return 3;
     case GEODISK_POSITION:
@@ -157,6 +166,8 @@ Row numbers_of(const geodisk_samples& samples, geodisk_attribute attribute, std:
         return places.position(i);
     case GEODISK_NORMAL:
         return places.normal(i);
+    case GEODISK_COVER:
+        return {samples.found.farthest->distances[i]};
     default:
         return places.radius(i);
     }
@@ -180,19 +191,35 @@ void write_numbers(const geodisk_samples& samples, geodisk_attribute attribute, 
     }
 }
 
+std::uint32_t integer_of(const geodisk_samples& samples, const Places& places,
+                         geodisk_attribute attribute, std::size_t i) {
+    const RequestedSet& found = samples.found;
+    switch (attribute) {
+    case GEODISK_FACE:
+        return places.face(i);
+    case GEODISK_PART:
+        return places.part(i);
+    case GEODISK_FEATURE:
+        return static_cast<std::uint32_t>(found.features[i]);
+    case GEODISK_LEVEL:
+        return static_cast<std::uint32_t>(std::ranges::upper_bound(found.ends, i) -
+                                          found.ends.begin());
+    default:
+        return samples.set.classes[i];
+    }
+}
+
 void write_integers(const geodisk_samples& samples, geodisk_attribute attribute, const Target& to) {
     const Places places(*samples.of, samples.set);
     for (std::size_t i = 0; i < count_of(samples); ++i) {
-        const std::uint32_t number = attribute == GEODISK_FACE   ? places.face(i)
-                                     : attribute == GEODISK_PART ? places.part(i)
-                                                                 : samples.set.classes[i];
+        const std::uint32_t number = integer_of(samples, places, attribute, i);
         std::memcpy(to.data + i * to.stride, &number, sizeof number);
     }
 }
 
 Result<Done> copy(const geodisk_samples& samples, geodisk_attribute attribute, geodisk_type type,
                   void* data, std::size_t stride, std::size_t capacity) {
-    const std::uint32_t width = width_of(*samples.of, attribute);
+    const std::uint32_t width = width_of(samples, attribute);
     if (width == 0) {
         return wrong("these samples have no such attribute");
     }
@@ -228,6 +255,7 @@ Result<Done> copy(const geodisk_samples& samples, geodisk_attribute attribute, g
 
 geodisk_report report_of(const geodisk_samples& samples) {
     const RunReport& run = samples.set.report;
+    const RequestedSet& found = samples.found;
     geodisk_report report{};
     report.samples = count_of(samples);
     report.candidates = run.candidates;
@@ -248,13 +276,23 @@ geodisk_report report_of(const geodisk_samples& samples) {
     report.sample_seconds = run.seconds.sample;
     report.readback_seconds = run.seconds.readback;
     const auto& domain = samples.of->domain;
-    const std::uint64_t wanted = domain ? Domain::Impl::of(*domain).stop_count : 0;
+    const std::uint64_t wanted = domain                    ? Domain::Impl::of(*domain).stop_count
+                                 : samples.found.tries > 0 ? samples.of->parts[0].params.stop_count
+                                                           : 0;
     report.missing = static_cast<std::uint32_t>(wanted - std::min(wanted, report.samples));
     report.given = static_cast<std::uint32_t>(samples.set.given);
     report.maximal_rounds = run.maximal.rounds;
     report.is_certified = run.maximal.certified ? 1 : 0;
     report.maximal_cells = run.maximal.cells;
     report.largest_gap = run.maximal.largest_gap;
+    report.tries = found.tries;
+    report.levels = found.levels.count;
+    report.level_factor = found.levels.factor;
+    report.cut = found.cut;
+    report.corners = found.corners;
+    report.feature_length = found.feature_length;
+    report.lacks_features = found.lacks_features ? 1 : 0;
+    report.cover = found.farthest ? found.farthest->cover : 0;
     return report;
 }
 
@@ -271,7 +309,7 @@ size_t geodisk_samples_count(const geodisk_samples* samples) {
 }
 
 uint32_t geodisk_samples_width(const geodisk_samples* samples, geodisk_attribute attribute) {
-    return samples != nullptr ? width_of(*samples->of, attribute) : 0;
+    return samples != nullptr ? width_of(*samples, attribute) : 0;
 }
 
 geodisk_status geodisk_samples_copy(const geodisk_samples* samples, geodisk_attribute attribute,

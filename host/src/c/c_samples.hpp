@@ -4,6 +4,7 @@
 #include <memory>
 
 #include <geodisk/geodisk.h>
+#include <geodisk/request.hpp>
 #include <geodisk/runner.hpp>
 
 #include "c/c_domain.hpp"
@@ -12,4 +13,5 @@
 struct geodisk_samples {
     std::shared_ptr<const geodisk::c::DomainState> of;
     geodisk::SampleSet set;
+    geodisk::RequestedSet found{}; ///< What is told of a request besides its set.
 };

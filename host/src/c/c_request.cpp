@@ -1,0 +1,73 @@
+#include "c/c_request.hpp"
+
+#include <utility>
+
+#include "c/c_call.hpp"
+
+namespace geodisk::c {
+namespace {
+
+Result<SampleOrder> order_of(geodisk_order given) {
+    switch (given) {
+    case GEODISK_ORDER_DART:
+        return SampleOrder::dart;
+    case GEODISK_ORDER_PROGRESSIVE:
+        return SampleOrder::progressive;
+    case GEODISK_ORDER_FARTHEST:
+        return SampleOrder::farthest;
+    default:
+        return wrong("request->order is none of the three");
+    }
+}
+
+} // namespace
+
+Result<std::shared_ptr<RequestState>> request_of(const geodisk_mesh* mesh,
+                                                 const geodisk_request* request) {
+    const auto given = taken(request, "request");
+    if (!given) {
+        return given.error();
+    }
+    auto state = std::make_shared<RequestState>();
+    state->of = std::make_shared<DomainState>();
+    state->of->parts.resize(1);
+    Part& part = state->of->parts[0];
+    const auto params = fill_part(mesh, given->params, part);
+    if (!params) {
+        return params.error();
+    }
+    const auto order = order_of(given->order);
+    if (!order) {
+        return order.error();
+    }
+    SampleRequest& wanted = state->request;
+    wanted.params = part.params;
+    wanted.count = given->count;
+    wanted.is_exact = given->is_exact != 0;
+    wanted.features = given->features;
+    wanted.order = *order;
+    wanted.levels.count = given->levels;
+    wanted.levels.factor = given->level_factor != 0 ? given->level_factor : kLevelFactor;
+    wanted.keep = given->keep;
+    if (params->metric != GEODISK_GEODESIC) {
+        const auto metric = metric_of(params->metric);
+        if (!metric) {
+            return metric.error();
+        }
+        wanted.metric = *metric;
+    }
+    if (part.mesh->dimension != 0) {
+        state->view = part.mesh->view();
+        wanted.view = &state->view;
+    }
+    return state;
+}
+
+std::shared_ptr<const DomainState> at_found_distance(RequestState& state,
+                                                     const RequestedSet& found) {
+    state.of->min_distance = found.min_distance;
+    state.of->parts[0].params.min_distance = found.min_distance;
+    return state.of;
+}
+
+} // namespace geodisk::c
