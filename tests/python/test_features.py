@@ -40,7 +40,7 @@ def test_wrong_ones_are_refused():
         ({"features": 0}, "not an angle from 1 to 180"),
         ({"features": float("nan")}, "not an angle from 1 to 180"),
         ({"features": 30, "classes": 2}, "take no classes"),
-        ({"features": 30, "metric": "euclidean"}, "geodesic distances only"),
+        ({"features": 30, "metric": "euclidean"}, "^features and metric exclude each other"),
         ({"features": 30, "density": np.ones(8)}, "take no density"),
     ):
         with pytest.raises(geodisk.InvalidArgument, match=text):

@@ -20,13 +20,19 @@ from ._samples import Samples
 from ._values import number
 
 
-class Features:
-    """The features of a run: edges where triangles meet at more than some degrees, and corners."""
+def degrees_of(features: float) -> float:
+    """Returns the angle from which on edges are features, checked."""
+    degrees = math.nan if isinstance(features, bool) else number(features, "features")
+    if not 1 <= degrees <= 180:
+        raise e.invalid(f"features is {features!r}, not an angle from 1 to 180 degrees")
+    return degrees
 
-    def __init__(self, degrees: float, mesh: Mesh, device: DeviceLike | None) -> None:
-        self._degrees = math.nan if isinstance(degrees, bool) else number(degrees, "features")
-        if not 1 <= self._degrees <= 180:
-            raise e.invalid(f"features is {degrees!r}, not an angle from 1 to 180 degrees")
+
+class Features:
+    """The features of one mesh of many: they are sampled before all meshes together."""
+
+    def __init__(self, features: float, mesh: Mesh, device: DeviceLike | None) -> None:
+        self._degrees = degrees_of(features)
         self._mesh, self._device = mesh, device
         self._corners = c_size_t()
 

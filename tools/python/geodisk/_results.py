@@ -13,7 +13,6 @@ from numpy.typing import NDArray
 from . import _library as c
 from . import _structs as s
 from ._classes import Classes
-from ._running import Made
 from ._samples import Samples
 from ._surface import Surface
 
@@ -41,7 +40,7 @@ def _polygons_of(surface: Surface | None, faces: NDArray[np.uint32]) -> NDArray[
 
 
 def samples_of(
-    made: Made,
+    made: c.Handle,
     seed: int,
     surface: Surface | None = None,
     *,
@@ -55,28 +54,46 @@ def samples_of(
     `given` is the distance that was asked for, if any. Without it, the distance is `distance_part`
     of that of the run, see Radii.
     """
-    report = report_of(made.samples) if made.report is None else made.report
+    report = report_of(made)
     report["min_distance"] = report["min_distance"] * distance_part if given is None else given
-    columns = _columns_of(made.samples)
+    columns = _columns_of(made)
     columns.pop("part")
     columns["given"] = _given(report["samples"], report["given"])
     if classes is not None:
-        numbers = copied(made.samples.value, s.CLASS, np.uint32)
+        numbers = copied(made.value, s.CLASS, np.uint32)
         columns["class"] = (
             np.zeros(report["samples"], np.uint32) if numbers is None else numbers[:, 0]
         )
         box["class_distances"] = classes.exact_factors * report["min_distance"]
         columns["radius"] = None  # That of the class, exactly.
-    if made.level_ends:
-        counts = np.diff(made.level_ends, prepend=0)
-        columns["level"] = np.repeat(np.arange(len(counts), dtype=np.uint32), counts)
-        scales = [distance / made.level_distances[-1] for distance in made.level_distances]
-        box["level_distances"] = tuple(report["min_distance"] * scale for scale in scales)
+    levels = copied(made.value, s.LEVEL, np.uint32)
+    if levels is not None:
+        columns["level"] = levels[:, 0]
+        box["level_distances"] = _level_distances(report)
+        ends = np.cumsum(np.bincount(levels[:, 0], minlength=report["levels"]))
         report["levels"] = [
-            {"min_distance": distance, "samples": end}
-            for distance, end in zip(box["level_distances"], made.level_ends)
+            {"min_distance": distance, "samples": int(end)}
+            for distance, end in zip(box["level_distances"], ends)
         ]
+    else:
+        del report["levels"]
+    del report["level_factor"]
+    features = copied(made.value, s.FEATURE, np.uint32)
+    if features is not None:
+        columns["feature"] = features[:, 0]
+        corners = int(np.count_nonzero(features == 2))
+        report["corners_left_out"] = report["corners"] - corners
+        report["corners"] = corners
     return _made(columns, surface, report, report["min_distance"], seed, **box)
+
+
+def _level_distances(report: dict[str, Any]) -> tuple[float, ...]:
+    """Returns the distances of all levels, as the library multiplies them."""
+    distances, scale = [], 1.0
+    for _ in range(report["levels"]):
+        distances.append(report["min_distance"] * scale)
+        scale *= report["level_factor"]
+    return tuple(reversed(distances))
 
 
 def first_of(samples: Samples, count: float) -> Samples:
@@ -91,8 +108,6 @@ def first_of(samples: Samples, count: float) -> Samples:
         "missing": int(count) - len(kept),
         "rho": samples.report["rho"] * math.sqrt(len(kept) / max(1, len(samples))),
     }
-    for level in report.get("levels", []):
-        level["samples"] = min(level["samples"], len(kept))
     return dataclasses.replace(kept, report=report, _digest=None)
 
 
@@ -104,6 +119,7 @@ def samples_of_parts(
     The last number of a part is that of its given samples.
     """
     report = report_of(handle)
+    del report["levels"], report["level_factor"]
     columns = _columns_of(handle)
     part = columns.pop("part")
     assert part is not None
@@ -174,7 +190,7 @@ def _made(
     whole = {} if surface is None else {k: x[faces] for k, x in surface.columns.items()}
     attributes = {} if surface is None else surface.attributes
     weights = columns["barycentric"]
-    for name in ("given", "class", "level"):
+    for name in ("given", "class", "level", "feature"):
         column = columns.pop(name, None)
         if column is not None:
             whole[name] = column

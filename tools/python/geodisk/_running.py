@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import ctypes
 from ctypes import byref, c_double, c_int32
-from dataclasses import dataclass
 from typing import Any, Callable
 
 import numpy as np
@@ -20,20 +19,6 @@ _PATIENCE = 100  # Milliseconds, after which Python looks for signals.
 #: Called about ten times per second with the part of the run that is done, 0 to 1, and the number of
 #: samples so far. Returning False stops the run, and so does raising anything.
 ProgressCallback = Callable[[float, int], object]
-
-
-@dataclass(frozen=True)
-class Made:
-    """Samples of a run, or of one for each level."""
-
-    samples: c.Handle
-    report: dict[str, Any] | None = None  #: Of all levels together.
-    level_distances: tuple[float, ...] = ()
-    level_ends: tuple[int, ...] = ()  #: Number of samples up to the end of each level.
-
-
-#: Samples at a minimum distance.
-RunAt = Callable[["Runs", float], Made]
 
 
 class Bar:
@@ -86,9 +71,17 @@ class Runs:
 
     def run(self, domain: c.Handle) -> c.Handle:
         """Returns the samples of a domain."""
+        return self._begun("geodisk_start", domain.value)
+
+    def serve(self, mesh: c.Handle, request: s.Request) -> c.Handle:
+        """Returns the samples that a request asks for."""
+        return self._begun("geodisk_start_request", mesh.value, byref(request))
+
+    def _begun(self, start: str, *arguments: Any) -> c.Handle:
+        """Returns the samples of a run that a function of the library begins."""
         with sampler_on(self._device) as sampler:
             try:
-                c.call("geodisk_start", sampler, domain.value)
+                c.call(start, sampler, *arguments)
                 return self._polled(sampler)
             except e.DeviceLost:
                 forget(self._device)
@@ -158,20 +151,14 @@ class CountSearch:
 
 
 def sampled(
-    run_at: RunAt,
-    first: float,
-    count: float | None,
-    exact: bool,
-    device: DeviceLike | None,
-    progress: bool | ProgressCallback,
-) -> Made:
+    runs: Runs, domain_at: Callable[[float], c.Handle], first: float, count: float | None, exact: bool
+) -> c.Handle:
     """Returns samples at the first distance, or at the one that a search for the count ends with."""
-    with Runs(device, progress) as runs:
-        if count is None:
-            return run_at(runs, first)
-        search = CountSearch(count, first, exact)
-        while search.next > 0:
-            found = run_at(runs, search.next)
-            search.note(found, c.samples_count(found.samples.value))
-        best: Made = search.best
-        return best
+    if count is None:
+        return runs.run(domain_at(first))
+    search = CountSearch(count, first, exact)
+    while search.next > 0:
+        found = runs.run(domain_at(search.next))
+        search.note(found, c.samples_count(found.value))
+    best: c.Handle = search.best
+    return best

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ctypes
 import dataclasses
 import os
-from ctypes import byref, c_double
+from ctypes import byref, c_double, pointer
 from typing import Sequence
 
 import numpy as np
@@ -19,16 +19,16 @@ from ._classes import Classes, ClassesLike
 from ._devices import DeviceLike
 from ._existing import AvoidLike, ExistingLike, avoided_of, existing_of
 from ._farthest import put_farthest_first
-from ._features import Features
+from ._features import degrees_of
 from ._job import Job, JobFrame
-from ._levels import levels_of, run_levels
+from ._levels import levels_of
 from ._mesh import keys_of, mask_of, mesh_of
 from ._oddities import oddities_of_set, warn, warn_of_whole_mask
 from ._protocols import Faces, MeshLike
 from ._radii import radii_of
 from ._record import Record, recorded
 from ._results import first_of, report_of, samples_of
-from ._running import Made, ProgressCallback, Runs, sampled
+from ._running import ProgressCallback, Runs, sampled
 from ._samples import Samples
 from ._values import check_exact, check_pool, choice, distance_of, flag, integer
 
@@ -255,41 +255,24 @@ def sample(
         params.class_count = kinds.count
         params.given_classes = own_classes.ctypes.data
 
-    edges = None if features is None else Features(features, mesh, device)
-    if edges is not None and kinds is not None:
+    degrees = 0.0 if features is None else degrees_of(features)
+    if features is not None and kinds is not None:
         raise e.invalid("features take no classes")
-
-    def run_at(runs: Runs, at: float) -> Made:
-        def domain() -> c.Handle:
-            return c.Handle("domain", "geodisk_domain_surface", mesh._handle.value, byref(params))
-
-        params.min_distance = at
-        if in_levels is not None:
-            return run_levels(runs, mesh, params, in_levels, domain)
-        params.stop_count = stop_count if count is None else 0  # Or it would miss the count.
-        params.given, params.given_count = kept.ctypes.data, len(kept)
-        settled = None if edges is None else edges.settle(params, len(kept))
-        made = domain()
-        del settled  # It was copied.
-        return Made(runs.run(made))
-
-    if distance is None:
-        found = c_double()
-        c.call(
-            "geodisk_distance_for_count",
-            mesh._handle.value,
-            None if radii is None else radii.handle.value,
-            params.face_mask,
-            max(1.0, float(count or 0) / (1 if kinds is None else kinds.density)),
-            byref(found),
-        )
-        distance = found.value * part
-    made = sampled(run_at, distance / part, count, exact, device, progress)
-    run_distance = report_of(made.samples)["min_distance"]
+    params.stop_count = stop_count
+    params.min_distance = 0.0 if distance is None else distance / part
+    request = s.Request(
+        params=pointer(params),
+        count=0.0 if count is None else count,
+        is_exact=int(exact),
+        order=s.ORDERS["dart" if in_levels is None else "progressive"],
+        features=degrees,
+    )
+    if in_levels is not None:
+        request.levels, request.level_factor = in_levels.count, in_levels.factor
+    with Runs(device, progress) as runs:
+        made = runs.serve(mesh._handle, request)
+    run_distance = report_of(made)["min_distance"]
     samples = samples_of(made, seed, mesh._surface, given=given, distance_part=part, classes=kinds)
-    if edges is not None:
-        samples = edges.marked(samples, len(kept), samples.report["given"])
-    samples = first_of(samples, count if exact and count else stop_count)
     warn(
         oddities_of_set(
             samples, mesh._handle, count, stop_count, throws, mask, len(kept), len(points) > 0
@@ -387,16 +370,17 @@ def sample_box(
         throws=throws,
     )
 
-    def run_at(runs: Runs, at: float) -> Made:
+    def domain_at(at: float) -> c.Handle:
         params.min_distance = at
         params.stop_count = stop_count if count is None else 0  # Or it would miss the count.
-        return Made(runs.run(c.Handle("domain", "geodisk_domain_box", byref(params))))
+        return c.Handle("domain", "geodisk_domain_box", byref(params))
 
     if distance is None:
         found = c_double()
         c.call("geodisk_box_distance_for_count", byref(params), float(count or 0), byref(found))
         distance = found.value
-    made = sampled(run_at, distance, count, exact, device, progress)
+    with Runs(device, progress) as runs:
+        made = sampled(runs, domain_at, distance, count, exact)
     samples = samples_of(made, seed, extents=tuple(sides.tolist()), periodic=periodic)
     samples = first_of(samples, count if exact and count else stop_count)
     warn(oddities_of_set(samples, None, count, stop_count, throws))

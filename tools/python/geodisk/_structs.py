@@ -22,7 +22,7 @@ from ctypes import (
 from typing import Any
 
 FLOAT64, FLOAT32, UINT32, UINT16 = range(4)
-FACE, BARYCENTRIC, POSITION, NORMAL, RADIUS, PART, CLASS = range(7)
+FACE, BARYCENTRIC, POSITION, NORMAL, RADIUS, PART, CLASS, FEATURE, LEVEL = range(9)
 METRICS = {"geodesic": 0, "euclidean": 1, "approximate": 2}
 AMONG = {"vertices": 0, "sources": 2}
 AMONG_POINTS = 1
@@ -175,6 +175,24 @@ class Progress(_Sized):
 PROGRESS_FN = CFUNCTYPE(c_int32, c_void_p, POINTER(Progress))
 
 
+#: Orders that geodisk_request.order takes.
+ORDERS = {"dart": 0, "progressive": 1}
+
+
+class Request(_Sized):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("params", POINTER(SurfaceParams)),
+        ("count", c_double),
+        ("is_exact", c_int32),
+        ("order", c_int32),
+        ("features", c_double),
+        ("level_factor", c_double),
+        ("levels", c_uint32),
+        ("keep", c_uint32),
+    ]
+
+
 class Report(_Sized):
     _fields_ = [
         ("struct_size", c_size_t),
@@ -198,6 +216,14 @@ class Report(_Sized):
         ("is_certified", c_int32),
         ("maximal_cells", c_uint64),
         ("largest_gap", c_double),
+        ("tries", c_uint32),
+        ("levels", c_uint32),
+        ("level_factor", c_double),
+        ("cut", c_uint64),
+        ("corners", c_uint64),
+        ("feature_length", c_double),
+        ("lacks_features", c_int32),
+        ("cover", c_double),
     ]
 
 

@@ -27,7 +27,7 @@ from ._protocols import Faces, MeshLike
 from ._radii import one_of, radii_of
 from ._record import Record, check_record, coloured, recorded
 from ._results import samples_of
-from ._running import Made, ProgressCallback
+from ._running import ProgressCallback
 from ._samples import Samples
 from ._searching import searched
 from ._surface import Surface
@@ -182,7 +182,7 @@ def update(
         frames_of_run.append(JobFrame.found("geodisk_updater_frame", updater.value))
         return c.Handle("samples", "geodisk_updater_samples", updater.value)
 
-    made = Made(searched(name_of(device), progress, find))
+    made = searched(name_of(device), progress, find)
     there = samples_of(made, samples.seed, mesh._surface, given=samples.min_distance)
     there.report["options"] = [
         name for name in FOLLOWED if _is_chosen(name, getattr(edited, name))

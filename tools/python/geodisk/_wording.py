@@ -12,6 +12,15 @@ _PARAMETERS = {
         "metric min-distance tolerance pool-ratio radius radius-factor seed size stop-count style up view weld"
     ).split()
 } | {"darts": "throws"}
+# Fields of a request that have another name here.
+_FIELDS = {
+    "is_exact": "exact",
+    "class_factors": "classes",
+    "radii": "radii that vary",
+    "given": "existing",
+    "progressive": "order='progressive'",
+}
+_EXCLUSION = re.compile(r"^(\w+) and (\w+)(?= exclude each other: )")
 # With the suffix of the options of two meshes. Not within the name of a file.
 _OPTION = re.compile(r"(?<![^\s(])--([a-z]+(?:-[a-z]+)*?)(?:-[ab])?(?![\w./-])")
 
@@ -21,6 +30,9 @@ def in_python(message: str) -> str:
 
     Leaves out advice on options that no function has.
     """
+    message = _EXCLUSION.sub(
+        lambda pair: " and ".join(_FIELDS.get(field, field) for field in pair.groups()), message
+    )
     message = re.sub(r" \(see geodisk \w+ --help\)", "", message)
     said, *advice = message.split("; ")
     kept = [said, *(clause for clause in advice if set(_OPTION.findall(clause)) <= _PARAMETERS.keys())]

@@ -1,6 +1,7 @@
 // The runs of a request: each try for a count samples the features, then the levels or all at once.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -272,6 +273,14 @@ struct RequestRun::Impl {
     /// Takes the samples of the last step of a try.
     Result<Done> end_try(SampleSet set);
 
+    /// Returns how many samples of a try are kept, at most.
+    std::size_t most_kept() const {
+        const std::uint32_t stop = surface ? surface->request().params.stop_count : 0;
+        return is_exact                  ? static_cast<std::size_t>(count)
+               : count != 0 && stop != 0 ? stop
+                                         : std::numeric_limits<std::size_t>::max();
+    }
+
     Tries tries;
     double count;
     bool is_exact;
@@ -329,15 +338,11 @@ Result<Done> RequestRun::Impl::end_try(SampleSet set) {
         best.set = std::move(set);
         best.min_distance = distance;
         best.ends = std::move(ends);
-        if (is_exact) {
-            const auto kept = static_cast<std::size_t>(count);
-            best.cut = samples - std::min(samples, kept);
-            cut_to(best.set, dimension, kept);
-        } else if (surface && count != 0 && surface->request().params.stop_count != 0) {
-            cut_to(best.set, dimension, surface->request().params.stop_count);
-        }
+        const std::size_t kept = std::min(samples, most_kept());
+        best.cut = samples - kept;
+        cut_to(best.set, dimension, kept);
         for (std::size_t& end : best.ends) {
-            end = std::min(end, samples - best.cut);
+            end = std::min(end, kept);
         }
     }
     if (tries.distance()) {
