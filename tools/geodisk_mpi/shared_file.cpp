@@ -9,7 +9,7 @@
 namespace geodisk::tools {
 
 SharedFile::SharedFile(const std::filesystem::path& path, std::uint64_t size)
-    : descriptor_(path.empty() ? -1 : open(path.c_str(), O_WRONLY | O_CLOEXEC)) {
+    : descriptor_(path.empty() ? -1 : ::open(path.c_str(), O_WRONLY | O_CLOEXEC)) {
     struct stat status {};
     if (is_open() && (fstat(descriptor_, &status) != 0 || !S_ISREG(status.st_mode) ||
                       static_cast<std::uint64_t>(status.st_size) != size)) {
