@@ -28,7 +28,9 @@ struct WrongDistance {
 
 /// Computes the distances between points by the reference in double precision and in float, with
 /// and without trimming, and by a group. Returns those that are not the true ones: below the reach
-/// none may be missed or too long, and none may be too short. `surface` is prepared from `mesh`.
+/// none may be missed or too long, and none may be too short. Does not look for points on faces
+/// whose edges are all shorter than 2^-30 of the reach, which are below the resolution of disks.
+/// `surface` is prepared from `mesh`.
 std::vector<WrongDistance> wrong_distances(const TestMesh& mesh, const PreparedMesh& surface,
                                            const std::vector<Point>& points, double reach);
 
