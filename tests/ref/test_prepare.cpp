@@ -348,6 +348,8 @@ TEST_CASE("rejected: nothing to sample") {
         CHECK(error.status == Status::mesh_rejected);
         CHECK(error.element == kNoElement);
     }
+    CHECK(rejection({0, 0, 0, 1e-101, 0, 0, 0, 1e-101, 0}, {0, 1, 2}).message ==
+          "the mesh is smaller than 1e-100; rescale it");
 }
 
 TEST_CASE("rejected: sizes and dimensions") {

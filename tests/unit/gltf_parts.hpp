@@ -47,6 +47,35 @@ inline MeshFile mesh_of(const Parts& parts, const std::string& buffer = kBuffer)
     return read_mesh(folder.write("a.gltf", text_of(parts)).string());
 }
 
+/// The file, with further views and accessors from byte 60 of the buffer on.
+struct LongerSquare {
+    Parts parts;
+    std::string buffer = kBuffer;
+
+    /// Adds a view and an accessor of these bytes; returns the accessor's number.
+    int add(const std::string& bytes, int component_type, int count, const std::string& type) {
+        const std::size_t offset = buffer.size();
+        buffer += bytes;
+        parts.views.pop_back();
+        parts.views += ", {\"buffer\": 0, \"byteOffset\": " + std::to_string(offset) +
+                       ", \"byteLength\": " + std::to_string(bytes.size()) + "}]";
+        parts.accessors.pop_back();
+        parts.accessors += ", {\"bufferView\": " + std::to_string(next_) +
+                           ", \"componentType\": " + std::to_string(component_type) +
+                           ", \"count\": " + std::to_string(count) + ", \"type\": \"" + type +
+                           "\"}]";
+        return next_++;
+    }
+
+    MeshFile mesh() {
+        parts.buffer = R"("uri": "mesh.bin", "byteLength": )" + std::to_string(buffer.size());
+        return mesh_of(parts, buffer);
+    }
+
+  private:
+    int next_ = 2;
+};
+
 inline void check_refused(const Parts& parts, std::string_view part,
                           const std::string& buffer = kBuffer) {
     check_fails(ExitCode::bad_input, part, [&] { mesh_of(parts, buffer); });

@@ -82,6 +82,11 @@ TEST_CASE("real numbers stay as they are, and rounded ones are near") {
     const std::vector<float> reals = {0, -1.5f, 1e-30f, 3.4e38f};
     CHECK(numbers_of(report::real_numbers("a", reals)) ==
           std::vector<double>(reals.begin(), reals.end()));
+    for (const double unit : {1e-60, 1e60}) {
+        const std::vector<double> wide = {0, 0.25 * unit, unit};
+        CHECK(numbers_of(report::lengths("a", wide)) == wide);
+    }
+    CHECK(report::lengths("a", std::vector<double>{0, 1e-30, 1e30}).type == "Float32Array");
     std::vector<double> numbers = {-2, 3};
     for (int i = 0; i < 1000; ++i) {
         numbers.push_back(-2 + 5e-3 * i);

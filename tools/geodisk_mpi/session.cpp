@@ -41,7 +41,7 @@ Error unlike(std::size_t process) {
 }
 
 /// Opens the device of a process. Returns its error as the first process is told of it.
-Result<Done> open(RunDevice& device, ProgressLine& progress) {
+Result<Done> open_device(RunDevice& device, ProgressLine& progress) {
     return caught([&]() -> Result<Done> {
         device.open(progress);
         return Done{};
@@ -285,7 +285,7 @@ void Session::abort(ExitCode code, const std::string& message) const {
 void Session::help_to_sample(RunDevice* device, bool has_ranges) {
     ProgressLine quiet(true);
     const Error no_job{Status::internal, "its arguments are none"};
-    const auto opened = device != nullptr ? open(*device, quiet) : Result<Done>(no_job);
+    const auto opened = device != nullptr ? open_device(*device, quiet) : Result<Done>(no_job);
     if (!exchange_->check_all(opened ? nullptr : &opened.error())) {
         return; // The first process tells of errors.
     }

@@ -3,23 +3,25 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 #include <utility>
 #include <vector>
 
 namespace geodisk::tools::report {
 namespace {
 
-void append_bytes(std::string& bytes, std::uint32_t number, std::size_t count) {
+void append_bytes(std::string& bytes, std::uint64_t number, std::size_t count) {
     for (std::size_t i = 0; i < count; ++i) {
         bytes.push_back(static_cast<char>(number >> 8 * i & 0xff));
     }
 }
 
+template <class Number>
 PageArray array_of(std::string name, std::string_view type, std::size_t width,
-                   std::span<const std::uint32_t> numbers) {
+                   std::span<const Number> numbers) {
     PageArray array{std::move(name), type, numbers.size(), {}};
     array.bytes.reserve(width * numbers.size());
-    for (const std::uint32_t number : numbers) {
+    for (const Number number : numbers) {
         append_bytes(array.bytes, number, width);
     }
     return array;
@@ -41,7 +43,28 @@ PageArray real_numbers(std::string name, std::span<const float> numbers) {
     for (const float number : numbers) {
         bits.push_back(std::bit_cast<std::uint32_t>(number));
     }
-    return array_of(std::move(name), "Float32Array", 4, bits);
+    return array_of<std::uint32_t>(std::move(name), "Float32Array", 4, bits);
+}
+
+PageArray lengths(std::string name, std::span<const double> numbers) {
+    using Float = std::numeric_limits<float>;
+    if (std::ranges::all_of(numbers, [](double length) {
+            return length == 0 ||
+                   (length >= double{Float::min()} && length <= double{Float::max()});
+        })) {
+        std::vector<float> floats;
+        floats.reserve(numbers.size());
+        for (const double number : numbers) {
+            floats.push_back(static_cast<float>(number));
+        }
+        return real_numbers(std::move(name), floats);
+    }
+    std::vector<std::uint64_t> bits;
+    bits.reserve(numbers.size());
+    for (const double number : numbers) {
+        bits.push_back(std::bit_cast<std::uint64_t>(number));
+    }
+    return array_of<std::uint64_t>(std::move(name), "Float64Array", 8, bits);
 }
 
 PageArray rounded_numbers(std::string name, std::span<const double> numbers, double low,
@@ -52,7 +75,7 @@ PageArray rounded_numbers(std::string name, std::span<const double> numbers, dou
         const double part = std::clamp((number - low) / (high - low), 0.0, 1.0);
         parts.push_back(static_cast<std::uint32_t>(std::lround(65535 * part)));
     }
-    PageArray array = array_of(std::move(name), "Uint16Array", 2, parts);
+    PageArray array = array_of<std::uint32_t>(std::move(name), "Uint16Array", 2, parts);
     array.low = low;
     array.high = high;
     return array;

@@ -13,7 +13,8 @@ namespace geodisk::tools::report {
 /// where these are equal, as in all other arrays, numbers are what they are.
 struct PageArray {
     std::string name;
-    std::string_view type; ///< "Uint8Array", "Uint16Array", "Uint32Array" or "Float32Array".
+    std::string_view
+        type; ///< "Uint8Array", "Uint16Array", "Uint32Array", "Float32Array", "Float64Array".
     std::size_t count = 0;
     std::string bytes;
     double low = 0, high = 0;
@@ -23,6 +24,9 @@ struct PageArray {
 PageArray whole_numbers(std::string name, std::span<const std::uint32_t> numbers);
 
 PageArray real_numbers(std::string name, std::span<const float> numbers);
+
+/// Lengths of any unit: as floats, or as doubles where one is too small or too large for a float.
+PageArray lengths(std::string name, std::span<const double> numbers);
 
 /// Numbers of [low, high], low < high, to the nearest of 65536 that are evenly spaced there.
 PageArray rounded_numbers(std::string name, std::span<const double> numbers, double low,

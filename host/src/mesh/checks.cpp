@@ -254,6 +254,15 @@ bool has_area(double area, double extent) {
     return area > 1e-13 * extent * extent && extent >= kSmallestExtent;
 }
 
+Result<Done> check_area(double area, double extent) {
+    if (has_area(area, extent)) {
+        return Done{};
+    }
+    const bool is_small = extent > 0 && extent < kSmallestExtent;
+    return Error{Status::mesh_rejected, is_small ? "the mesh is smaller than 1e-100; rescale it"
+                                                 : "no face has area: all are degenerate"};
+}
+
 Result<Done> check_threads(const ThreadOptions& threads) {
     if (threads.most_threads == 0) {
         return invalid("most_threads must be at least 1");

@@ -24,6 +24,8 @@ Result<Done> check_agreement(std::span<const HalfEdge> half_edges);
 
 /// Returns true if the area of all faces is more than rounding for a mesh of this extent.
 bool has_area(double area, double extent);
+/// Refuses a mesh of less area, or of an extent that is too small for areas.
+Result<Done> check_area(double area, double extent);
 
 Result<Done> check_threads(const ThreadOptions& threads);
 

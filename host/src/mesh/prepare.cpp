@@ -99,8 +99,8 @@ Result<PreparedMesh> PreparedMesh::prepare_any(const View& mesh, const ThreadOpt
     if (!extent) {
         return extent.error();
     }
-    if (!has_area(statistics.area, *extent)) {
-        return Error{Status::mesh_rejected, "no face has area: all are degenerate"};
+    if (auto checked = check_area(statistics.area, *extent); !checked) {
+        return checked.error();
     }
     return result;
 }

@@ -14,7 +14,7 @@ function arrayOf(name) {
   for (let i = 0; i < bytes.length; ++i) {
     bytes[i] = text.charCodeAt(i);
   }
-  const kinds = { Uint8Array, Uint16Array, Uint32Array, Float32Array };
+  const kinds = { Uint8Array, Uint16Array, Uint32Array, Float32Array, Float64Array };
   const numbers = new kinds[element.dataset.type](bytes.buffer);
   const low = Number(element.dataset.low), high = Number(element.dataset.high);
   return low === high ? numbers : Float32Array.from(numbers, n => low + n / 65535 * (high - low));
