@@ -251,6 +251,11 @@ Result<Done> put_farthest_first(Runner& runner, const PreparedMesh& mesh, std::u
     return Done{};
 }
 
+std::size_t count_of(const SampleSet& set, const Domain& domain) {
+    const std::size_t dimension = domain.dimension();
+    return dimension == 0 ? set.samples.size() : set.points.size() / dimension;
+}
+
 /// Leaves out all but the first samples.
 void cut_to(SampleSet& set, std::size_t dimension, std::size_t count) {
     set.samples.resize(std::min(set.samples.size(), count));
@@ -322,8 +327,7 @@ Result<Done> RequestRun::Impl::begin_faces() {
 }
 
 Result<Done> RequestRun::Impl::end_try(SampleSet set) {
-    const std::size_t dimension = step->domain.dimension();
-    const std::size_t samples = dimension == 0 ? set.samples.size() : set.points.size() / dimension;
+    const std::size_t samples = count_of(set, step->domain);
     const double distance = *tries.distance();
     starts += set.report.starts;
     add_seconds(seconds, set.report.seconds);
@@ -340,7 +344,7 @@ Result<Done> RequestRun::Impl::end_try(SampleSet set) {
         best.ends = std::move(ends);
         const std::size_t kept = std::min(samples, most_kept());
         best.cut = samples - kept;
-        cut_to(best.set, dimension, kept);
+        cut_to(best.set, step->domain.dimension(), kept);
         for (std::size_t& end : best.ends) {
             end = std::min(end, kept);
         }
@@ -423,7 +427,7 @@ Result<Done> RequestRun::take(SampleSet set) noexcept {
             set.report.starts += run.levels->report.starts;
             set.report.add(run.levels->report);
         }
-        run.ends.push_back(set.samples.size());
+        run.ends.push_back(count_of(set, run.step->domain));
         if (run.surface && run.surface->has_levels()) {
             const double distance = *run.tries.distance();
             const std::uint32_t next = run.step->level + 1;
