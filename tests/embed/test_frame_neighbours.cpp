@@ -15,6 +15,7 @@
 #include "engine_job.hpp"
 #include "gpu/device_run.hpp"
 #include "gpu/sets.hpp"
+#include "records.h"
 #include "support/meshes.hpp"
 #include "workshop.hpp"
 
@@ -265,6 +266,36 @@ TEST_SUITE("frame neighbours") {
                 check_complete(bench, frames, bench.wanted(subject.mesh, query));
             }
             CHECK(grown > 0);
+        }
+        check_silent(context);
+    }
+
+    TEST_CASE("fill a buffer to its last record") {
+        const Context context = validated_context();
+        {
+            SearchBench bench(context);
+            Subject subject(builtin("torus-knot", 24));
+            NeighbourQuery& query = subject.query;
+            query.sources = std::span(subject.vertices).first(1);
+            query.within = 1000 * subject.spacing; // All paths are neighbours.
+            const Neighbours wanted = bench.wanted(subject.mesh, query);
+            // Returns whether the disk fits into a buffer for so many records.
+            const auto fits = [&](std::uint64_t records) {
+                FrameNeighbourOptions options;
+                options.record_bytes = records * sizeof(gpu::HitRec);
+                FrameNeighbours frames = bench.frames(subject.mesh, query, options);
+                const std::uint64_t before = frames.device_bytes();
+                record_all(bench, frames);
+                check_complete(bench, frames, wanted);
+                return frames.device_bytes() == before;
+            };
+            std::uint64_t few = 4096, many = 65536; // The least that is allocated, and enough.
+            REQUIRE_FALSE(fits(few));
+            REQUIRE(fits(many));
+            while (many - few > 1) { // Ends at a buffer that is full.
+                const std::uint64_t middle = (few + many) / 2;
+                (fits(middle) ? many : few) = middle;
+            }
         }
         check_silent(context);
     }

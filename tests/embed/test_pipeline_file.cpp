@@ -140,9 +140,11 @@ TEST_SUITE("pipeline file") {
         file.store(contents_for(others[3], 10));
         CHECK(file.load().empty());
         std::vector<std::byte> late = contents_for(device, 10);
-        late[4] = std::byte{2};
-        file.store(late);
-        CHECK(file.load().empty());
+        for (const int version : {2, 0xff}) { // The second is beyond the values of the enumeration.
+            late[4] = late[7] = std::byte(version);
+            file.store(late);
+            CHECK(file.load().empty());
+        }
     }
 
     TEST_CASE("a folder that cannot be written is no error") {

@@ -1,4 +1,4 @@
-// Every kernel against its float twin, bit for bit, step by step through whole runs.
+// Kernels of surfaces against their float twins, bit for bit, step by step through whole runs.
 #include <doctest/doctest.h>
 
 #include <algorithm>

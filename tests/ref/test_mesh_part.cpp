@@ -1,5 +1,6 @@
 // PreparedMesh::part and RadiusField::on_part: some faces as they are in the whole, to the bit.
 #include <algorithm>
+#include <cstring>
 #include <numeric>
 #include <string>
 #include <vector>
@@ -135,8 +136,22 @@ TEST_CASE("mesh part: radii are the same after they were saved") {
         for (const std::size_t size : {std::size_t{0}, std::size_t{7}, bytes->size() - 4}) {
             CHECK_FALSE(RadiusField::load(std::span(*bytes).first(size)));
         }
-        (*bytes)[47] = std::byte{0xff}; // The first factor.
-        CHECK_FALSE(RadiusField::load(*bytes));
+        const auto is_refused_with = [&](std::size_t at, float value) {
+            std::vector<std::byte> changed = *bytes;
+            std::memcpy(changed.data() + 48 + at * sizeof value, &value, sizeof value);
+            return !RadiusField::load(changed);
+        };
+        const std::size_t faces = mesh.face_count();
+        CHECK_FALSE(is_refused_with(0, field.factors()[0]));
+        CHECK(is_refused_with(0, -1)); // The first factor.
+        if (field.packing().empty()) {
+            CHECK(is_refused_with(3 * faces, 0)); // A spread without proposals.
+        } else {
+            CHECK(is_refused_with(6 * faces, 0.5f)); // A radius larger than the largest.
+            CHECK(is_refused_with(6 * faces, 1000)); // A packing of other radii.
+        }
+        // Far more candidates than the area tells.
+        CHECK(is_refused_with(bytes->size() / 4 - 48 / 4 - 1, field.largest_density() * 1000));
     }
 }
 

@@ -165,3 +165,13 @@ TEST_CASE("damaged archives are refused") {
         }
     }
 }
+
+TEST_CASE("archives whose files share bytes are refused") {
+    const std::string good = npz({{"points", npy("<f8", "(100, 3)", std::vector<double>(300, 1))}});
+    const std::size_t entry = 46 + std::string("points.npy").size(), end = 22;
+    const std::string listed = good.substr(good.size() - end - entry, entry);
+    std::string bad = good;
+    bad.insert(good.size() - end, listed);
+    bad[bad.size() - end + 10] = 2; // Files in the directory.
+    check_array_refused("a.npz", bad, "is a damaged ZIP archive");
+}

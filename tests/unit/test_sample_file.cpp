@@ -367,6 +367,10 @@ TEST_CASE("points of other programs are read from tables of all kinds") {
                   "FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nPOINTS 2\n"
                   "DATA binary_compressed\n",
                   "'binary_compressed' is not read");
+    check_refused("a.pcd", // 244 is the size of U 4, were it counted on from F.
+                  "FIELDS x y z\nSIZE 4 4 244\nTYPE F F F\nPOINTS 1\nDATA binary\n" +
+                      std::string(252, '\0'),
+                  "field 'z' is of type F and size 244, which is not read");
 }
 
 TEST_CASE("comments are left out on request, and the samples read back") {

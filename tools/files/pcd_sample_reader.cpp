@@ -179,7 +179,8 @@ class PcdReader {
     }
 
     double binary_value(const Field& field, const char* bytes) const {
-        switch (field.type * 16 + static_cast<int>(field.size)) {
+        constexpr std::size_t kMost = sizeof(double);
+        switch (field.size > kMost ? 0 : field.type * 16 + static_cast<int>(field.size)) {
         case 'F' * 16 + 4:
             return number_of_bytes<float>(bytes);
         case 'F' * 16 + 8:

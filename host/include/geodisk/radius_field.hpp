@@ -54,8 +54,8 @@ class RadiusField {
     GEODISK_API Result<std::vector<std::byte>> save() const noexcept;
 
     /// Returns the field that save() wrote, on the same mesh or an equal one. Errors:
-    /// `invalid_argument` for bytes that are not a saved field, of another version or byte order,
-    /// or with values out of range; `out_of_host_memory`.
+    /// `invalid_argument` for bytes of something else, of another version or byte order, or with
+    /// values out of range or at odds with each other, but for the area; `out_of_host_memory`.
     GEODISK_API static Result<RadiusField> load(std::span<const std::byte> bytes) noexcept;
 
     /// Returns g at the origin of each half-edge, three per face.

@@ -7,6 +7,8 @@
 #include <utility>
 
 #include "geodisk/radius_field.hpp"
+#include "mesh/density_values.hpp"
+#include "mesh/inverse_square.hpp"
 #include "support/guard.hpp"
 #include "support/invalid.hpp"
 
@@ -31,6 +33,37 @@ static_assert(sizeof(RadiiHeader) == 48);
 
 bool are_within(std::span<const float> values, float least, float most) {
     return std::ranges::all_of(values, [&](float x) { return x >= least && x <= most; });
+}
+
+/// Returns true if a derived value is as it should be, up to rounding.
+bool agrees(double value, double wanted) {
+    constexpr double kRounding = 1e-4;
+    return std::abs(value - wanted) <= kRounding * wanted;
+}
+
+/// Returns true if the values of a field that follow from others do.
+bool is_consistent(const RadiusField& field) {
+    const auto factors = field.factors(), spreads = field.spreads(), packing = field.packing();
+    for (std::size_t i = 0; i < factors.size(); ++i) {
+        const double g = double{factors[i]}, spread = double{spreads[i]};
+        const bool is_right =
+            packing.empty() ? agrees(spread * spread * spread, g * g)
+                            : agrees(g * g * double{packing[i]}, 1) && spreads[i] <= packing[i];
+        if (!is_right) {
+            return false;
+        }
+    }
+    for (std::size_t face = 0; face < field.densities().size(); ++face) {
+        const float* const g = &factors[3 * face];
+        const double candidates = packing.empty()
+                                      ? mean_inverse_square(g[0], g[1], g[2])
+                                      : mean_candidates(&spreads[3 * face], &packing[3 * face]);
+        const float density = field.densities()[face];
+        if (!agrees(double{density}, candidates) || density > field.largest_density()) {
+            return false;
+        }
+    }
+    return true;
 }
 
 } // namespace
@@ -92,10 +125,10 @@ Result<RadiusField> RadiusField::load(std::span<const std::byte> bytes) noexcept
         const auto least = static_cast<float>(kLeastFactor);
         const float most = 1 / (least * least);
         if (!are_within(field.factors_, least, 1) || !are_within(field.spreads_, 0, most) ||
-            !are_within(field.packing_, 0, most) || !are_within(field.densities_, 0, most) ||
+            !are_within(field.packing_, 1, most) || !are_within(field.densities_, 0, most) ||
             !(field.largest_density_ >= 0 && field.largest_density_ <= most) ||
             !(field.effective_area_ >= 0 && std::isfinite(field.effective_area_)) ||
-            !(field.least_density_ >= 0)) {
+            !(field.least_density_ >= 0) || !is_consistent(field)) {
             return invalid("the saved radii are damaged");
         }
         field.find_least_factor();

@@ -31,15 +31,6 @@ bool is_log(const std::filesystem::path& path) {
 
 } // namespace
 
-std::string batch_log_path(const BatchOptions& options) {
-    const Shard shard = options.parsed_shard();
-    const std::string name = options.shard.empty()
-                                 ? "batch.jsonl"
-                                 : "batch-" + std::to_string(shard.index) + "-of-" +
-                                       std::to_string(shard.count) + ".jsonl";
-    return (Path(options.folder) / Path(name)).string();
-}
-
 void check_no_log(const std::string& path) {
     std::error_code ignored;
     const auto size = std::filesystem::file_size(Path(path), ignored);

@@ -1,16 +1,14 @@
 // The log of a batch: a JSON object on a line for each mesh that is done.
 #pragma once
 
+#include <cstdint>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "files/line_log.hpp"
-#include "geodisk/options/batch_options.hpp"
 
 namespace geodisk::tools {
-
-/// DIR/batch.jsonl, or DIR/batch-I-of-N.jsonl for one of several shards.
-std::string batch_log_path(const BatchOptions& options);
 
 /// Throws UserError(usage) where a log is there and the batch is not to go on with it.
 void check_no_log(const std::string& path);

@@ -93,11 +93,20 @@ void run_items(const BatchOptions& options, const std::vector<const BatchItem*>&
     result.totals = run_batch(items, result.jobs, pool, log, progress);
 }
 
+/// Returns DIR/batch.jsonl, or DIR/batch-I-of-N.jsonl for one of several shards.
+std::string log_path(const BatchOptions& options, const Shard& shard) {
+    const std::string name = options.shard.empty()
+                                 ? "batch.jsonl"
+                                 : "batch-" + std::to_string(shard.index) + "-of-" +
+                                       std::to_string(shard.count) + ".jsonl";
+    return (Path(options.folder) / Path(name)).string();
+}
+
 void run_batch_command(const BatchOptions& options) {
     const Shard shard = options.parsed_shard();
     const std::vector<BatchItem> items = batch_items(options);
     BatchResult result;
-    result.log = batch_log_path(options);
+    result.log = log_path(options, shard);
     if (!options.resumes) {
         check_no_log(result.log);
     }
