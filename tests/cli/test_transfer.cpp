@@ -9,8 +9,10 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/command.hpp"
+#include "files/mesh_file.hpp"
 #include "files/sample_file.hpp"
 #include "support/data_file.hpp"
+#include "support/stand_in_meshes.hpp"
 
 namespace geodisk::test {
 namespace {
@@ -265,18 +267,23 @@ TEST_CASE("wrong usage of transfer is explained") {
 }
 
 TEST_CASE("a scanned animal changes its pose") {
-    const auto rests = data_file("meshes/spot_pose_a_6k.obj");
-    if (!rests) {
-        return;
-    }
-    const std::string first = rests->string();
-    const std::string second = data_file("meshes/spot_pose_b_6k.obj")->string();
+    const auto check_poses = [](const TemporaryFolder& folder, const std::string& first,
+                                const std::string& second) {
+        make_source_samples(folder, first, "1000");
+        const Json stays = check_transfer(folder, first, first);
+        const Json moved = check_transfer(folder, first, second);
+        CHECK(distance_in(moved) < distance_in(stays)); // No pose is without compression.
+        check_fails(folder, 3, "are these samples of another mesh?", transfer(second, first));
+    };
     const TemporaryFolder folder;
-    make_source_samples(folder, first, "1000");
-    const Json stays = check_transfer(folder, first, first);
-    const Json moved = check_transfer(folder, first, second);
-    CHECK(distance_in(moved) < distance_in(stays)); // No pose is without compression.
-    check_fails(folder, 3, "are these samples of another mesh?", transfer(second, first));
+    tools::write_mesh(folder / "rests.ply", stand_in("spot_pose_a_6k.obj").make());
+    tools::write_mesh(folder / "moves.ply", stand_in("spot_pose_b_6k.obj").make());
+    check_poses(folder, "rests.ply", "moves.ply");
+    const auto rests = data_file("meshes/spot_pose_a_6k.obj", true);
+    const auto moves = data_file("meshes/spot_pose_b_6k.obj", true);
+    if (rests && moves) {
+        check_poses(TemporaryFolder(), rests->string(), moves->string());
+    }
 }
 
 } // namespace geodisk::test

@@ -406,16 +406,13 @@ TEST_SUITE("invariance") {
 
 TEST_SUITE("meshes") {
     TEST_CASE("real meshes equal sequential dart throwing with radii that vary") {
-        for (const char* name : {"bunny_69k.ply", "gargoyle_52k.obj", "fandisk_13k.obj",
-                                 "tray_4k5.ply", "cycloidal_43k.ply"}) {
-            const auto file = shared_mesh(std::string("meshes/") + name);
-            if (!file) {
-                return;
-            }
-            CAPTURE(name);
-            const PreparedMesh mesh = prepared(*file);
-            const RadiusField wavy = radius_field(mesh, wavy_factors(*file, 0.1, 4));
-            const RadiusField rough = radius_field(mesh, rough_factors(*file, 0.1));
+        for (const NamedMesh& one : meshes_like({"meshes/bunny_69k.ply", "meshes/gargoyle_52k.obj",
+                                                 "meshes/fandisk_13k.obj", "meshes/tray_4k5.ply",
+                                                 "meshes/cycloidal_43k.ply"})) {
+            CAPTURE(one.name);
+            const PreparedMesh mesh = prepared(one.mesh);
+            const RadiusField wavy = radius_field(mesh, wavy_factors(one.mesh, 0.1, 4));
+            const RadiusField rough = radius_field(mesh, rough_factors(one.mesh, 0.1));
             for (const double count : {300.0, 5000.0}) {
                 CAPTURE(count);
                 check_against_reference(mesh, count, 1, &wavy);
@@ -425,18 +422,15 @@ TEST_SUITE("meshes") {
     }
 
     TEST_CASE("real meshes equal sequential dart throwing") {
-        for (const char* name :
-             {"bunny_69k.ply", "gargoyle_52k.obj", "fandisk_13k.obj", "rocker_arm_20k.obj",
-              "tray_4k5.ply", "cycloidal_43k.ply", "teapot_6k.obj", "human_man_14k.obj"}) {
-            const auto file = shared_mesh(std::string("meshes/") + name);
-            if (!file) {
-                return;
-            }
-            CAPTURE(name);
-            const PreparedMesh mesh = prepared(*file);
+        for (const NamedMesh& one : meshes_like(
+                 {"meshes/bunny_69k.ply", "meshes/gargoyle_52k.obj", "meshes/fandisk_13k.obj",
+                  "meshes/rocker_arm_20k.obj", "meshes/tray_4k5.ply", "meshes/cycloidal_43k.ply",
+                  "meshes/teapot_6k.obj", "meshes/human_man_14k.obj"})) {
+            CAPTURE(one.name);
+            const PreparedMesh mesh = prepared(one.mesh);
             for (const double count : {300.0, 1000.0, 10000.0}) {
                 CAPTURE(count);
-                std::printf("%s at %.0f\n", name, count);
+                std::printf("%s at %.0f\n", one.name.c_str(), count);
                 std::fflush(stdout);
                 check_against_reference(mesh, count);
             }

@@ -202,11 +202,6 @@ TestMesh needles() {
     return flat_lines({0, 0.2, 0.2 + 1e-7, 0.5, 1}, {0, 1e-6, 0.3, 0.6, 0.6001, 1});
 }
 
-TestMesh shared_or(const std::string& name, const char* shape, int resolution) {
-    const auto mesh = shared_mesh("meshes/" + name);
-    return mesh ? *mesh : builtin(shape, resolution);
-}
-
 } // namespace
 
 TEST_SUITE("radius field") {
@@ -383,8 +378,9 @@ TEST_SUITE("adaptive sets") {
             check_pairs(name, Case(mesh, wavy_factors(mesh, 0.2)), 100);
             check_pairs(name, Case(mesh, rough_factors(mesh, 0.05)), 100);
         }
-        const TestMesh bunny = shared_or("bunny_1k4.obj", "terrain", 16);
-        check_pairs("bunny", Case(bunny, wavy_factors(bunny, 0.1)), 150);
+        for (const auto& [name, mesh] : meshes_like({"meshes/bunny_1k4.obj"})) {
+            check_pairs(name, Case(mesh, wavy_factors(mesh, 0.1)), 150);
+        }
     }
 
     TEST_CASE("are the same in float and in double but for ties") {

@@ -2,8 +2,10 @@
 // float and in double, and the same one wherever the mesh lies.
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <doctest/doctest.h>
 
@@ -35,9 +37,11 @@ void check_darts(const std::string& name, const TestMesh& mesh, double count) {
     }
 }
 
-void check_shared(const std::string& name, double count) {
-    if (const auto mesh = shared_mesh("meshes/" + name)) {
-        check_darts(name, *mesh, count);
+void check_shared(const std::vector<std::string>& names, std::initializer_list<double> counts) {
+    for (const auto& [name, mesh] : meshes_like(names)) {
+        for (const double count : counts) {
+            check_darts(name, mesh, count);
+        }
     }
 }
 
@@ -114,49 +118,40 @@ TEST_CASE("darts: disks that trim their windows, float against double") {
 }
 
 TEST_CASE("darts: spot") {
-    check_shared("spot_pose_a_6k.obj", 300);
-    check_shared("spot_pose_a_6k.obj", 1000);
+    check_shared({"meshes/spot_pose_a_6k.obj"}, {300, 1000});
 }
 
 TEST_CASE("darts: bunny") {
-    check_shared("bunny_14k.obj", 300);
-    check_shared("bunny_14k.obj", 1000);
+    check_shared({"meshes/bunny_14k.obj"}, {300, 1000});
 }
 
 TEST_CASE("darts: fandisk") {
-    check_shared("fandisk_13k.obj", 300);
-    check_shared("fandisk_13k.obj", 1000);
+    check_shared({"meshes/fandisk_13k.obj"}, {300, 1000});
 }
 
 TEST_CASE("darts: rocker arm") {
-    check_shared("rocker_arm_20k.obj", 300);
-    check_shared("rocker_arm_20k.obj", 1000);
+    check_shared({"meshes/rocker_arm_20k.obj"}, {300, 1000});
 }
 
 TEST_CASE("darts: tray with slivers") {
-    check_shared("tray_4k5.ply", 300);
-    check_shared("tray_4k5.ply", 1000);
+    check_shared({"meshes/tray_4k5.ply"}, {300, 1000});
 }
 
 TEST_CASE("darts: large shared meshes") {
-    for (const char* name :
-         {"bunny_69k.ply", "bunny_144k.ply", "gargoyle_52k.obj", "armadillo_29k.obj",
-          "lucy_100k.ply", "boot_40k.obj", "mountain_51k.obj", "human_neutral_21k.obj",
-          "human_man_14k.obj", "human_woman_14k.obj", "spot_pose_b_6k.obj"}) {
-        check_shared(name, 1000);
-    }
+    check_shared({"meshes/bunny_69k.ply", "meshes/bunny_144k.ply", "meshes/gargoyle_52k.obj",
+                  "meshes/armadillo_29k.obj", "meshes/lucy_100k.ply", "meshes/boot_40k.obj",
+                  "meshes/mountain_51k.obj", "meshes/human_neutral_21k.obj",
+                  "meshes/human_man_14k.obj", "meshes/human_woman_14k.obj",
+                  "meshes/spot_pose_b_6k.obj"},
+                 {1000});
 }
 
 TEST_CASE("darts: no candidate is rejected without cause, by CGAL") {
-    for (const auto& [name, count] :
-         {std::pair{"spot_pose_a_6k.obj", 300.0}, std::pair{"fandisk_13k.obj", 300.0},
-          std::pair{"tray_4k5.ply", 300.0}}) {
-        if (const auto mesh = shared_mesh(std::string("meshes/") + name)) {
-            const auto& shown = name; // Before Clang 16 lambdas capture no bindings.
-            CAPTURE(shown);
-            const PreparedMesh surface = prepared(*mesh);
-            check_covered(*mesh, thrown<float>(surface, params_for(surface, count)));
-        }
+    for (const NamedMesh& one : meshes_like(
+             {"meshes/spot_pose_a_6k.obj", "meshes/fandisk_13k.obj", "meshes/tray_4k5.ply"})) {
+        INFO(one.name);
+        const PreparedMesh surface = prepared(one.mesh);
+        check_covered(one.mesh, thrown<float>(surface, params_for(surface, 300)));
     }
     const TestMesh knot = builtin("torus-knot", 16);
     check_covered(knot, thrown<float>(prepared(knot), params_for(prepared(knot), 300)));
@@ -249,17 +244,15 @@ TEST_CASE("darts: faces turned over leave the sample valid") {
 }
 
 TEST_CASE("darts: surfaces that CGAL cannot take are sampled to the full") {
-    for (const char* name :
-         {"bad/warn_nonmanifold_edge.obj", "bad/warn_bowtie_closed.obj", "bad/warn_moebius.obj",
-          "bad/warn_inconsistent_orientation.obj", "bad/warn_zero_area_cap.obj",
-          "bad/warn_repeated_index.obj", "bad/warn_sliver_fan.obj", "meshes/teapot_6k.obj"}) {
-        if (const auto mesh = shared_mesh(name)) {
-            INFO(std::string(name));
-            const PreparedMesh surface = prepared(*mesh);
-            const SampleParams params = params_for(surface, 300);
-            const Darts darts = thrown<float>(surface, params);
-            check_maximal(surface, darts);
-            CHECK(replay(surface, params, darts.tolerances.error_bound).wrong == 0);
-        }
+    for (const NamedMesh& one : meshes_like(
+             {"bad/warn_nonmanifold_edge.obj", "bad/warn_bowtie_closed.obj", "bad/warn_moebius.obj",
+              "bad/warn_inconsistent_orientation.obj", "bad/warn_zero_area_cap.obj",
+              "bad/warn_repeated_index.obj", "bad/warn_sliver_fan.obj", "meshes/teapot_6k.obj"})) {
+        INFO(one.name);
+        const PreparedMesh surface = prepared(one.mesh);
+        const SampleParams params = params_for(surface, 300);
+        const Darts darts = thrown<float>(surface, params);
+        check_maximal(surface, darts);
+        CHECK(replay(surface, params, darts.tolerances.error_bound).wrong == 0);
     }
 }

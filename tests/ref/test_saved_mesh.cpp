@@ -117,15 +117,14 @@ TEST_CASE("saved: meshes of every kind come back to the bit") {
     }
     TestMesh tiny = flat_lines({0, 1e-160, 1e-155, 1}, {0, 1});
     check_round_trip(prepared(tiny));
-    for (const char* name :
-         {"bad/warn_nonmanifold_edge.obj", "bad/warn_duplicate_faces.obj",
-          "bad/warn_duplicate_flipped.obj", "bad/warn_bowtie_closed.obj", "bad/warn_sliver_fan.obj",
-          "bad/warn_repeated_index.obj", "bad/warn_zero_area_cap.obj", "meshes/cycloidal_43k.ply",
-          "meshes/teapot_6k.obj", "meshes/human_neutral_21k.obj"}) {
-        if (const auto mesh = shared_mesh(name)) {
-            INFO(std::string(name));
-            check_round_trip(prepared(*mesh));
-        }
+    for (const NamedMesh& one :
+         meshes_like({"bad/warn_nonmanifold_edge.obj", "bad/warn_duplicate_faces.obj",
+                      "bad/warn_duplicate_flipped.obj", "bad/warn_bowtie_closed.obj",
+                      "bad/warn_sliver_fan.obj", "bad/warn_repeated_index.obj",
+                      "bad/warn_zero_area_cap.obj", "meshes/cycloidal_43k.ply",
+                      "meshes/teapot_6k.obj", "meshes/human_neutral_21k.obj"})) {
+        INFO(one.name);
+        check_round_trip(prepared(one.mesh));
     }
     const std::vector<std::uint32_t> triangles{0, 1, 2, 0, 2, 3};
     for (const double excess : {0.0, 1e-7, -1e-7}) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <map>
 #include <numbers>
 #include <random>
@@ -14,6 +15,7 @@
 #include "kernels/pool.hpp"
 #include "shapes/builtin_shapes.hpp"
 #include "support/data_file.hpp"
+#include "support/stand_in_meshes.hpp"
 
 namespace geodisk::test {
 namespace {
@@ -38,6 +40,20 @@ bool outside_circle(Vec3 a, Vec3 b, Vec3 c, Vec3 d) {
 
 double uniform(std::mt19937_64& random) {
     return static_cast<double>(random() >> 11) * 0x1p-53;
+}
+
+TestMesh mesh_of(tools::MeshFile file) {
+    return {std::move(file.positions), std::move(file.triangles), file.dimension};
+}
+
+std::optional<TestMesh> mesh_of(const std::optional<std::filesystem::path>& path) {
+    if (!path) {
+        return std::nullopt;
+    }
+    tools::MeshSources sources;
+    sources.mesh = path->string();
+    sources.keep_seams = true; // As the file connects its faces.
+    return mesh_of(tools::read_mesh(sources));
 }
 
 } // namespace
@@ -70,20 +86,34 @@ PreparedMesh prepared(const TestMesh& mesh) {
 }
 
 std::optional<TestMesh> shared_mesh(const std::string& name) {
-    const auto path = data_file(name);
-    if (!path) {
-        return std::nullopt;
+    return mesh_of(data_file(name));
+}
+
+TestMesh stand_in_mesh(std::string_view name) {
+    return mesh_of(stand_in(name).make());
+}
+
+std::vector<NamedMesh> meshes_like(const std::vector<std::string>& names) {
+    constexpr std::string_view kReal = "meshes/";
+    std::vector<NamedMesh> meshes;
+    std::set<std::string_view> standing;
+    for (const std::string& name : names) {
+        const bool is_real = name.starts_with(kReal);
+        if (is_real) {
+            const std::string_view one = stand_in(name.substr(kReal.size())).known.name;
+            if (standing.insert(one).second) {
+                meshes.push_back({std::string(one), stand_in_mesh(one)});
+            }
+        }
+        if (auto mesh = mesh_of(data_file(name, is_real))) {
+            meshes.push_back({name, std::move(*mesh)});
+        }
     }
-    tools::MeshSources sources;
-    sources.mesh = path->string();
-    sources.keep_seams = true; // As the file connects its faces.
-    tools::MeshFile file = tools::read_mesh(sources);
-    return TestMesh{std::move(file.positions), std::move(file.triangles), file.dimension};
+    return meshes;
 }
 
 TestMesh builtin(std::string_view name, int resolution) {
-    tools::MeshFile file = tools::make_builtin(name, resolution);
-    return {std::move(file.positions), std::move(file.triangles), file.dimension};
+    return mesh_of(tools::make_builtin(name, resolution));
 }
 
 Point face_point(std::uint32_t face, double weight1, double weight2) {

@@ -44,6 +44,19 @@ PreparedMesh prepared(const TestMesh& mesh);
 /// one.
 std::optional<TestMesh> shared_mesh(const std::string& name);
 
+/// The surface of stand_in_meshes.hpp of that name, or that stands for that file.
+TestMesh stand_in_mesh(std::string_view name);
+
+struct NamedMesh {
+    std::string name;
+    TestMesh mesh;
+};
+
+/// The meshes to test in place of those of `names`, each once: of "meshes/bunny_1k4.obj" the
+/// surface that stands for it, always, and the real mesh where there is one; of others the mesh
+/// itself.
+std::vector<NamedMesh> meshes_like(const std::vector<std::string>& names);
+
 /// A built-in shape of the tools.
 TestMesh builtin(std::string_view name, int resolution);
 

@@ -2,10 +2,9 @@
 // holes.
 #include <cmath>
 #include <cstddef>
-#include <map>
-#include <utility>
 #include <vector>
 
+#include "geometry/edge_edits.hpp"
 #include "geometry/polygon_triangulation.hpp"
 #include "shapes/shape_makers.hpp"
 
@@ -86,75 +85,14 @@ std::vector<std::uint32_t> joined_polygon(const MeshFile& mesh, const Ring& outl
     return forth;
 }
 
-/// The triangles of the upper side, of which edges are flipped (Lawson 1977) until they are those
-/// of Delaunay for a plate that is kStretch times as long.
-class Slivers {
-  public:
-    explicit Slivers(MeshFile& mesh) : mesh_(mesh) {
-        for (std::size_t corner = 0; corner < mesh_.triangles.size(); ++corner) {
-            enter(corner);
-        }
-    }
-
-    void flip_all() {
-        std::vector<std::pair<std::uint32_t, std::uint32_t>> due;
-        for (const auto& [edge, corner] : corners_) {
-            due.push_back(edge);
-        }
-        while (!due.empty()) {
-            const auto [a, b] = due.back();
-            due.pop_back();
-            const auto left = corners_.find({a, b});
-            const auto right = corners_.find({b, a});
-            if (left == corners_.end() || right == corners_.end()) {
-                continue; // Of the border, or flipped meanwhile.
-            }
-            const std::uint32_t c = apex_of(left->second);
-            const std::uint32_t d = apex_of(right->second);
-            if (cotangent(c, a, b) + cotangent(d, b, a) >= -1e-9) {
-                continue;
-            }
-            flip(left->second / 3, right->second / 3, a, b, c, d);
-            due.insert(due.end(), {{a, d}, {d, b}, {b, c}, {c, a}});
-        }
-    }
-
-  private:
-    std::uint32_t vertex(std::size_t corner) const { return mesh_.triangles[corner]; }
-    static std::size_t next(std::size_t corner) {
-        return corner % 3 == 2 ? corner - 2 : corner + 1;
-    }
-    /// The vertex across from the edge that begins at a corner.
-    std::uint32_t apex_of(std::size_t corner) const { return vertex(next(next(corner))); }
-    void enter(std::size_t corner) { corners_[{vertex(corner), vertex(next(corner))}] = corner; }
-
-    /// Of the stretched angle at `apex`, from `from` to `to`.
-    double cotangent(std::uint32_t apex, std::uint32_t from, std::uint32_t to) const {
-        const Vec3 p = point_at(mesh_.positions, apex);
-        const Vec3 u = point_at(mesh_.positions, from) - p;
-        const Vec3 v = point_at(mesh_.positions, to) - p;
-        return (u.x * v.x / kStretch + u.y * v.y * kStretch) / (u.x * v.y - u.y * v.x);
-    }
-
-    /// Replaces triangles a b c and b a d by a d c and d b c.
-    void flip(std::size_t left, std::size_t right, std::uint32_t a, std::uint32_t b,
-              std::uint32_t c, std::uint32_t d) {
-        corners_.erase({a, b});
-        corners_.erase({b, a});
-        const std::uint32_t replaced[2][3] = {{a, d, c}, {d, b, c}};
-        for (std::size_t i = 0; i < 3; ++i) {
-            mesh_.triangles[3 * left + i] = replaced[0][i];
-            mesh_.triangles[3 * right + i] = replaced[1][i];
-        }
-        for (std::size_t i = 0; i < 3; ++i) {
-            enter(3 * left + i);
-            enter(3 * right + i);
-        }
-    }
-
-    MeshFile& mesh_;
-    std::map<std::pair<std::uint32_t, std::uint32_t>, std::size_t> corners_; ///< By directed edge.
-};
+/// Returns the cotangent of the angle at `apex`, from `from` to `to`, of a plate that is kStretch
+/// times as long.
+double cotangent(const MeshFile& mesh, std::uint32_t apex, std::uint32_t from, std::uint32_t to) {
+    const Vec3 p = point_at(mesh.positions, apex);
+    const Vec3 u = point_at(mesh.positions, from) - p;
+    const Vec3 v = point_at(mesh.positions, to) - p;
+    return (u.x * v.x / kStretch + u.y * v.y * kStretch) / (u.x * v.y - u.y * v.x);
+}
 
 } // namespace
 
@@ -169,20 +107,27 @@ MeshFile make_drilled_plate(int resolution) {
                              add_vertex(mesh, {0, height, kHalfThickness})}};
     const std::vector<Ring> holes = add_holes(mesh, columns, rows);
     triangulate_polygon(mesh.positions, joined_polygon(mesh, rings[0], holes), mesh.triangles);
-    Slivers(mesh).flip_all();
+    // Lawson's flips (1977), to the Delaunay triangles of the stretched plate.
+    EdgeEdits(mesh).flip_all(
+        [&](std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
+            return cotangent(mesh, c, a, b) + cotangent(mesh, d, b, a) < -1e-9;
+        });
+    rings.insert(rings.end(), holes.begin(), holes.end());
+    close_below(mesh, rings, -kHalfThickness);
+    return mesh;
+}
 
-    // The lower side is the upper one turned over.
+void close_below(MeshFile& mesh, const std::vector<std::vector<std::uint32_t>>& rings, double z) {
     const auto upper = static_cast<std::uint32_t>(mesh.positions.size() / 3);
     for (std::uint32_t v = 0; v < upper; ++v) {
         const Vec3 p = point_at(mesh.positions, v);
-        add_vertex(mesh, {p.x, p.y, -kHalfThickness});
+        add_vertex(mesh, {p.x, p.y, z});
     }
     const std::size_t count = mesh.triangles.size();
     for (std::size_t i = 0; i < count; i += 3) {
         add_triangle(mesh, mesh.triangles[i] + upper, mesh.triangles[i + 2] + upper,
                      mesh.triangles[i + 1] + upper);
     }
-    rings.insert(rings.end(), holes.begin(), holes.end());
     for (const Ring& ring : rings) {
         for (std::size_t i = 0; i < ring.size(); ++i) {
             const std::uint32_t a = ring[i];
@@ -190,7 +135,6 @@ MeshFile make_drilled_plate(int resolution) {
             add_quad(mesh, a, a + upper, b + upper, b);
         }
     }
-    return mesh;
 }
 
 } // namespace geodisk::tools

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <numbers>
+#include <vector>
 
 #include "geometry/mesh.hpp"
 #include "geometry/vec.hpp"
@@ -51,6 +52,9 @@ MeshFile make_lattice(int resolution);
 
 // drilled_plate.cpp
 MeshFile make_drilled_plate(int resolution);
+/// Makes an upper side a solid: adds it once more, turned over and with all vertices at height `z`,
+/// and walls along its borders, which `rings` lead around with the surface to their left.
+void close_below(MeshFile& mesh, const std::vector<std::vector<std::uint32_t>>& rings, double z);
 
 // sweeps.cpp: surfaces swept by a moving curve
 MeshFile make_torus_knot(int resolution);
