@@ -278,6 +278,14 @@ TEST_SUITE("request") {
         request.keep = 0;
         request.features = 30;
         CHECK(refusal(request).starts_with("features needs the coordinates"));
+        TestMesh line;
+        line.positions = {0, 0, 0, 1, 0, 0, 0.5, 1e-10, 0};
+        line.triangles = {0, 1, 2};
+        request.features = 0;
+        request.params.min_distance = 100;
+        const auto run = RequestRun::create(prepared(line), request);
+        REQUIRE_FALSE(run);
+        CHECK(run.error().message.ends_with("it has hardly any area"));
     }
 }
 

@@ -179,11 +179,15 @@ Result<Done> check_params(const PreparedMesh& mesh, const SampleParams& params) 
 Result<std::uint32_t> check_candidates(const PreparedMesh& mesh, const SampleParams& params,
                                        const Stages& stages) {
     if (!(stages.ratio <= kLargestRatio)) {
-        return invalid(params.face_mask.empty()
+        const bool differs = params.radii != nullptr || !params.class_factors.empty();
+        return invalid(!params.face_mask.empty()
+                           ? "the minimum distance is too large for the faces that the face mask "
+                             "leaves"
+                       : differs
                            ? "the minimum distance is too large for this surface, where radii vary "
                              "or samples have classes"
-                           : "the minimum distance is too large for the faces that the face mask "
-                             "leaves");
+                           : "the minimum distance is too large for this surface: it has hardly "
+                             "any area");
     }
     const double wanted = std::ceil(stages.candidates());
     if (!(wanted <= kMostCandidates)) {
