@@ -268,6 +268,11 @@ TEST_SUITE("request") {
         CHECK_FALSE(refusal(request).empty()); // No distance.
         request.count = 0.5;
         CHECK(refusal(request).starts_with("count is 0.5"));
+        const std::vector<Sample> given(5, Sample{0, {1, 0, 0}});
+        request.count = 5;
+        request.params.given = given;
+        CHECK(refusal(request) == "count is 5, but 5 given samples count too");
+        request.params.given = {};
         request.count = 10.5;
         request.is_exact = true;
         CHECK(refusal(request).starts_with("is_exact needs a whole number"));

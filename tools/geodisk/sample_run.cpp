@@ -311,6 +311,7 @@ DryRun try_sampling(const SampleJob& job, const MeshInput& mesh, RunDevice& devi
     const MeshView view = mesh.sampled_view();
     SampleRequest request = request_of(job, mesh, params, view);
     request.count = 0; // Just the first distance is tried, and the faces at once.
+    request.is_exact = false;
     request.features = 0;
     request.order = SampleOrder::dart;
     return dry_run_on_device(device, take(RequestRun::create(mesh.sampled(), request)), params.seed,

@@ -287,7 +287,7 @@ geodisk_report report_of(const geodisk_samples& samples) {
     report.largest_gap = run.maximal.largest_gap;
     report.tries = found.tries;
     report.levels = found.levels.count;
-    report.level_factor = found.levels.factor;
+    report.level_factor = found.levels.count > 0 ? found.levels.factor : 0;
     report.cut = found.cut;
     report.corners = found.corners;
     report.feature_length = found.feature_length;

@@ -71,6 +71,11 @@ Result<Done> SurfaceSteps::prepare() {
     if (count != 0 && !(count >= 1 && std::isfinite(count))) {
         return invalid("count is " + number_text(count) + ", not a number of samples");
     }
+    const std::size_t given = request_.params.given.size();
+    if (count != 0 && static_cast<double>(given) >= count) {
+        return invalid("count is " + number_text(count) + ", but " + std::to_string(given) +
+                       " given samples count too");
+    }
     if (request_.is_exact && (count == 0 || count != std::floor(count))) {
         return invalid("is_exact needs a whole number of samples as count");
     }
@@ -194,7 +199,7 @@ Result<Domain> SurfaceSteps::domain(const SampleParams& params) const {
 Result<Done> SurfaceSteps::check_settled(std::size_t settled) const {
     const std::size_t given = request_.params.given.size();
     const std::uint32_t stop_count = request_.params.stop_count;
-    if (stop_count != 0 && settled > given && settled >= stop_count) {
+    if (request_.count == 0 && stop_count != 0 && settled > given && settled >= stop_count) {
         const std::size_t own = settled - given;
         return invalid("stop_count: " + std::to_string(own) + (own == 1 ? " sample" : " samples") +
                        " on features count too, so ask for more than " + std::to_string(settled));
