@@ -111,6 +111,10 @@ TEST_CASE("a dry run tells what to expect and writes nothing") {
           "memory        ", " sampling, measured", "file          none, this was a dry run\n"}) {
         CHECK(contains(text.out, part));
     }
+    const Outcome exact =
+        run(folder, {"sample", "builtin:cube", "--dry-run", "-n", "90", "--exact"});
+    INFO(exact.err);
+    CHECK(exact.status == 0);
     const Outcome report = run(folder, joined(job, {"--dry-run", "-o", "a.ply", "--json", "-"}));
     REQUIRE(report.status == 0);
     const auto document = nlohmann::json::parse(report.out);
