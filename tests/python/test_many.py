@@ -40,6 +40,11 @@ def test_many_take_several_jobs(monkeypatch, limit, value):
         assert same(samples, geodisk.sample(MESHES[0], min_distance=0.6, seed=seed))
 
 
+def test_a_mesh_of_a_later_job_is_named():
+    with pytest.raises(geodisk.InvalidArgument, match="^mesh 37: the minimum distance is too small"):
+        geodisk.sample_many([MESHES[0]] * 60, min_distance=[0.3] * 37 + [1e-7] + [0.3] * 22)
+
+
 def test_counts_densities_and_keys():
     found = geodisk.sample_many(MESHES[:3], count=[100, 60, 80])
     for mesh, count, samples in zip(MESHES, [100, 60, 80], found):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ctypes
 import os
+import re
 import reprlib
 from collections.abc import Iterator, Sequence
 from ctypes import byref, c_double
@@ -49,6 +50,7 @@ class _Job:
         features: Features | None,
     ) -> None:
         self.mesh, self.seed = mesh, seed
+        self.index = 0  #: Of the mesh, among all.
         self._radii = radii_of(mesh, density, radius_factor)
         self.distance_part = 1.0 if self._radii is None else self._radii.distance_part
         self._keys = None if face_keys is None else keys_of(mesh, face_keys)
@@ -256,6 +258,8 @@ def sample_many(
         )
 
     jobs = [_named(i, job_at) for i in range(n)]
+    for i, job in enumerate(jobs):
+        job.index = i
     with Runs(device, progress) as runs:
         active = jobs
         while active:
@@ -334,7 +338,20 @@ def _domain(jobs: list[_Job]) -> c.Handle:
         part.struct_size = ctypes.sizeof(s.SurfacePart)
         part.mesh = job.mesh._handle.value
         part.params = ctypes.pointer(job.params)
-    return c.Handle("domain", "geodisk_domain_surfaces", parts, len(jobs))
+    try:
+        return c.Handle("domain", "geodisk_domain_surfaces", parts, len(jobs))
+    except e.Error as error:
+        raise _of_mesh(error, jobs) from None
+
+
+def _of_mesh(error: e.Error, jobs: list[_Job]) -> e.Error:
+    """Returns an error of a job with the number of the mesh in place of that of its surface."""
+    said = str(error)
+    surface = re.match(r"surface (\d+): ", said)
+    if surface is None:
+        return error
+    index = jobs[int(surface[1])].index
+    return type(error)(f"mesh {index}: {said[surface.end():]}", error.status, error.element)
 
 
 def _named(index: int, make: Any) -> Any:
