@@ -13,8 +13,8 @@ namespace geodisk::tools::report {
 /// where these are equal, as in all other arrays, numbers are what they are.
 struct PageArray {
     std::string name;
-    std::string_view
-        type; ///< "Uint8Array", "Uint16Array", "Uint32Array", "Float32Array", "Float64Array".
+    std::string_view type; ///< JavaScript's: Uint8Array, Uint16Array, Uint32Array, Float32Array or
+                           ///< Float64Array.
     std::size_t count = 0;
     std::string bytes;
     double low = 0, high = 0;

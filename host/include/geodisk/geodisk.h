@@ -630,7 +630,7 @@ typedef struct geodisk_report {
     uint32_t levels;         /* Levels. The distance of the last one is min_distance, and that of
                               * each before it level_factor times as large. */
     double level_factor;
-    uint64_t cut;            /* Last samples of the run that an exact count left out. */
+    uint64_t cut;            /* Last samples of the run that a count left out. */
     uint64_t corners;        /* Corners on faces that take samples. */
     double feature_length;   /* Length of all curves. */
     int32_t lacks_features;  /* 1 if features were asked for, and no face that takes samples has one. */

@@ -30,7 +30,7 @@ enum class SampleOrder : std::uint8_t {
     farthest,    ///< Each one as far as possible from all before it, see FarthestOrder.
 };
 
-/// What is to be sampled on a surface. What it points to must outlive the run.
+/// A set of samples to make on a surface. All that it points to must outlive the run.
 struct SampleRequest {
     /// The run at one distance. With `count`, its distance is the first one to try, or 0 for
     /// distance_for_count().
@@ -102,7 +102,7 @@ struct RequestedSet {
     SampleSet set;
     double min_distance = 0;         ///< As asked for, or as found for the count.
     std::uint32_t tries = 0;         ///< Distances tried.
-    std::uint64_t cut = 0;           ///< Last samples of the run that an exact count left out.
+    std::uint64_t cut = 0;           ///< Last samples of the run that a count left out.
     Levels levels{0};                ///< Count 0 without levels.
     std::vector<std::size_t> ends{}; ///< Number of samples at the end of each level, or of the run.
     /// Where each sample lies, for a request of features. Given samples count as on faces.
@@ -119,7 +119,7 @@ struct RequestedSet {
 struct RequestStep {
     Domain domain;
     SampleParams params{}; ///< Of a surface. Refer to the request, or to its run.
-    /// What the domain is of, where that is just a surface by distances along it; else null.
+    /// Mesh of the domain, if it is one surface by distances along it; else null.
     const PreparedMesh* surface = nullptr;
     double expected = 0;         ///< About how many samples there will be.
     std::uint32_t attempt = 0;   ///< Number of the distance that is tried.

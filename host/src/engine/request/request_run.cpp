@@ -17,7 +17,7 @@
 namespace geodisk {
 namespace {
 
-/// By how much the distance for a count is larger for a maximal set, by packing density.
+/// Factor on the distance for a count where the set is to be maximal, by packing density.
 constexpr double kMaximalFactor = 0.778 / 0.721;
 /// Samples on curves per minimum distance along them (measured).
 constexpr double kCurveSamples = 0.75;
@@ -42,7 +42,7 @@ class SurfaceSteps {
     /// Makes the step of the features at a distance.
     Result<RequestStep> on_features(double distance) const;
     /// Makes the step of the faces, or of a level of them, with samples that stand already.
-    Result<RequestStep> on_faces(double distance, std::uint32_t level,
+    Result<RequestStep> on_faces(double distance, const Levels& levels, std::uint32_t level,
                                  std::span<const Sample> standing) const;
 
     /// Fails if no room is left for samples on faces beside those on features.
@@ -156,11 +156,12 @@ Result<RequestStep> SurfaceSteps::on_features(double distance) const {
     return step;
 }
 
-Result<RequestStep> SurfaceSteps::on_faces(double distance, std::uint32_t level,
+Result<RequestStep> SurfaceSteps::on_faces(double distance, const Levels& levels,
+                                           std::uint32_t level,
                                            std::span<const Sample> standing) const {
     SampleParams params = params_at(distance);
     if (has_levels()) {
-        auto own = params_of_level(params, levels_at(distance), level, standing); // 0: the given.
+        auto own = params_of_level(params, levels, level, standing); // 0: the given.
         if (!own) {
             return own.error();
         }
@@ -298,7 +299,8 @@ struct RequestRun::Impl {
     StepAt step_at; ///< Without a surface.
     std::optional<RequestStep> step;
     std::vector<Sample> standing;    ///< Those that the step goes on from, besides the given ones.
-    std::optional<SampleSet> levels; ///< Report of the levels before.
+    Levels levels{0};                ///< Those of the try; count 0 without any.
+    std::optional<SampleSet> before; ///< Report of the levels before.
     std::vector<std::size_t> ends;
     RunSeconds seconds;
     std::uint32_t starts = 0;
@@ -318,17 +320,20 @@ Result<Done> RequestRun::Impl::use(Result<RequestStep> made) {
 
 Result<Done> RequestRun::Impl::begin_try() {
     ends.clear();
-    levels.reset();
+    before.reset();
     if (!surface) {
         return use(step_at(*tries.distance()));
     }
     const std::span<const Sample> given = surface->request().params.given;
     standing.assign(given.begin(), given.end());
+    if (surface->has_levels()) {
+        levels = surface->levels_at(*tries.distance());
+    }
     return surface->has_features() ? use(surface->on_features(*tries.distance())) : begin_faces();
 }
 
 Result<Done> RequestRun::Impl::begin_faces() {
-    return use(surface->on_faces(*tries.distance(), 0, standing));
+    return use(surface->on_faces(*tries.distance(), levels, 0, standing));
 }
 
 Result<Done> RequestRun::Impl::end_try(SampleSet set) {
@@ -347,6 +352,7 @@ Result<Done> RequestRun::Impl::end_try(SampleSet set) {
         best.set = std::move(set);
         best.min_distance = distance;
         best.ends = std::move(ends);
+        best.levels = levels;
         const std::size_t kept = std::min(samples, most_kept());
         best.cut = samples - kept;
         cut_to(best.set, step->domain.dimension(), kept);
@@ -364,9 +370,6 @@ Result<Done> RequestRun::Impl::end_try(SampleSet set) {
     if (surface) {
         surface->describe(best, settled);
         best.set.given = std::min(surface->request().params.given.size(), best.set.given);
-        if (surface->has_levels()) {
-            best.levels = surface->levels_at(best.min_distance);
-        }
     }
     return Done{};
 }
@@ -427,21 +430,19 @@ Result<Done> RequestRun::take(SampleSet set) noexcept {
             run.standing = std::move(set.samples);
             return run.begin_faces();
         }
-        if (run.levels) { // Those before are samples of this set, not given ones.
-            set.given = run.levels->given;
-            set.report.starts += run.levels->report.starts;
-            set.report.add(run.levels->report);
+        if (run.before) { // Those before are samples of this set, not given ones.
+            set.given = run.before->given;
+            set.report.starts += run.before->report.starts;
+            set.report.add(run.before->report);
         }
         run.ends.push_back(count_of(set, run.step->domain));
-        if (run.surface && run.surface->has_levels()) {
-            const double distance = *run.tries.distance();
-            const std::uint32_t next = run.step->level + 1;
-            if (next < run.surface->levels_at(distance).count) {
-                run.standing = std::move(set.samples);
-                set.samples.clear();
-                run.levels = std::move(set);
-                return run.use(run.surface->on_faces(distance, next, run.standing));
-            }
+        const std::uint32_t next = run.step->level + 1;
+        if (next < run.levels.count) {
+            run.standing = std::move(set.samples);
+            set.samples.clear();
+            run.before = std::move(set);
+            return run.use(
+                run.surface->on_faces(*run.tries.distance(), run.levels, next, run.standing));
         }
         return run.end_try(std::move(set));
     });

@@ -11,7 +11,7 @@ namespace {
 
 /// Factor between two distances that give equally many samples, above which there is no room.
 constexpr double kNoRoom = 16;
-/// The same where no sample fits.
+/// Factor likewise where no sample fits.
 constexpr double kNoneFits = 4;
 
 std::string samples_text(std::uint64_t count) {
