@@ -112,9 +112,9 @@ CoverageCheck::Measure CoverageCheck::measure(const Light& light, FacePoint<doub
 }
 
 bool CoverageCheck::covers_corners(const Light& light, const Corners& cell,
-                                   double least_radius) const {
+                                   double min_radius) const {
     // What a light sees is convex, and so is the distance there.
-    const double limit = allowed_ * limit_of(light, least_radius);
+    const double limit = allowed_ * limit_of(light, min_radius);
     return std::ranges::all_of(cell, [&](FacePoint<double> corner) {
         const auto [distance, aside] = measure(light, corner);
         return aside == 0 && distance < limit;
@@ -137,11 +137,11 @@ void CoverageCheck::visit(const Corners& cell, std::size_t first) {
     const std::size_t end = stack_.size();
     const FacePoint<double> center = centroid(cell);
     const auto at = position_in(surface_, 3 * center.face, center);
-    double reach = 0, least_radius = radius_at(center);
+    double reach = 0, min_radius = radius_at(center);
     for (const FacePoint<double>& corner : cell) {
         const auto p = position_in(surface_, 3 * center.face, corner);
         reach = std::max(reach, length_of(p.x - at.x, p.y - at.y));
-        least_radius = std::min(least_radius, radius_at(corner));
+        min_radius = std::min(min_radius, radius_at(corner));
     }
     double nearest = std::numeric_limits<double>::infinity();
     for (std::size_t i = first; i < end; ++i) {
@@ -150,8 +150,8 @@ void CoverageCheck::visit(const Corners& cell, std::size_t first) {
         const double limit = limit_of(light, radius_at(center));
         nearest = aside == 0 ? std::min(nearest, distance / limit) : nearest;
         const bool is_dead =
-            aside == 0 && distance + reach < worth_a_look() * limit_of(light, least_radius);
-        if (is_dead || covers_corners(light, cell, least_radius)) {
+            aside == 0 && distance + reach < worth_a_look() * limit_of(light, min_radius);
+        if (is_dead || covers_corners(light, cell, min_radius)) {
             stack_.resize(end);
             return;
         }

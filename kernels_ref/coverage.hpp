@@ -56,7 +56,7 @@ class CoverageCheck {
     Measure measure(const Light& light, FacePoint<double> point) const;
     double radius_at(FacePoint<double> point) const;
     double limit_of(const Light& light, double radius) const;
-    bool covers_corners(const Light& light, const Corners& cell, double least_radius) const;
+    bool covers_corners(const Light& light, const Corners& cell, double min_radius) const;
     void visit(const Corners& cell, std::size_t first);
     void note(FacePoint<double> point, double ratio);
     /// Returns the ratio from which a cell may hold a larger gap than those found.

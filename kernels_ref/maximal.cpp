@@ -15,7 +15,7 @@
 namespace geodisk::ref {
 namespace {
 
-constexpr std::uint32_t kMostSplits = 30;
+constexpr std::uint32_t kMaxSplits = 30;
 constexpr std::uint32_t kEveryCell = 22; ///< Splits from which on each cell has a dart.
 constexpr double kFirstGoal = 1.0 / 16;
 constexpr double kRounding = 4.0 / (1 << 24); ///< Of weights, as a part of the reach of a face.
@@ -225,7 +225,7 @@ void Filling<Real>::split(const Cell& cell, double goal, std::vector<Cell>& left
         is_open = is_open &&
                   (outside > margin || way - margin >= light.limit + (light.keeps_out ? 0 : most));
     }
-    if (is_open || reach <= goal * spacing_of(cell) || cell.level == kMostSplits) {
+    if (is_open || reach <= goal * spacing_of(cell) || cell.level == kMaxSplits) {
         left.push_back(cell);
         return;
     }
@@ -294,7 +294,7 @@ std::vector<FacePoint<Real>> Filling<Real>::decided(const std::vector<Dart>& dar
 template <class Real>
 MaximalSet Filling<Real>::run() {
     std::vector<FacePoint<Real>> samples;
-    for (const Sample& sample : params_.given) {
+    for (const Sample& sample : params_.existing) {
         samples.push_back({sample.face, sample.weights[1], sample.weights[2]});
     }
     std::vector<AvoidedPoint<Real>> avoided;
@@ -304,7 +304,7 @@ MaximalSet Filling<Real>::run() {
     }
     const Pool<Real> pool = draw_pool(surface_, params_);
     const RunResult first =
-        throw_darts<Real>(surface_, pool, tolerances_, kMostCandidates, samples, avoided);
+        throw_darts<Real>(surface_, pool, tolerances_, kMaxCandidates, samples, avoided);
     for (const std::uint32_t rank : first.ranks) {
         samples.push_back(pool.candidate(rank));
     }
@@ -337,7 +337,7 @@ MaximalSet Filling<Real>::run() {
         const std::vector<FacePoint<Real>> more = decided(darts);
         set.rounds += darts.empty() ? 0u : 1u;
         const bool are_smallest =
-            std::ranges::all_of(left, [](const Cell& cell) { return cell.level == kMostSplits; });
+            std::ranges::all_of(left, [](const Cell& cell) { return cell.level == kMaxSplits; });
         if (left.empty() || (more.empty() && are_smallest)) {
             break;
         }

@@ -12,7 +12,7 @@
 namespace geodisk::ref {
 
 struct MaximalSet {
-    std::vector<FacePoint<double>> samples; ///< Given ones first.
+    std::vector<FacePoint<double>> samples; ///< Existing ones first.
     std::uint32_t rounds = 0;               ///< Rounds in which darts hit a gap.
     bool is_complete = false;               ///< No gap is left.
 };

@@ -27,7 +27,7 @@ template <bool kMayVary, class Real>
 RunResult throw_from(const Surface<Real>& surface, const Pool<Real>& pool,
                      const Tolerances& tolerances, std::uint32_t most,
                      std::span<const FacePoint<Real>> given,
-                     std::span<const std::uint8_t> given_classes,
+                     std::span<const std::uint8_t> existing_classes,
                      std::span<const AvoidedPoint<Real>> avoided) {
     RunResult result;
     const std::uint32_t count = pool.size();
@@ -45,11 +45,11 @@ RunResult throw_from(const Surface<Real>& surface, const Pool<Real>& pool,
             [decided](std::uint32_t q, Real) { decided[q] = 1; });
         result.windows += disk.windows;
         result.tested += disk.tested;
-        result.most_waiting = std::max(result.most_waiting, disk.most_waiting);
+        result.max_waiting = std::max(result.max_waiting, disk.max_waiting);
         result.longest_chain = std::max(result.longest_chain, disk.chain);
     };
     for (std::size_t i = 0; i < given.size(); ++i) {
-        reject(given[i], given_classes.empty() ? 0 : given_classes[i]);
+        reject(given[i], existing_classes.empty() ? 0 : existing_classes[i]);
     }
     for (std::uint32_t rank = 0; rank < count && given.size() + result.ranks.size() < most;
          ++rank) {
@@ -71,10 +71,11 @@ RunResult throw_darts(const Surface<Real>& surface, const Pool<Real>& pool,
                       const Tolerances& tolerances, std::uint32_t most,
                       std::span<const FacePoint<Real>> given,
                       std::span<const AvoidedPoint<Real>> avoided,
-                      std::span<const std::uint8_t> given_classes) {
+                      std::span<const std::uint8_t> existing_classes) {
     return surface.is_adaptive() || surface.has_classes()
-               ? throw_from<true>(surface, pool, tolerances, most, given, given_classes, avoided)
-               : throw_from<false>(surface, pool, tolerances, most, given, given_classes, avoided);
+               ? throw_from<true>(surface, pool, tolerances, most, given, existing_classes, avoided)
+               : throw_from<false>(surface, pool, tolerances, most, given, existing_classes,
+                                   avoided);
 }
 
 template RunResult throw_darts(const Surface<float>&, const Pool<float>&, const Tolerances&,

@@ -16,7 +16,7 @@ struct RunResult {
     std::vector<std::uint32_t> ranks; ///< Accepted candidates of the pool, ascending.
     std::uint64_t windows = 0;
     std::uint64_t tested = 0;
-    std::uint32_t most_waiting = 0;
+    std::uint32_t max_waiting = 0;
     std::uint32_t longest_chain = 0;
 };
 
@@ -50,14 +50,14 @@ Surface<Real> scaled(Surface<Real> surface, Real scale) {
     return surface;
 }
 
-/// Visits the ranks upwards and accepts each candidate that no point to avoid, no given sample and
-/// no accepted one rejected, until the pool is used up or there are `most` samples, given ones
-/// included. Given samples have class 0 unless `given_classes` has one for each.
+/// Visits the ranks upwards and accepts each candidate that no point to avoid, no existing sample
+/// and no accepted one rejected, until the pool is used up or there are `most` samples, existing
+/// ones included. Existing samples have class 0 unless `existing_classes` has one for each.
 template <class Real>
 RunResult throw_darts(const Surface<Real>& surface, const Pool<Real>& pool,
-                      const Tolerances& tolerances, std::uint32_t most = kMostCandidates,
+                      const Tolerances& tolerances, std::uint32_t most = kMaxCandidates,
                       std::span<const FacePoint<Real>> given = {},
                       std::span<const AvoidedPoint<Real>> avoided = {},
-                      std::span<const std::uint8_t> given_classes = {});
+                      std::span<const std::uint8_t> existing_classes = {});
 
 } // namespace geodisk::ref

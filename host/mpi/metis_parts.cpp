@@ -17,7 +17,7 @@ namespace {
 // Weights are integers: so many in all.
 constexpr double kWeight = 1u << 30;
 // With fewer faces in each part, METIS has no good answer, or none.
-constexpr std::uint32_t kLeastFaces = 16;
+constexpr std::uint32_t kMinFaces = 16;
 
 /// Keeps SIGTERM for later. METIS replaces the handlers of SIGTERM and SIGABRT while it works,
 /// takes any of these for an error of its own, and restores handlers without their flags.
@@ -56,7 +56,7 @@ class SignalsKept {
 std::vector<std::uint32_t> metis_parts(const PreparedMesh& mesh, std::span<const double> work,
                                        std::uint32_t parts) {
     const std::uint32_t faces = mesh.face_count();
-    if (parts < 2 || faces / parts < kLeastFaces) {
+    if (parts < 2 || faces / parts < kMinFaces) {
         return {};
     }
     std::vector<idx_t> starts{0}, beside, weights;

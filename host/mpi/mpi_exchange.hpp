@@ -24,11 +24,11 @@ class MpiExchange : public Exchange {
     /// All processes of the communicator make one.
     static Result<std::unique_ptr<MpiExchange>> create(MPI_Comm communicator,
                                                        const GoesOn& goes_on);
-    /// All processes make so many, up to kMostLanes, each for a thread of its own. Several need
+    /// All processes make so many, up to kMaxLanes, each for a thread of its own. Several need
     /// MPI_THREAD_SERIALIZED.
     static Result<std::vector<std::unique_ptr<MpiExchange>>>
     create_lanes(MPI_Comm communicator, std::uint32_t lanes, const GoesOn& goes_on);
-    static constexpr std::uint32_t kMostLanes = 128;
+    static constexpr std::uint32_t kMaxLanes = 128;
 
     ~MpiExchange() override;
 

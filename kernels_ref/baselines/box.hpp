@@ -9,9 +9,9 @@
 
 namespace geodisk::ref {
 
-inline constexpr std::uint32_t kMostDimensions = 6;
+inline constexpr std::uint32_t kMaxDimensions = 6;
 
-/// The box [0, sides[0]) x [0, sides[1]) x ..., with 1 to kMostDimensions sides, each positive.
+/// The box [0, sides[0]) x [0, sides[1]) x ..., with 1 to kMaxDimensions sides, each positive.
 struct Box {
     std::vector<double> sides;
     bool is_periodic = false; ///< Opposite sides are glued together.
@@ -48,8 +48,8 @@ class BoxCells {
 
     bool is_periodic_;
     std::size_t axes_;
-    std::array<std::uint32_t, kMostDimensions> counts_{};
-    std::array<double, kMostDimensions> per_length_{};
+    std::array<std::uint32_t, kMaxDimensions> counts_{};
+    std::array<double, kMaxDimensions> per_length_{};
     std::uint32_t count_ = 1;
 };
 
@@ -89,11 +89,11 @@ class BoxGrid {
 
 template <class Visit>
 void BoxCells::for_around(std::span<const double> point, Visit&& visit) const {
-    std::array<Places, kMostDimensions> places;
+    std::array<Places, kMaxDimensions> places;
     for (std::size_t axis = 0; axis < axes_; ++axis) {
         places[axis] = places_around(axis, point[axis]);
     }
-    std::array<std::size_t, kMostDimensions> turn{};
+    std::array<std::size_t, kMaxDimensions> turn{};
     for (;;) {
         std::uint32_t cell = 0;
         for (std::size_t axis = 0; axis < axes_; ++axis) {

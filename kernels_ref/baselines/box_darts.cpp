@@ -177,13 +177,13 @@ std::vector<double> throw_around_samples(const Box& box, double min_distance, st
 
 std::vector<double> throw_until_maximal(const Box& box, double min_distance, std::uint64_t seed) {
     // Cells of 2^-40 of the first width are below the resolution of coordinates.
-    constexpr int kMostCuts = 40;
+    constexpr int kMaxCuts = 40;
     RandomStream random(seed);
     BoxGrid samples(box, min_distance);
     OpenCells cells =
         all_cells(box, min_distance / std::sqrt(static_cast<double>(box.dimension())));
     std::vector<double> dart;
-    for (int cuts = 0; cells.size() > 0 && cuts < kMostCuts; ++cuts) {
+    for (int cuts = 0; cells.size() > 0 && cuts < kMaxCuts; ++cuts) {
         for (std::size_t darts = cells.size(); darts > 0 && cells.size() > 0; --darts) {
             const std::size_t cell = random.below(static_cast<std::uint32_t>(cells.size()));
             draw_in(cells.corner(cell), cells.sides, random, dart);

@@ -10,7 +10,7 @@ std::vector<std::uint32_t> count_calls(std::span<const std::vector<std::uint32_t
     std::vector<std::uint32_t> calls(above.size(), 1);
     for (std::size_t i = 0; i < above.size(); ++i) {
         for (const std::uint32_t other : above[i]) {
-            calls[i] = std::min(calls[i] + calls[other], kMostCalls);
+            calls[i] = std::min(calls[i] + calls[other], kMaxCalls);
             if (accepted[other] != 0) {
                 break;
             }

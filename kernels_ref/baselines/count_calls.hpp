@@ -10,7 +10,7 @@
 namespace geodisk::ref {
 
 /// The calls of one candidate are counted up to this number.
-inline constexpr std::uint32_t kMostCalls = 0x3fffffff;
+inline constexpr std::uint32_t kMaxCalls = 0x3fffffff;
 
 /// Returns the calls of CheckStatus for each candidate of a decided batch: one for itself, and
 /// those of every conflict above it, until one of them is accepted. A candidate reached twice

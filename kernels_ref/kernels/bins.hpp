@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "geodisk/uninitialized.hpp"
+#include "geodisk/detail/uninitialized.hpp"
 #include "lib/surface.hpp"
 
 namespace geodisk::ref {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <span>
 
-#include "geodisk/uninitialized.hpp"
+#include "geodisk/detail/uninitialized.hpp"
 #include "kernels/dart_order.hpp"
 #include "kernels/poisson.hpp"
 #include "lib/rng.hpp"
@@ -20,9 +20,9 @@ constexpr std::uint32_t kBoxCountCounter = 0xffffffff;
 /// Shorter sides count as one step of the unit.
 constexpr double kShortestSide = 0x1p-31;
 /// Samples per box of side D far from any border, by dimension (host/docs/boxes.md).
-constexpr double kDensities[gpu::kMostAxes] = {0.726, 0.601, 0.540, 0.523, 0.545, 0.597};
+constexpr double kDensities[gpu::kMaxAxes] = {0.726, 0.601, 0.540, 0.523, 0.545, 0.597};
 /// Apparent extra width of an open box at each end, in distances.
-constexpr double kOverhangs[gpu::kMostAxes] = {0.281, 0.295, 0.280, 0.262, 0.245, 0.237};
+constexpr double kOverhangs[gpu::kMaxAxes] = {0.281, 0.295, 0.280, 0.262, 0.245, 0.237};
 
 /// Returns a width or length modulo 2^32.
 std::uint32_t wrapped(std::uint64_t steps) {
@@ -84,14 +84,14 @@ double sample_density(const BoxParams& box, double volume) {
 int cell_doublings(const BoxParams& box) {
     const StageRule stages = stages_in(box);
     int halvings = 0;
-    while (stages.throws != 0 && std::ldexp(5 * stages.samples, -halvings) > 0x1p23) {
+    while (stages.darts != 0 && std::ldexp(5 * stages.samples, -halvings) > 0x1p23) {
         ++halvings;
     }
     const int dimensions = static_cast<int>(box.extents.size());
     return (halvings + dimensions - 1) / dimensions;
 }
 
-using Cell = std::array<std::uint32_t, gpu::kMostAxes>;
+using Cell = std::array<std::uint32_t, gpu::kMaxAxes>;
 
 std::uint64_t seed_of(const std::array<std::uint32_t, 4>& words) {
     return words[0] | std::uint64_t{words[1]} << 32;
@@ -226,7 +226,7 @@ std::uint64_t BoxLattice::cell_count() const {
 
 StageRule stages_in(const BoxParams& box) {
     const double volume = volume_of(box);
-    return StageRule::of(sample_density(box, volume) * volume, box.pool_ratio, box.throws);
+    return StageRule::of(sample_density(box, volume) * volume, box.pool_ratio, box.darts);
 }
 
 float stage_intensity(const BoxParams& box, std::uint32_t stage) {
@@ -238,15 +238,15 @@ BoxCandidates draw_in_box(const BoxParams& box) {
     const BoxLattice lattice(box);
     const StageRule stages = stages_in(box);
     BoxCandidates candidates;
-    const bool is_pool = stages.throws == 0;
+    const bool is_pool = stages.darts == 0;
     for (std::uint32_t stage = 0;
-         is_pool ? stage < stages.pool_stages() : candidates.points.size() < stages.throws;
+         is_pool ? stage < stages.pool_stages() : candidates.points.size() < stages.darts;
          ++stage) {
         draw_stage(box, lattice, stage, candidates);
     }
     if (!is_pool) {
-        candidates.points.resize(stages.throws);
-        candidates.words.resize(stages.throws);
+        candidates.points.resize(stages.darts);
+        candidates.words.resize(stages.darts);
     }
     return candidates;
 }

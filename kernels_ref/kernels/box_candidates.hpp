@@ -12,7 +12,7 @@
 namespace geodisk::ref {
 
 /// Coordinates in steps of a lattice.
-using BoxPoint = std::array<std::uint32_t, gpu::kMostAxes>;
+using BoxPoint = std::array<std::uint32_t, gpu::kMaxAxes>;
 
 /// Coordinates of an axis, and its cells for drawing candidates.
 struct LatticeAxis {

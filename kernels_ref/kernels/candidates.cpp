@@ -108,7 +108,7 @@ Draw draw_in_face(const Surface<Real>& surface, std::uint64_t seed,
     if (!surface.is_adaptive()) {
         return draw;
     }
-    while (!propose(draw, surface.radii[face], random) && counter[3] + 1 < gpu::kMostProposals) {
+    while (!propose(draw, surface.radii[face], random) && counter[3] + 1 < gpu::kMaxProposals) {
         ++counter[3];
         random = philox(seed, counter);
         draw = draw_uniform(face, random);

@@ -13,7 +13,7 @@ struct Digit {
 };
 constexpr std::array<Digit, 3> kDigits{{{0, 10}, {10, 9}, {19, 9}}};
 static_assert(kDigits.back().shift + kDigits.back().bits == kPriorityBits);
-constexpr std::uint32_t kMostBuckets = 1u << kDigits[0].bits;
+constexpr std::uint32_t kMaxBuckets = 1u << kDigits[0].bits;
 
 std::uint32_t bucket_of(Dart dart, Digit digit) {
     return priority_of(dart) >> digit.shift & ((1u << digit.bits) - 1);
@@ -22,7 +22,7 @@ std::uint32_t bucket_of(Dart dart, Digit digit) {
 } // namespace
 
 std::span<Dart> sort_darts(std::span<Dart> darts, std::span<Dart> scratch) {
-    std::array<std::array<std::uint32_t, kMostBuckets>, kDigits.size()> starts{};
+    std::array<std::array<std::uint32_t, kMaxBuckets>, kDigits.size()> starts{};
     for (const Dart dart : darts) {
         for (std::size_t i = 0; i < kDigits.size(); ++i) {
             ++starts[i][bucket_of(dart, kDigits[i])];

@@ -85,7 +85,7 @@ class Detector : public Windows<Real, kMayVary> {
             }
         } while (waiting_.take(on_window, on_event));
         count_.windows = waiting_.pushed();
-        count_.most_waiting = waiting_.most();
+        count_.max_waiting = waiting_.most();
         count_.chain = waiting_.longest_chain();
         return count_;
     }
@@ -240,7 +240,7 @@ class Detector : public Windows<Real, kMayVary> {
     bool is_endless() const {
         const std::uint32_t vertices = std::min(count_.vertices, gpu::kUntrimmedVertices);
         const std::uint32_t trimmed = waiting_.pushed() - untrimmed_;
-        return waiting_.trims() && trimmed > gpu::kMostWindows + vertices * gpu::kMostPerVertex;
+        return waiting_.trims() && trimmed > gpu::kMaxWindows + vertices * gpu::kMaxPerVertex;
     }
 
     /// Returns true if the window, given in the frame of h, is dropped by trimming.

@@ -95,15 +95,15 @@ class BoxDetector {
     const BoxPool<Real>& pool_;
     std::uint32_t own_place_ = 0;
     BoxPoint own_{};
-    std::array<std::uint32_t, gpu::kMostAxes> own_cell_{};
-    std::array<Real, gpu::kMostAxes> own_inside_{};
+    std::array<std::uint32_t, gpu::kMaxAxes> own_cell_{};
+    std::array<Real, gpu::kMaxAxes> own_inside_{};
 };
 
 /// Throws darts sequentially over the pool, until it is used up or `most` are accepted. Returns
 /// their ranks, ascending.
 template <class Real>
 std::vector<std::uint32_t> throw_darts(const BoxPool<Real>& pool,
-                                       std::uint32_t most = kMostCandidates);
+                                       std::uint32_t most = kMaxCandidates);
 
 template <class Real>
 Real BoxDetector<Real>::gap_to(std::size_t axis, std::uint32_t digit) const {

@@ -154,8 +154,8 @@ class GroupDetector : public Windows<Real, kMayVary> {
         events_.swap(next_events_);
         next_items_.clear();
         next_events_.clear();
-        count_.most_waiting =
-            std::max(count_.most_waiting, static_cast<std::uint32_t>(items_.size()));
+        count_.max_waiting =
+            std::max(count_.max_waiting, static_cast<std::uint32_t>(items_.size()));
         if (++waves_ % gpu::kWavesPerStep == 0) {
             step_ *= 2;
         }
@@ -201,7 +201,7 @@ class GroupDetector : public Windows<Real, kMayVary> {
         const Window& window = proposal.item->window;
         const std::uint32_t chain = window.chain + 1;
         // At the corners of its own face the direction of the candidate is left open.
-        const std::uint32_t blur = window.chain == 0 ? gpu::kMostBlur
+        const std::uint32_t blur = window.chain == 0 ? gpu::kMaxBlur
                                    : proposal.item->inside
                                        ? 0
                                        : blur_of(error_of(chain), proposal.distance - window.sigma);
@@ -402,14 +402,14 @@ class GroupDetector : public Windows<Real, kMayVary> {
     /// opposite to it.
     std::uint32_t arrival_at(const VertexNote& note, std::uint32_t from) const {
         if (note.first_way != note.last_way || from == kWholeFan) {
-            return gpu::kMostBlur;
+            return gpu::kMaxBlur;
         }
         const Edge<Real>& edge = surface_.edges[next_in_face(from)];
         const Real along = square(edge.apex_x) + square(edge.apex_y) - edge.apex_x * note.crossing;
         // Rounding of the crossing turns the direction as well.
         const Real way = root(square(edge.apex_x - note.crossing) + square(edge.apex_y));
         const Real error = slack_ * static_cast<Real>(kCrossingPart);
-        const std::uint32_t blur = std::max(note.path & gpu::kMostBlur, blur_of(error, way));
+        const std::uint32_t blur = std::max(note.path & gpu::kMaxBlur, blur_of(error, way));
         return arrival_from(along, edge.apex_y * note.crossing, blur);
     }
 

@@ -10,7 +10,7 @@ constexpr float kSmallestMean = 0x1p-40f;
 constexpr float kWalkedMean = 8;
 /// Less probable numbers are ignored.
 constexpr float kSmallestProbability = 0x1p-32f;
-constexpr std::uint32_t kMostOfTail = 64;
+constexpr std::uint32_t kMaxOfTail = 64;
 
 /// Returns the middle of one of 2^32 equal parts of [0, 1].
 float unit_fraction(std::uint32_t u) {
@@ -41,7 +41,7 @@ std::uint32_t poisson_tail(float mean, std::uint32_t word) {
         q = q * (2.0f - q);
     }
     std::uint32_t n = 0;
-    while (target < q && p > kSmallestProbability && n < kMostOfTail) {
+    while (target < q && p > kSmallestProbability && n < kMaxOfTail) {
         ++n;
         p = ratio(p * mean, static_cast<float>(n));
         q = q - p;

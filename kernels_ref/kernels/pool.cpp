@@ -196,17 +196,17 @@ Pool<Real> draw_stages(const Surface<Real>& surface, const SampleParams& params,
 
 template <class Real>
 Pool<Real> draw_pool(const Surface<Real>& surface, const SampleParams& params) {
-    if (params.throws == 0) {
+    if (params.darts == 0) {
         return draw_stages(surface, params, 0, surface.frame.stages.pool_stages());
     }
     Counts counts;
-    for (std::size_t darts = 0; darts < params.throws;) {
+    for (std::size_t darts = 0; darts < params.darts;) {
         const auto stage = static_cast<std::uint32_t>(counts.size());
         counts.push_back(count_candidates(surface, params, stage));
         darts = std::accumulate(counts.back().begin(), counts.back().end(), darts);
     }
     Pool<Real> pool = Drawing(surface, params, 0, counts).draw();
-    keep_first(pool, params.throws);
+    keep_first(pool, params.darts);
     return pool;
 }
 

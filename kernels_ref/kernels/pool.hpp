@@ -34,7 +34,7 @@ template <class Real>
 Pool<Real> draw_stages(const Surface<Real>& surface, const SampleParams& params,
                        std::uint32_t first, std::uint32_t stages);
 
-/// Draws all candidates of a job: the stages of a pool, or its first `params.throws` darts.
+/// Draws all candidates of a job: the stages of a pool, or its first `params.darts`.
 template <class Real>
 Pool<Real> draw_pool(const Surface<Real>& surface, const SampleParams& params);
 

@@ -17,7 +17,7 @@ namespace geodisk::ref {
 // How a path came to a vertex through a corner is one word, its arrival: above kBlurBits the angle
 // between the corner's half-edge and the path, in units of 2^-11 radian, or kArrivedAlongPrevious;
 // 0 is along the half-edge. Its error is at most 2^-10 radian, times 8 for each step of the blur;
-// for kMostBlur it is not bounded.
+// for kMaxBlur it is not bounded.
 
 /// Returns the angle between (1, 0) and (x, y), y >= 0, in units of 2^-11 radian, by formula 4.4.49
 /// of Abramowitz and Stegun.
@@ -75,7 +75,7 @@ inline Entry entry_of(const VertexFan& fan, std::uint32_t angles, std::uint32_t 
     if ((fan.flags & gpu::kFanIrregular) != 0) {
         return kEntersFromAnywhere;
     }
-    const std::uint32_t blur = arrival & gpu::kMostBlur;
+    const std::uint32_t blur = arrival & gpu::kMaxBlur;
     const std::int32_t size = corner_size(angles);
     const std::int32_t error = static_cast<std::int32_t>(gpu::kAngleTolerance) << (3 * blur);
     const bool is_along_previous = arrival >= gpu::kArrivedAlongPrevious;
@@ -83,7 +83,7 @@ inline Entry entry_of(const VertexFan& fan, std::uint32_t angles, std::uint32_t 
         is_along_previous ? size : static_cast<std::int32_t>(arrival >> gpu::kBlurBits) * 4;
     std::int32_t low = std::max(own - error, 0);
     std::int32_t high = std::min(own + error + 4, size);
-    if (blur == gpu::kMostBlur || low > size) { // Beyond it by rounding.
+    if (blur == gpu::kMaxBlur || low > size) { // Beyond it by rounding.
         low = 0;
         high = size;
     }

@@ -41,7 +41,7 @@ class Waiting {
 
     /// Begins a new disk.
     void begin_disk(bool trims) {
-        pushed_ = most_ = longest_chain_ = 0;
+        pushed_ = max_ = longest_chain_ = 0;
         begin(trims);
     }
 
@@ -59,7 +59,7 @@ class Waiting {
     /// Return the windows and events pushed in the disk, the maximum that waited, and their longest
     /// chain.
     std::uint32_t pushed() const { return pushed_; }
-    std::uint32_t most() const { return most_; }
+    std::uint32_t most() const { return max_; }
     std::uint32_t longest_chain() const { return longest_chain_; }
 
     void push(const Window<Real>& window, Real distance) {
@@ -143,7 +143,7 @@ class Waiting {
 
     void count(std::size_t waiting, std::uint32_t chain) {
         ++pushed_;
-        most_ = std::max(most_, static_cast<std::uint32_t>(waiting));
+        max_ = std::max(max_, static_cast<std::uint32_t>(waiting));
         longest_chain_ = std::max(longest_chain_, chain);
     }
 
@@ -153,7 +153,7 @@ class Waiting {
     std::vector<std::uint32_t> free_places_; ///< Indices of the gaps.
     std::vector<Row> events_;                ///< A heap, nearest on top; or a queue, oldest first.
     std::size_t events_taken_ = 0;           ///< Number of events taken from the queue.
-    std::uint32_t pushed_ = 0, most_ = 0, longest_chain_ = 0;
+    std::uint32_t pushed_ = 0, max_ = 0, longest_chain_ = 0;
 };
 
 } // namespace geodisk::ref

@@ -25,11 +25,11 @@ namespace geodisk::ref {
 
 /// Work of one disk; the shaders count the same.
 struct DiskCount {
-    std::uint32_t windows = 0;      ///< Windows and vertex events pushed.
-    std::uint32_t most_waiting = 0; ///< Maximum of windows on the stack, or events waiting.
-    std::uint32_t chain = 0;        ///< Longest chain of crossings.
-    std::uint32_t vertices = 0;     ///< Vertices reached.
-    std::uint32_t tested = 0;       ///< Points whose distance was computed.
+    std::uint32_t windows = 0;     ///< Windows and vertex events pushed.
+    std::uint32_t max_waiting = 0; ///< Maximum of windows on the stack, or events waiting.
+    std::uint32_t chain = 0;       ///< Longest chain of crossings.
+    std::uint32_t vertices = 0;    ///< Vertices reached.
+    std::uint32_t tested = 0;      ///< Points whose distance was computed.
 };
 
 /// A disk with too many windows: edges of many faces, or very many triangles.
@@ -65,7 +65,7 @@ class Windows {
     Windows(const Surface<Real>& surface, const Bins<Real>& bins, const Tolerances& tolerances,
             Real limit)
         : surface_(surface), bins_(bins), limit_(limit), guard_(tolerances.limit - Real{1}),
-          least_margin_(tolerances.margin), slack_(tolerances.slack),
+          min_margin_(tolerances.margin), slack_(tolerances.slack),
           base_error_(tolerances.base_error), crossing_error_(tolerances.crossing_error),
           trim_scale_(std::max(Real{1}, static_cast<Real>(0x1p19) * base_error_)) {}
 
@@ -143,7 +143,7 @@ class Windows {
     /// a path by its own chain, since its distance has that error; the margin by the longest of the
     /// disk so far, since any path may be the known one.
     void begin_operation(std::uint32_t chain, std::uint32_t longest_chain) {
-        margin_ = std::max(least_margin_, error_of(longest_chain));
+        margin_ = std::max(min_margin_, error_of(longest_chain));
         beyond_guard_ = std::max(error_of(chain) - guard_, Real{0});
     }
 
@@ -400,7 +400,7 @@ class Windows {
     const Surface<Real>& surface_;
     const Bins<Real>& bins_;
     Real limit_;
-    const Real guard_, least_margin_, slack_;
+    const Real guard_, min_margin_, slack_;
     const Real base_error_, crossing_error_, trim_scale_;
     bool trims_ = false;
     Real margin_ = 0;       ///< By how much a known path must beat a window in this operation.

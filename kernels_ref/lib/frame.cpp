@@ -15,7 +15,7 @@ constexpr double kCrossingError = 0x1p-22;
 /// Factors of radii are floats, and sums of two radii are rounded to float.
 constexpr double kRadiiError = 0x1p-21;
 constexpr double kFewestCrossings = 64;
-constexpr double kMostCrossings = 65536;
+constexpr double kMaxCrossings = 65536;
 /// Disks that cover this many faces take vertex events by distance (shaders/README.md).
 constexpr double kFacesOfLargeDisk = 16384;
 
@@ -123,7 +123,7 @@ Frame frame_without_pool(const PreparedMesh& mesh, double min_distance, double u
     // edges as faces lie across.
     const double faces = 2.0 * mesh.face_count() / std::max(1.0, samples_on(area, min_distance));
     frame.chain = static_cast<std::uint32_t>(
-        std::clamp(8 + 4 * std::sqrt(faces), kFewestCrossings, kMostCrossings));
+        std::clamp(8 + 4 * std::sqrt(faces), kFewestCrossings, kMaxCrossings));
     frame.splits_once = is_split_once(mesh);
     frame.straight_faces = mesh.statistics().diagonal > 0;
     frame.stages.samples = samples_on(area, unit);
@@ -191,7 +191,7 @@ Frame frame_of(const PreparedMesh& mesh, const SampleParams& params) {
     }
     frame.candidates_of_classes = ref::candidates_of_classes(params);
     samples *= frame.candidates_of_classes;
-    frame.stages = StageRule::of(samples, params.pool_ratio, params.throws);
+    frame.stages = StageRule::of(samples, params.pool_ratio, params.darts);
     frame.nearest_first = 2.0 * mesh.face_count() / std::max(2.0, full) >= kFacesOfLargeDisk;
     return frame;
 }

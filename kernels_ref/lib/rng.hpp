@@ -1,7 +1,7 @@
 // The random words of the candidates, the same function as in the library.
 #pragma once
 
-#include "geodisk/philox.hpp"
+#include "geodisk/detail/philox.hpp"
 
 namespace geodisk::ref {
 

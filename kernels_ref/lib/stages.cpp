@@ -16,8 +16,8 @@ constexpr double kMaximumPoolStages = 15;
 
 } // namespace
 
-StageRule StageRule::of(double samples, double pool_ratio, std::uint32_t throws) {
-    return {samples, std::max(pool_ratio, kSmallestStage / samples), throws};
+StageRule StageRule::of(double samples, double pool_ratio, std::uint32_t darts) {
+    return {samples, std::max(pool_ratio, kSmallestStage / samples), darts};
 }
 
 std::uint32_t StageRule::pool_stages() const {
@@ -26,15 +26,15 @@ std::uint32_t StageRule::pool_stages() const {
 }
 
 double StageRule::per_sample(std::uint32_t stage) const {
-    if (throws == 0) {
+    if (darts == 0) {
         return ratio / pool_stages();
     }
     // All stages of darts have a power of two times five.
     const double bound = std::min(kMaximumDarts, kLargestStage / samples);
     const double largest = std::ldexp(kFirstDarts, std::ilogb(bound / kFirstDarts));
     const int doublings = static_cast<int>(std::min(stage, 64u));
-    const double darts = std::min(std::ldexp(std::min(kFirstDarts, largest), doublings), largest);
-    return std::max(darts, kSmallestStage / samples);
+    const double wanted = std::min(std::ldexp(std::min(kFirstDarts, largest), doublings), largest);
+    return std::max(wanted, kSmallestStage / samples);
 }
 
 } // namespace geodisk::ref

@@ -6,13 +6,13 @@
 namespace geodisk::ref {
 
 struct StageRule {
-    double samples = 0;       ///< Expected on the surface or in the box.
-    double ratio = 0;         ///< Candidates of a pool per expected sample.
-    std::uint32_t throws = 0; ///< Darts to throw; 0 for a pool.
+    double samples = 0;      ///< Expected on the surface or in the box.
+    double ratio = 0;        ///< Candidates of a pool per expected sample.
+    std::uint32_t darts = 0; ///< Darts to throw; 0 for a pool.
 
     /// Returns the rule for a job that expects this many samples. No pool expects fewer than 64
     /// candidates.
-    static StageRule of(double samples, double pool_ratio, std::uint32_t throws);
+    static StageRule of(double samples, double pool_ratio, std::uint32_t darts);
 
     /// Returns the number of stages of a pool.
     std::uint32_t pool_stages() const;

@@ -24,8 +24,8 @@ bool has_small_faces(const PreparedMesh& mesh, const SampleParams& params, const
         sum += weight;
         squares += weight * weight;
     }
-    const std::uint32_t throws = frame.stages.throws;
-    const double candidates = throws != 0 ? throws : frame.stages.ratio * frame.samples_on(sum);
+    const std::uint32_t darts = frame.stages.darts;
+    const double candidates = darts != 0 ? darts : frame.stages.ratio * frame.samples_on(sum);
     return squares / sum * (candidates / sum) <= kFew;
 }
 
@@ -149,11 +149,11 @@ double cell_count(const PreparedMesh& mesh, double unit) {
 
 } // namespace
 
-double suitable_unit(const PreparedMesh& mesh, double distance, double most_cells) {
+double suitable_unit(const PreparedMesh& mesh, double distance, double max_cells) {
     const double extent = std::max(mesh.statistics().diagonal, mesh.statistics().longest_edge);
     double unit = std::min(distance, extent);
     // A cell for each face at least.
-    const double most = std::max(most_cells, 2.0 * static_cast<double>(mesh.half_edges().size()));
+    const double most = std::max(max_cells, 2.0 * static_cast<double>(mesh.half_edges().size()));
     while (cell_count(mesh, unit) > most) {
         unit *= 2;
     }

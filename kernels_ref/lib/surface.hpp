@@ -112,7 +112,7 @@ struct Surface {
 /// Lengths in units of about the distance looked for keep all numbers in bounds, unless that is out
 /// of all proportion to the mesh. A unit for it, in mesh units, for which the grids of the faces
 /// have no more cells than so many.
-double suitable_unit(const PreparedMesh& mesh, double distance, double most_cells);
+double suitable_unit(const PreparedMesh& mesh, double distance, double max_cells);
 
 /// No shortest path is longer, in mesh units: it meets each edge and each triangle at most once.
 double longest_path(const PreparedMesh& mesh);

@@ -78,10 +78,10 @@ void hand_in_slot() {
     ++own_disks.disks;
     own_disks.windows += lane.pushed;
     own_disks.tested += lane.tested;
-    own_disks.most_waiting = max(own_disks.most_waiting, lane.most_waiting);
-    own_disks.most_vertices = max(own_disks.most_vertices, lane.vertices);
-    own_disks.most_conflicts =
-        max(own_disks.most_conflicts, lane.idle_conflicts + lane.active_conflicts);
+    own_disks.max_waiting = max(own_disks.max_waiting, lane.max_waiting);
+    own_disks.max_vertices = max(own_disks.max_vertices, lane.vertices);
+    own_disks.max_conflicts =
+        max(own_disks.max_conflicts, lane.idle_conflicts + lane.active_conflicts);
     complete_one();
 }
 
@@ -367,20 +367,20 @@ void work_on(uint index) {
 }
 
 // Of the lanes of each subgroup. Metal wants a size that no specialization changes.
-shared uint most_trips[kMostCountedSubgroups];
+shared uint max_trips[kMaxCountedSubgroups];
 
 // The lanes of a subgroup go on together until the last has done its trips.
 void count_trips() {
     uint invocation = gl_LocalInvocationID.x;
-    uint subgroup = min(invocation / kCountedLanes, kMostCountedSubgroups - 1u);
-    if (invocation < kMostCountedSubgroups) {
-        most_trips[invocation] = 0u;
+    uint subgroup = min(invocation / kCountedLanes, kMaxCountedSubgroups - 1u);
+    if (invocation < kMaxCountedSubgroups) {
+        max_trips[invocation] = 0u;
     }
     barrier();
-    atomicMax(most_trips[subgroup], trips);
+    atomicMax(max_trips[subgroup], trips);
     GEODISK_ADD_WIDE(control.trips_low, control.trips_high, trips)
     barrier();
-    uint most = most_trips[subgroup];
+    uint most = max_trips[subgroup];
     GEODISK_ADD_WIDE(control.lane_trips_low, control.lane_trips_high, most)
 }
 

@@ -36,10 +36,10 @@ uint overflow; // kOverflow* bits
 #include "../lib/complete.glsl"
 #include "../lib/disk_totals.glsl"
 
-Axis grid[kMostAxes];
-uint own[kMostAxes];       // coordinates
-uint own_cell[kMostAxes];
-float own_inside[kMostAxes]; // the cell, as part of its width, rounded down
+Axis grid[kMaxAxes];
+uint own[kMaxAxes];       // coordinates
+uint own_cell[kMaxAxes];
+float own_inside[kMaxAxes]; // the cell, as part of its width, rounded down
 vec3 own_normal;
 uint own_place;
 uint idle_conflicts;      // listed so far

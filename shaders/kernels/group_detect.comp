@@ -153,7 +153,7 @@ void settle_proposal(uint proposal) {
     // At the corners of its own face the direction of the candidate is left open.
     precise float way = uintBitsToFloat(row.z) - uintBitsToFloat(row1.y);
     uint chain = row1.z + 1u;
-    uint blur = inside ? (row1.z == 0u ? kMostBlur : 0u) : blur_of(error_of(chain), way);
+    uint blur = inside ? (row1.z == 0u ? kMaxBlur : 0u) : blur_of(error_of(chain), way);
     settle(row.y, row.z, whole ? kWholeWay : way_of(corner, inside), uintBitsToFloat(row.w), chain, blur);
 }
 
@@ -231,7 +231,7 @@ void spread_item(uint number) {
 // to that; `paths` is the second row of the vertex.
 uint arrival_at(uvec4 paths) {
     if (paths.x != ~paths.y || ~paths.y == kWholeWay) {
-        return kMostBlur;
+        return kMaxBlur;
     }
     lane.half_edge = next_in_face(corner_of(paths.x));
     load_face();
@@ -241,7 +241,7 @@ uint arrival_at(uvec4 paths) {
     // Rounding of the crossing turns the direction as well.
     precise float aside = apex.x - crossing;
     precise float error = job.slack * kCrossingPart;
-    uint blur = max(paths.w & kMostBlur, blur_of(error, root(squared(aside, apex.y))));
+    uint blur = max(paths.w & kMaxBlur, blur_of(error, root(squared(aside, apex.y))));
     return arrival_from(along, across, blur);
 }
 
@@ -334,7 +334,7 @@ void begin_disk(uint slot) {
     group.vertices = 0u;
     group.tested = 0u;
     group.pushed = 0u;
-    group.most_waiting = 0u;
+    group.max_waiting = 0u;
     group.longest_chain = 0u;
     group.longest_before = 0u;
 }
@@ -372,7 +372,7 @@ void take_slot() {
 
 void end_wave() {
     ++group.waves;
-    group.most_waiting = max(group.most_waiting, group.next_items);
+    group.max_waiting = max(group.max_waiting, group.next_items);
     group.turn ^= 1u;
     group.items = group.next_items;
     group.events = group.next_events;
@@ -406,9 +406,9 @@ void hand_in_slot() {
     ++own_disks.disks;
     own_disks.windows += group.pushed;
     own_disks.tested += group.tested;
-    own_disks.most_waiting = max(own_disks.most_waiting, group.most_waiting);
-    own_disks.most_vertices = max(own_disks.most_vertices, group.vertices);
-    own_disks.most_conflicts = max(own_disks.most_conflicts, group.conflicts);
+    own_disks.max_waiting = max(own_disks.max_waiting, group.max_waiting);
+    own_disks.max_vertices = max(own_disks.max_vertices, group.vertices);
+    own_disks.max_conflicts = max(own_disks.max_conflicts, group.conflicts);
     complete_one();
     group.phase = kGroupIdle;
 }

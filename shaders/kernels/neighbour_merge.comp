@@ -12,7 +12,7 @@ GEODISK_BUFFER(kBindRows, readonly, uint, rows);
 GEODISK_BUFFER(kBindEntries, readonly, uvec4, entries);
 GEODISK_BUFFER(kBindSorted, writeonly, uvec4, sorted);
 
-const uint kMostHalvings = 32u;
+const uint kMaxHalvings = 32u;
 
 bool is_before(uvec4 a, uvec4 b) {
     uvec2 x = push.by_distance != 0u ? a.zy : a.yz;
@@ -34,7 +34,7 @@ void main() {
     uint low = other;
     uint high = min(other + push.width, row_end);
     // Of equal ones those of the first run come first.
-    for (uint i = 0u; i < kMostHalvings && low < high; ++i) {
+    for (uint i = 0u; i < kMaxHalvings && low < high; ++i) {
         uint middle = low + (high - low) / 2u;
         uvec4 met = entries[middle];
         bool comes_before = is_second ? !is_before(own, met) : is_before(met, own);

@@ -24,7 +24,7 @@ GEODISK_CONTROL;
 #include "../lib/states.glsl"
 
 // Candidates that this invocation will decide.
-uint at_hand[kMostAtHand];
+uint at_hand[kMaxAtHand];
 uint hands;
 uint decided; // by this invocation
 uint fewer;   // idle or active candidates
@@ -32,7 +32,7 @@ uint fewer;   // idle or active candidates
 // Takes a candidate that is not blocked any more, or blocked for good. Without room, it waits for its
 // own invocation.
 void take_up(uint slot) {
-    if (hands < kMostAtHand) {
+    if (hands < kMaxAtHand) {
         at_hand[hands] = slot;
         ++hands;
     }

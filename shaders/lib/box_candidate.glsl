@@ -14,14 +14,14 @@ uint words_per_point() { return kDimension; }
 
 // A cell for drawing: its index along each axis, and its width in steps; 0 for 2^32.
 struct DrawCell {
-    uint first[kMostAxes];
-    uint width[kMostAxes];
+    uint first[kMaxAxes];
+    uint width[kMaxAxes];
     uvec2 seed;
 };
 
 DrawCell load_draw_cell(uint cell) {
     DrawCell c;
-    uint at[kMostAxes] = uint[kMostAxes](0u, 0u, 0u, 0u, 0u, 0u);
+    uint at[kMaxAxes] = uint[kMaxAxes](0u, 0u, 0u, 0u, 0u, 0u);
     for (uint i = 0u; i < kDimension; ++i) {
         uvec4 row = row_at(axes, kAxisRows * i + 1u);
         at[i] = cell % row.x;
@@ -57,11 +57,11 @@ uvec3 count_key(uint cell) { return uvec3(load_draw_cell(cell).seed, kCountNumbe
 uvec4 count_words(uvec3 key, uint stage) { return philox(key.xy, uvec4(key.z, stage, 0u, 0u)); }
 
 // Draws a candidate in a cell; `stage` is that of the job.
-uint[kMostAxes] draw_in_cell(uint cell, uint stage, uint number, out uint priority) {
+uint[kMaxAxes] draw_in_cell(uint cell, uint stage, uint number, out uint priority) {
     DrawCell c = load_draw_cell(cell);
     uvec4 a = philox(c.seed, uvec4(number, stage, 0u, 0u));
     uvec4 b = kDimension > 3u ? philox(c.seed, uvec4(number, stage, 1u, 0u)) : uvec4(0u);
-    uint words[kMostAxes] = uint[kMostAxes](a.y, a.z, a.w, b.x, b.y, b.z);
+    uint words[kMaxAxes] = uint[kMaxAxes](a.y, a.z, a.w, b.x, b.y, b.z);
     for (uint i = 0u; i < kDimension; ++i) {
         uint high, low;
         umulExtended(words[i], c.width[i], high, low);
@@ -73,15 +73,15 @@ uint[kMostAxes] draw_in_cell(uint cell, uint stage, uint number, out uint priori
 
 // Draws the candidate with this number in its unit. The words of its sample are its order, its cell, its
 // number there, and its stage.
-uint[kMostAxes] draw_point(Unit unit, uint number, out uvec4 record) {
+uint[kMaxAxes] draw_point(Unit unit, uint number, out uvec4 record) {
     uint stage = push.first_stage + unit.stage;
     uint priority;
-    uint point[kMostAxes] = draw_in_cell(unit.owner, stage, number, priority);
+    uint point[kMaxAxes] = draw_in_cell(unit.owner, stage, number, priority);
     record = uvec4(unit.stage << kPriorityBits | priority, unit.owner, number, stage);
     return point;
 }
 
-uint[kMostAxes] point_of(uvec4 record) {
+uint[kMaxAxes] point_of(uvec4 record) {
     uint priority;
     return draw_in_cell(record.y, record.w, record.z, priority);
 }

@@ -108,7 +108,7 @@ Candidate draw_candidate(uint face, uint stage, uint number) {
     }
     if (kAdaptive) {
         bool kept = propose(c, random_of(face, number, stage, 0u));
-        for (uint proposal = 1u; proposal < kMostProposals && !kept; ++proposal) {
+        for (uint proposal = 1u; proposal < kMaxProposals && !kept; ++proposal) {
             uvec4 random = random_of(face, number, stage, proposal);
             weigh_evenly(c, random);
             kept = propose(c, random);

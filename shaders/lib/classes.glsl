@@ -12,7 +12,7 @@ float class_number(uint i) { return uintBitsToFloat(class_word(i)); }
 
 // Returns the distance below which candidates of two classes conflict.
 float class_distance(uint a, uint b) {
-    return class_number(kClassDistances + kMostClasses * a + b);
+    return class_number(kClassDistances + kMaxClasses * a + b);
 }
 
 // Returns the largest distance of a class.

@@ -7,9 +7,9 @@ struct DiskTotals {
     uint disks;
     uint windows;
     uint tested;
-    uint most_waiting;
-    uint most_vertices;
-    uint most_conflicts;
+    uint max_waiting;
+    uint max_vertices;
+    uint max_conflicts;
 };
 
 const DiskTotals kNoDisks = DiskTotals(0u, 0u, 0u, 0u, 0u, 0u, 0u);
@@ -29,9 +29,9 @@ void sum_disks() {
         atomicAdd(group_disks.disks, own_disks.disks);
         atomicAdd(group_disks.windows, own_disks.windows);
         atomicAdd(group_disks.tested, own_disks.tested);
-        atomicMax(group_disks.most_waiting, own_disks.most_waiting);
-        atomicMax(group_disks.most_vertices, own_disks.most_vertices);
-        atomicMax(group_disks.most_conflicts, own_disks.most_conflicts);
+        atomicMax(group_disks.max_waiting, own_disks.max_waiting);
+        atomicMax(group_disks.max_vertices, own_disks.max_vertices);
+        atomicMax(group_disks.max_conflicts, own_disks.max_conflicts);
     }
     barrier();
     if (is_first && group_disks.steps > 0u) {
@@ -39,9 +39,9 @@ void sum_disks() {
         atomicAdd(control.disks, group_disks.disks);
         GEODISK_ADD_WIDE(control.windows_low, control.windows_high, group_disks.windows)
         GEODISK_ADD_WIDE(control.tested_low, control.tested_high, group_disks.tested)
-        atomicMax(control.most_waiting, group_disks.most_waiting);
-        atomicMax(control.most_vertices, group_disks.most_vertices);
-        atomicMax(control.most_conflicts, group_disks.most_conflicts);
+        atomicMax(control.max_waiting, group_disks.max_waiting);
+        atomicMax(control.max_vertices, group_disks.max_vertices);
+        atomicMax(control.max_conflicts, group_disks.max_conflicts);
     }
 }
 

@@ -10,7 +10,7 @@ GEODISK_BUFFER(kBindCells, coherent, uint, cells);
 
 void visit(Unit unit, uint number) {
     uvec4 record;
-    uint point[kMostAxes] = draw_point(unit, number - unit.first, record);
+    uint point[kMaxAxes] = draw_point(unit, number - unit.first, record);
     atomicAdd(cells[head_of(point) + 1u], 1u);
 }
 

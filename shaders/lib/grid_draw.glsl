@@ -16,7 +16,7 @@ GEODISK_BUFFER(kBindOrders, writeonly, uint, orders);
 
 void visit(Unit unit, uint number) {
     uvec4 record;
-    uint point[kMostAxes] = draw_point(unit, number - unit.first, record);
+    uint point[kMaxAxes] = draw_point(unit, number - unit.first, record);
     uint place = atomicAdd(cells[head_of(point) + 1u], 1u);
     orders[place] = record.x;
     for (uint i = 0u; i < words_per_point(); ++i) {

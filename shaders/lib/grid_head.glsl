@@ -2,7 +2,7 @@
 #ifndef GEODISK_GRID_HEAD_GLSL
 #define GEODISK_GRID_HEAD_GLSL
 
-uint head_of(uint point[kMostAxes]) {
+uint head_of(uint point[kMaxAxes]) {
     uint head = 0u;
     for (uint i = 0u; i < kDimension; ++i) {
         Axis axis = load_axis(i);

@@ -18,7 +18,7 @@ uvec4 sample_at(uint place, uint order) {
 }
 
 void settle_point(uint slot, uvec4 record) {
-    uint point[kMostAxes] = point_of(record);
+    uint point[kMaxAxes] = point_of(record);
     PointWords words = words_of_settled(slot, words_per_point());
     for (uint i = 0u; i < words_per_point(); ++i) {
         points[words.first + i * words.stride] = point[i];

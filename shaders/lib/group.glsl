@@ -72,7 +72,7 @@ void load_group() {
     group.idle_conflicts = e.x, group.active_conflicts = e.y;
     group.conflicts = e.z, group.vertices = e.w;
     group.tested = f.x, group.pushed = f.y;
-    group.most_waiting = f.z, group.longest_chain = f.w;
+    group.max_waiting = f.z, group.longest_chain = f.w;
     group.taken = g.x, group.longest_before = g.y, group.lit_again = g.z;
 }
 
@@ -87,7 +87,7 @@ void save_group() {
     pool[group_slice + 4u] = uvec4(group.idle_conflicts, group.active_conflicts, group.conflicts,
                                    group.vertices);
     pool[group_slice + 5u] =
-        uvec4(group.tested, group.pushed, group.most_waiting, group.longest_chain);
+        uvec4(group.tested, group.pushed, group.max_waiting, group.longest_chain);
     pool[group_slice + 6u] = uvec4(group.taken, group.longest_before, group.lit_again, 0u);
 }
 

@@ -34,7 +34,7 @@ uint first_probe(uint vertex) { return (vertex * 2654435769u) >> 7 & (push.table
 uint find_or_add(uint vertex) {
     uint at = first_probe(vertex);
     uint found = kNoVertex;
-    uint most = min(kMostProbes, push.table_capacity);
+    uint most = min(kMaxProbes, push.table_capacity);
     for (uint probe = 0u; probe < most; ++probe) {
         uint key = own_row_at(pool, table_row(at)).x;
         if (key == 0u) {
@@ -62,7 +62,7 @@ uint find_or_add(uint vertex) {
 uint find(uint vertex) {
     uint at = first_probe(vertex);
     uint found = kNoVertex;
-    uint most = min(kMostProbes, push.table_capacity);
+    uint most = min(kMaxProbes, push.table_capacity);
     for (uint probe = 0u; probe < most; ++probe) {
         uint key = own_row_at(pool, table_row(at)).x;
         found = key == vertex + 1u ? at : kNoVertex;

@@ -4,12 +4,12 @@
 #define GEODISK_JOB_GLSL
 
 #ifdef GEODISK_KEEPS_CONSTANTS
-layout(set = 0, binding = kBindConstants, std140) uniform job_block { JobRec job_given; };
+layout(set = 0, binding = kBindConstants, std140) uniform job_block { JobRec job_existing; };
 JobRec job;
 
 void keep_constants() {
     push = push_given;
-    job = job_given;
+    job = job_existing;
 }
 #else
 layout(set = 0, binding = kBindConstants, std140) uniform job_block { JobRec job; };

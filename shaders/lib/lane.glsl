@@ -49,7 +49,7 @@ void load_lane(uint index) {
     lane.known = e.x, lane.cursor = e.y, lane.cursor_end = e.z, lane.corner_ahead = e.w;
     lane.scan_place = f.x, lane.scan_end = f.y, lane.scan_row = f.z, lane.scan_row_end = f.w;
     lane.scan_columns = g.x, lane.scan_stride = g.y, lane.tested = g.z, lane.pushed = g.w;
-    lane.most_waiting = h.x, lane.longest_chain = h.y, lane.vertices = h.z, lane.remembered = h.w;
+    lane.max_waiting = h.x, lane.longest_chain = h.y, lane.vertices = h.z, lane.remembered = h.w;
     lane.entry_low = int(i.x), lane.entry_high = int(i.y), lane.entry_turn = int(i.z);
     lane.shadow_ahead = i.w;
     lane.trims = j.x, lane.free_place = j.y;
@@ -72,7 +72,7 @@ void save_lane() {
     pool[own_row(5u)] = uvec4(lane.scan_place, lane.scan_end, lane.scan_row, lane.scan_row_end);
     pool[own_row(6u)] = uvec4(lane.scan_columns, lane.scan_stride, lane.tested, lane.pushed);
     pool[own_row(7u)] =
-        uvec4(lane.most_waiting, lane.longest_chain, lane.vertices, lane.remembered);
+        uvec4(lane.max_waiting, lane.longest_chain, lane.vertices, lane.remembered);
     pool[own_row(8u)] =
         uvec4(lane.entry_low, lane.entry_high, lane.entry_turn, lane.shadow_ahead);
     pool[own_row(9u)] =
@@ -83,7 +83,7 @@ void save_lane() {
 
 // Empties the vertices and windows of the lane, for the next disk of its table.
 void begin_windows() {
-    bool wrapped = lane.generation == kMostGenerations;
+    bool wrapped = lane.generation == kMaxGenerations;
     lane.generation = wrapped ? 1u : lane.generation + 1u;
     lane.phase = wrapped ? kPhaseClear : kPhaseSource;
     lane.windows = 0u;
@@ -107,7 +107,7 @@ void begin_disk(uint slot) {
     lane.active_conflicts = 0u;
     lane.tested = 0u;
     lane.pushed = 0u;
-    lane.most_waiting = 0u;
+    lane.max_waiting = 0u;
     lane.longest_chain = 0u;
     lane.trims = 0u;
     begin_windows();

@@ -24,7 +24,7 @@ Hit hit_at(uint index) {
     Hit hit = Hit(row.x, row.y, in_mesh_units(row.z), 0u, 1u);
     if (push.has_names != 0u) {
         hit.first = names[hit.target];
-        hit.end = min(names[hit.target + 1u], hit.first + kMostNames);
+        hit.end = min(names[hit.target + 1u], hit.first + kMaxNames);
     }
     return hit;
 }

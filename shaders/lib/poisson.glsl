@@ -10,7 +10,7 @@ const float kSmallestProbability = 2.3283064e-10; // 2^-32
 const float kSmallestMean = 9.094947e-13; // 2^-40
 // Maximum part of a mean that uses the tail, and maximum of its steps.
 const float kLargestTailMean = 8.0;
-const uint kMostTailSteps = 64u;
+const uint kMaxTailSteps = 64u;
 
 // Returns a number in (0, 1).
 float unit_fraction(uint word) {
@@ -61,7 +61,7 @@ uint poisson_tail(PoissonLaw law, uint word) {
     float p = law.none;
     float any = law.any;
     uint n = 0u;
-    while (fraction < any && p > kSmallestProbability && n < kMostTailSteps) {
+    while (fraction < any && p > kSmallestProbability && n < kMaxTailSteps) {
         ++n;
         precise float times = p * law.rest;
         p = ratio(times, float(n));

@@ -9,7 +9,7 @@ layout(set = 0, binding = kBindWeights, std430) coherent buffer recorded_buffer 
 // Counts a record. Returns its number, to write only where has_room(); the count never wraps.
 uint count_record() {
     uint at = atomicAdd(recorded[0].x, 1u);
-    if (at >= kMostRecorded) {
+    if (at >= kMaxRecorded) {
         atomicAdd(recorded[0].x, 0xffffffffu);
     }
     return at;

@@ -30,7 +30,7 @@ uint due_ranges() { return range_of(control.batch_end - 1u) - control.first_rang
 // Returns the order up to which this many idle candidates are expected, from `first` on. Disks reject
 // candidates whatever their order.
 uint order_after(uint first, float idle) {
-    uint end = (push.stages << kPriorityBits) + job.most_lag;
+    uint end = (push.stages << kPriorityBits) + job.max_lag;
     precise float spacing = float(end - first) / max(float(control.idle), 1.0);
     precise float ahead = idle * spacing;
     float left = float(push.end_order - first);
@@ -38,7 +38,7 @@ uint order_after(uint first, float idle) {
 }
 
 // Returns true if exactly the first candidates that are due get the slots.
-bool is_ranked() { return push.slots <= kMostRanked; }
+bool is_ranked() { return push.slots <= kMaxRanked; }
 
 // Returns the slots for the next batch: all of them if it is for candidates of a single order.
 uint batch_slots() { return control.longest_span == 1u ? push.slots : push.batch; }
@@ -59,7 +59,7 @@ uint end_after(uint first, float idle) {
 // Prepares select for all candidates, to list the idle ones from `first` on again.
 void prepare_list(uint first) {
     uint ranges = list_ranges();
-    float fill = job.most_lag > 0u ? kListFillAlike : kListFill;
+    float fill = job.max_lag > 0u ? kListFillAlike : kListFill;
     precise float filled = fill * float(ranges * kListRange);
     control.list_end = end_after(first, filled);
     control.list_first = first;
@@ -108,7 +108,7 @@ void prepare_select() {
             control.first_range = range_of(first);
             if (is_ranked()) {
                 uint range_end = control.list_first +
-                                 (control.first_range + kMostRangesRanked) * control.list_width;
+                                 (control.first_range + kMaxRangesRanked) * control.list_width;
                 control.batch_end = range_end > first ? min(control.batch_end, range_end)
                                                       : control.batch_end;
             }
@@ -181,7 +181,7 @@ void begin_batch() {
     control.incomplete = used;
     control.undecided = used;
     control.next_ordered = control.accepted;
-    control.iterations += 1u;
+    control.batches += 1u;
     control.groups_x = groups_of_slots(used);
     control.groups_y = 1u;
     control.groups_z = 1u;

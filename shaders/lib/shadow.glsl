@@ -4,7 +4,7 @@
 //
 // How a path came to a vertex through a corner is one word, its arrival: above kBlurBits the angle between
 // the corner's half-edge and the path, in units of 2^-11 radian, or kArrivedAlongPrevious; 0 is along the
-// half-edge. Its error is at most 2^-10 radian, times 8 for each step of the blur; for kMostBlur it is not
+// half-edge. Its error is at most 2^-10 radian, times 8 for each step of the blur; for kMaxBlur it is not
 // bounded. A small error keeps a little more than the shadow. Other angles are in units of the fans, 2^-13
 // radian.
 #ifndef GEODISK_SHADOW_GLSL
@@ -68,11 +68,11 @@ void enter_fan(uint total_angle, uint flags, uint from, uint arrival) {
     bool anywhere = from == kWholeFan || (flags & kFanIrregular) != 0u;
     uint angles = corner_angles(from == kWholeFan ? 0u : from);
     int size = corner_size(angles);
-    int error = int(kAngleTolerance << (3u * (arrival & kMostBlur)));
+    int error = int(kAngleTolerance << (3u * (arrival & kMaxBlur)));
     int own = arrival >= kArrivedAlongPrevious ? size : int(arrival >> kBlurBits) * 4;
     int low = max(own - error, 0);
     int high = min(own + error + 4, size);
-    if ((arrival & kMostBlur) == kMostBlur || low > size) { // Beyond it by rounding.
+    if ((arrival & kMaxBlur) == kMaxBlur || low > size) { // Beyond it by rounding.
         low = 0;
         high = size;
     }

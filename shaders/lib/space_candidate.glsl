@@ -43,13 +43,13 @@ vec3 normal_of(Candidate c) {
 
 uint words_per_point() { return kCurved ? 6u : 3u; }
 
-uint[kMostAxes] point_at(Candidate c) {
+uint[kMaxAxes] point_at(Candidate c) {
     uint weight0 = kOneWeight - c.weight1 - c.weight2;
     uint row = kSpaceRows * c.face;
     uvec4 corner0 = row_at(corners, row);
     uvec4 corner1 = row_at(corners, row + 1u);
     uvec4 corner2 = row_at(corners, row + 2u);
-    uint point[kMostAxes] = uint[kMostAxes](0u, 0u, 0u, 0u, 0u, 0u);
+    uint point[kMaxAxes] = uint[kMaxAxes](0u, 0u, 0u, 0u, 0u, 0u);
     for (uint i = 0u; i < 3u; ++i) {
         uvec2 sum = plus_product(uvec2(0u), weight0, corner0[i]);
         sum = plus_product(sum, c.weight1, corner1[i]);
@@ -66,14 +66,14 @@ uint[kMostAxes] point_at(Candidate c) {
 }
 
 // Draws the candidate with this number in its unit, and the words of its sample.
-uint[kMostAxes] draw_point(Unit unit, uint number, out uvec4 record) {
+uint[kMaxAxes] draw_point(Unit unit, uint number, out uvec4 record) {
     Candidate c = draw_evenly(unit.owner, unit.stage, number);
     record = uvec4(c.order, unit.owner, floatBitsToUint(weight_of(c.weight1)),
                    floatBitsToUint(weight_of(c.weight2)));
     return point_at(c);
 }
 
-uint[kMostAxes] point_of(uvec4 record) {
+uint[kMaxAxes] point_of(uvec4 record) {
     return point_at(Candidate(record.y, record.x, steps_of(uintBitsToFloat(record.z)),
                               steps_of(uintBitsToFloat(record.w))));
 }

@@ -87,7 +87,7 @@ vec2 lit_from_lower(bool turned, vec2 lit) {
 // the kept ones hardly cover new ones.
 bool is_endless() {
     uint vertices = min(lane.vertices, kUntrimmedVertices);
-    return trims() && lane.pushed - lane.trims > kMostWindows + vertices * kMostPerVertex;
+    return trims() && lane.pushed - lane.trims > kMaxWindows + vertices * kMaxPerVertex;
 }
 
 // Returns true if the window just taken is dropped by trimming; otherwise it may be kept from now on.

@@ -25,7 +25,7 @@ VertexRow find_vertex(uint vertex) {
     uvec4 row = uvec4(0u);
     bool found = false;
     // A bound that is not constant prevents unrolling a loop that mostly ends at once.
-    uint most = min(kMostProbes, push.table_capacity);
+    uint most = min(kMaxProbes, push.table_capacity);
     for (uint probe = 0u; probe < most; ++probe) {
         row = own_row_at(pool, vertex_row(at));
         bool empty = (row.x & kTagMask) != vertex_tag() || (row.y & kTagMask) != distance_tag();

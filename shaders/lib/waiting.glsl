@@ -82,7 +82,7 @@ void put_event(uvec4 row) {
     }
     pool[event_row(at)] = row;
     ++lane.event_tail;
-    lane.most_waiting = max(lane.most_waiting, lane.event_tail - lane.event_head);
+    lane.max_waiting = max(lane.max_waiting, lane.event_tail - lane.event_head);
 }
 
 void push_event(uvec4 row) {
@@ -105,7 +105,7 @@ void push_window(float distance, uvec4 row0, uvec4 row1, uint remembered) {
     if (trims()) {
         put_event(uvec4(kWindowWaits, floatBitsToUint(distance), place, lane.pushed));
     } else {
-        lane.most_waiting = max(lane.most_waiting, windows_waiting());
+        lane.max_waiting = max(lane.max_waiting, windows_waiting());
     }
     ++lane.pushed;
 }
@@ -118,7 +118,7 @@ void hold_window(uvec4 row0, uvec4 row1) {
     lane.held_b0 = uintBitsToFloat(row0.w);
     lane.held_b1 = uintBitsToFloat(row1.x);
     lane.held_known = row1.w;
-    lane.most_waiting = max(lane.most_waiting, windows_waiting());
+    lane.max_waiting = max(lane.max_waiting, windows_waiting());
     ++lane.pushed;
 }
 

@@ -10,7 +10,7 @@ GEODISK_BEGIN_SHARED
 GEODISK_CONST uint kAbi = 25u;
 
 // If radii vary: maximum of proposals per candidate. It takes the first that is kept, or the last.
-GEODISK_CONST uint kMostProposals = 1024u;
+GEODISK_CONST uint kMaxProposals = 1024u;
 
 // Angles around a vertex are integers in units of 2^-13 radian, so that comparing them is exact
 // everywhere. A corner's word holds its start in the low half and its size in the high half, with
@@ -25,7 +25,7 @@ GEODISK_CONST uint kFarAngle = 1048576u;      // beyond all angles
 // units of 2^-11 radian, above kBlurBits that tell its error. It is in the word of the path's chain, below
 // that.
 GEODISK_CONST uint kBlurBits = 2u;
-GEODISK_CONST uint kMostBlur = 3u; // the angle is not known
+GEODISK_CONST uint kMaxBlur = 3u; // the angle is not known
 GEODISK_CONST uint kArrivedAlongPrevious = 0x7ffcu; // along the other edge of the corner
 GEODISK_CONST uint kChainShift = 15u;
 GEODISK_CONST uint kArrivalMask = 0x7fffu;
@@ -49,11 +49,11 @@ GEODISK_CONST uint kOverflowWindows = 1u;
 GEODISK_CONST uint kOverflowVertices = 2u;
 GEODISK_CONST uint kOverflowConflicts = 4u;
 // An error: the disk of a sample does not end. A window has crossed kLongestChain edges, or the disk, since it trims, has
-// pushed kMostWindows and kMostPerVertex for each vertex, of up to kUntrimmedVertices.
+// pushed kMaxWindows and kMaxPerVertex for each vertex, of up to kUntrimmedVertices.
 GEODISK_CONST uint kOverflowEndless = 8u;
 GEODISK_CONST uint kLongestChain = 65536u;
-GEODISK_CONST uint kMostWindows = 262144u;
-GEODISK_CONST uint kMostPerVertex = 4096u;
+GEODISK_CONST uint kMaxWindows = 262144u;
+GEODISK_CONST uint kMaxPerVertex = 4096u;
 // Stands for the longest chain of a disk that does not end.
 GEODISK_CONST uint kEndless = 0xffffffffu;
 
@@ -81,8 +81,8 @@ GEODISK_CONST uint kOverflowCandidates = 32u;
 
 // Order: the stage, counted from the first of the chunk, above the bits of the priority.
 GEODISK_CONST uint kPriorityBits = 28u;
-GEODISK_CONST uint kMostStages = 15u;     // maximum of stages of a chunk
-GEODISK_CONST uint kMostDartStages = 4096u; // maximum of stages of darts
+GEODISK_CONST uint kMaxStages = 15u;     // maximum of stages of a chunk
+GEODISK_CONST uint kMaxDartStages = 4096u; // maximum of stages of darts
 GEODISK_CONST uint kAllStages = 0xffffffffu; // no limit of stages
 GEODISK_CONST uint kNoOrder = 0xffffffffu; // above all orders
 
@@ -99,7 +99,7 @@ GEODISK_CONST uint kKeepsOut = 0x80000000u;
 
 // Classes of candidates. The lowest bits of an order are the class, and the bits of a candidate's first
 // weight word from kClassShift on.
-GEODISK_CONST uint kMostClasses = 8u;
+GEODISK_CONST uint kMaxClasses = 8u;
 GEODISK_CONST uint kClassMask = 7u;
 GEODISK_CONST uint kClassShift = 28u;
 // Words of the table of classes: for each class the highest random word of it and those before it; for each
@@ -172,17 +172,17 @@ GEODISK_CONST uint kWholeFan = 0xffffffffu;
 
 // Rows of the vertex table carry the generation of the disk that wrote them, in the two top bits of the
 // vertex and of the distance. The table is therefore emptied only once per this many disks.
-GEODISK_CONST uint kMostGenerations = 15u;
+GEODISK_CONST uint kMaxGenerations = 15u;
 GEODISK_CONST uint kTagShift = 30u;
 GEODISK_CONST uint kTagMask = 0xc0000000u;
 
 // Maximum of iterations of each loop of detect in one trip of its main loop.
-GEODISK_CONST uint kMostProbes = 8u;       // rows of the vertex table
+GEODISK_CONST uint kMaxProbes = 8u;       // rows of the vertex table
 GEODISK_CONST uint kCornersPerTrip = 8u;   // corners of a fan
 GEODISK_CONST uint kScanPerTrip = 32u;     // candidates
 GEODISK_CONST uint kKeptPerEdge = 4u;      // kept windows, see lib/trim.glsl
 // All loops: an event taken and two vertices reached, two children left and pushed, kept windows.
-GEODISK_CONST uint kIterationsPerTrip = 1u + kCornersPerTrip + 3u * kMostProbes + 6u +
+GEODISK_CONST uint kIterationsPerTrip = 1u + kCornersPerTrip + 3u * kMaxProbes + 6u +
                                         (kKeptPerEdge + 1u) + kScanPerTrip;
 // Trips per step. Between steps a lane whose disk is complete takes its next slot.
 GEODISK_CONST uint kTripsPerStep = 16u;
@@ -191,14 +191,14 @@ GEODISK_CONST uint kBlocksPerStep = 16u;   // active conflicts of a complete dis
 GEODISK_CONST uint kIterationsPerStep =
     1u + kClearPerStep + kBlocksPerStep + kTripsPerStep * kIterationsPerTrip;
 // In addition, if events wait in a heap: one taken and two pushed per trip, each through all levels of the
-// largest heap, 2^kMostLevels. If windows wait there too, two more.
-GEODISK_CONST uint kMostLevels = 26u;
-GEODISK_CONST uint kHeapIterationsPerStep = kTripsPerStep * 3u * (kMostLevels + 1u);
-GEODISK_CONST uint kTrimIterationsPerStep = kTripsPerStep * 5u * (kMostLevels + 1u);
+// largest heap, 2^kMaxLevels. If windows wait there too, two more.
+GEODISK_CONST uint kMaxLevels = 26u;
+GEODISK_CONST uint kHeapIterationsPerStep = kTripsPerStep * 3u * (kMaxLevels + 1u);
+GEODISK_CONST uint kTrimIterationsPerStep = kTripsPerStep * 5u * (kMaxLevels + 1u);
 // Disks in waves: what a lane goes through of a phase in a step, and corners of a fan that one event
 // lights. Waves after which their step doubles, in case the first face was far smaller than others.
 GEODISK_CONST uint kItemsPerStep = 32u;
-GEODISK_CONST uint kLeastGroupWindows = 4u; // A disk begins with three.
+GEODISK_CONST uint kMinGroupWindows = 4u; // A disk begins with three.
 GEODISK_CONST uint kCornersPerEvent = 16u;
 GEODISK_CONST uint kWavesPerStep = 256u;
 // A step is halved after so many vertices that were lit again, and a quarter of those in the disk.
@@ -208,17 +208,17 @@ GEODISK_CONST uint kGroupStepCost = 16u;
 // All phases: vertices looked up to propose and to spread, candidates scanned, windows left and pushed,
 // corners lit.
 GEODISK_CONST uint kIterationsPerGroupStep =
-    1u + kItemsPerStep * (2u + (1u + 2u * (kMostProbes + 1u)) + (1u + kScanPerTrip) + 1u +
-                          (1u + 2u * (kMostProbes + 1u) + 5u) + (1u + kCornersPerEvent) + 2u);
+    1u + kItemsPerStep * (2u + (1u + 2u * (kMaxProbes + 1u)) + (1u + kScanPerTrip) + 1u +
+                          (1u + 2u * (kMaxProbes + 1u) + 5u) + (1u + kCornersPerEvent) + 2u);
 // Candidates that an invocation of resolve may hold to decide, and list entries that it visits per
 // dispatch.
-GEODISK_CONST uint kMostAtHand = 8u;
+GEODISK_CONST uint kMaxAtHand = 8u;
 GEODISK_CONST uint kListPerDispatch = 4096u;
 
 // Grids over boxes with cells at least half a minimum distance wide. A disk reaches kGridReach cells on
 // either side of its own, kGridDigits in all. A turn encodes which of them are next, with a digit of
 // kDigitBits per axis.
-GEODISK_CONST uint kMostAxes = 6u;
+GEODISK_CONST uint kMaxAxes = 6u;
 GEODISK_CONST uint kGridReach = 2u;
 GEODISK_CONST uint kGridDigits = 5u;
 GEODISK_CONST uint kDigitBits = 3u;
@@ -228,7 +228,7 @@ GEODISK_CONST uint kPeriodicAxis = 0x80000000u;
 // Candidates tested per trip of grid_detect, at most, after it has found the cells of a row.
 GEODISK_CONST uint kScanPerGridTrip = 16u;
 GEODISK_CONST uint kIterationsPerGridTrip =
-    1u + 3u * kMostAxes + kGridDigits + kScanPerGridTrip * (1u + kMostAxes);
+    1u + 3u * kMaxAxes + kGridDigits + kScanPerGridTrip * (1u + kMaxAxes);
 
 // A disk of v vertices restarts to trim once it has pushed kUntrimmedWindows + v (kUntrimmedEach +
 // kUntrimmedPerRoot sqrt(v)) windows and events, for v up to kUntrimmedVertices. Disks of real meshes mostly
@@ -245,9 +245,9 @@ GEODISK_CONST uint kUntrimmedVertices = 65536u;
 // Edges whose windows a trimming disk keeps, a power of two; kKeptPerEdge windows each.
 GEODISK_CONST uint kKeptEdges = 2048u;
 // Numbers that a target may have: vertices of one place.
-GEODISK_CONST uint kMostNames = 4096u;
+GEODISK_CONST uint kMaxNames = 4096u;
 // Records of disks are counted up to about as many, so that the count never wraps.
-GEODISK_CONST uint kMostRecorded = 0x80000000u;
+GEODISK_CONST uint kMaxRecorded = 0x80000000u;
 GEODISK_CONST uint kWindowWaits = 0xffffffffu; // marks a window in the heap, instead of an event's vertex
 GEODISK_CONST uint kNoWindow = 0xffffffffu;
 
@@ -300,17 +300,17 @@ GEODISK_CONST uint kSelectBlock = 4096u;
 GEODISK_CONST uint kListRange = 256u;
 // Up to this many slots, one work group ranks the candidates and fills batches exactly. Larger batches
 // leave some slots free.
-GEODISK_CONST uint kMostRanked = 128u;
+GEODISK_CONST uint kMaxRanked = 128u;
 // Maximum of ranges that this work group visits.
-GEODISK_CONST uint kMostRangesRanked = 64u;
-GEODISK_CONST uint kMostListed = 0x800000u;
+GEODISK_CONST uint kMaxRangesRanked = 64u;
+GEODISK_CONST uint kMaxListed = 0x800000u;
 
 // Words per work group of the scan: lanes, and words per lane.
 GEODISK_CONST uint kScanLanes = 64u;
 GEODISK_CONST uint kScanPerLane = 32u;
 GEODISK_CONST uint kScanBlock = 2048u;
 // Maximum of subgroups of a work group whose trips are counted separately.
-GEODISK_CONST uint kMostCountedSubgroups = 256u;
+GEODISK_CONST uint kMaxCountedSubgroups = 256u;
 // Sums that a step of the scan over the lanes adds.
 GEODISK_CONST uint kScanTerms = 8u;
 

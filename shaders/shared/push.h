@@ -29,7 +29,7 @@ struct JobRec {
     float base_error;     // bound on the error of a distance, without that of crossings
     uint first_mask_row;  // of the fans: where the mask of faces begins; 0 if all take samples
     uint first_class_row; // of the fans: where the table of classes begins, if there are classes
-    uint most_lag;        // of several surfaces: their largest lag
+    uint max_lag;        // of several surfaces: their largest lag
 };
 
 // One for all kernels but `place`: the plan, which changes when a slice overflows, the chunk, and the
@@ -99,7 +99,7 @@ GEODISK_END_SHARED
 #ifdef __cplusplus
 #include <cstddef>
 namespace geodisk::gpu {
-static_assert(sizeof(JobRec) == 76 && offsetof(JobRec, most_lag) == 72);
+static_assert(sizeof(JobRec) == 76 && offsetof(JobRec, max_lag) == 72);
 // Vulkan promises 128 bytes; a caller's kernels or later ones may want some.
 static_assert(sizeof(Push) <= 96);
 static_assert(sizeof(NeighbourPush) <= sizeof(Push));

@@ -66,7 +66,7 @@ struct SlotRec {
 struct LaneRec {
     uint slot; uint phase; uint idle_conflicts; uint active_conflicts; // kPhase*; conflicts listed so far
     // Windows on the stack; events taken from the ring (0 for the heap) and one past the last; generation
-    // of the disk in the vertex table, 1 to kMostGenerations.
+    // of the disk in the vertex table, 1 to kMaxGenerations.
     uint windows; uint event_head; uint event_tail; uint generation;
     // The operation in flight, in the frame of half_edge: kMode*, the source, the lit interval of a window,
     // the distance of the source, crossings so far.
@@ -79,7 +79,7 @@ struct LaneRec {
     // after the last; cells of a row within reach, and of a whole row.
     uint scan_place; uint scan_end; uint scan_row; uint scan_row_end;
     uint scan_columns; uint scan_stride; uint tested; uint pushed; // candidates; windows and events
-    uint most_waiting; uint longest_chain; uint vertices; // waiting on the stack, or of events
+    uint max_waiting; uint longest_chain; uint vertices; // waiting on the stack, or of events
     uint remembered; // half-edge of a face that the window came through, see turns_back()
     // The fan that is lit: angles that its path came from, and the one all around; the shadow in corner_ahead.
     // See lib/shadow.glsl.
@@ -105,7 +105,7 @@ struct GroupRec {
     // the nearest distance, as a word; waves.
     float end; float step; uint nearest; uint waves;
     uint idle_conflicts; uint active_conflicts; uint conflicts; uint vertices; // so far
-    uint tested; uint pushed; uint most_waiting; uint longest_chain; // as of LaneRec
+    uint tested; uint pushed; uint max_waiting; uint longest_chain; // as of LaneRec
 };
 
 // How the disk of a settled sample lights a face: the half-edge, and 1 if all of the face is lit; the sample;
@@ -170,7 +170,7 @@ struct ControlRec {
     uint settled;          // samples of earlier chunks
     uint ordered;          // accepted ones that are already in final order
     uint next_ordered;     // value of `ordered` for the next time
-    uint iterations;       // batches selected
+    uint batches;          // selected
     uint steps;            // steps of lanes, and continued slots, modulo 2^32
     uint disks;            // disks completed
     uint large_disks;      // disks that lanes have left to work groups
@@ -178,10 +178,10 @@ struct ControlRec {
     uint windows_high;
     uint tested_low;       // candidates tested in completed disks, 64 bits
     uint tested_high;
-    uint most_waiting;
+    uint max_waiting;
     uint longest_chain;    // in disks of accepted candidates
-    uint most_vertices;
-    uint most_conflicts;
+    uint max_vertices;
+    uint max_conflicts;
     uint trips_low;        // trips of all lanes in detect, 64 bits; 0 if not counted
     uint trips_high;
     uint lane_trips_low;   // trips if every lane did as many as the busiest of its subgroup

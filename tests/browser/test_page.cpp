@@ -18,7 +18,7 @@ namespace {
 
 constexpr const char* kMesh = "builtin:torus-knot:16";
 /// Of pictures on the CPU, which a busy machine gives little time.
-constexpr double kLeastFrames = 2;
+constexpr double kMinFrames = 2;
 constexpr double kLongestLoad = 20000; // Milliseconds.
 
 void make_page(const TemporaryFolder& folder, const Arguments& arguments) {
@@ -277,7 +277,7 @@ TEST_CASE("ten thousand samples on seventy thousand triangles open at once and t
                            "  else { done((drawn() - before) / seconds); }"
                            "};"
                            "turn();");
-    CHECK(frames.get<double>() > kLeastFrames);
+    CHECK(frames.get<double>() > kMinFrames);
     MESSAGE("opened in " << load << " ms, turned at " << frames.get<double>()
                          << " frames per second");
     CHECK(part_of(picture_of(browser, folder), is_blue) > 0.05);

@@ -93,7 +93,7 @@ TEST_CASE("cells that cannot be found are refused") {
     geodisk_cell_params params = params_of(points);
     const auto stop = [](void*, const geodisk_progress*) { return 1; };
     CHECK(refusal(mesh.get(), params, stop) == "cancelled");
-    params.most_records = 3;
+    params.max_records = 3;
     CHECK(refusal(mesh.get(), params).find("more than the 3 that are allowed") !=
           std::string::npos);
     params = params_of(points);

@@ -338,7 +338,7 @@ TEST_CASE("a job throws an exact number of darts, and stops at orders") {
     auto params = sized<geodisk_surface_params>();
     REQUIRE(geodisk_distance_for_count(mesh.get(), nullptr, nullptr, 200, &params.min_distance,
                                        nullptr) == GEODISK_OK);
-    params.throws = 3'000;
+    params.darts = 3'000;
     const auto domain = owned<geodisk_domain>([&](auto** made, geodisk_error* error) {
         return geodisk_domain_surface(mesh.get(), &params, made, error);
     });
@@ -385,24 +385,24 @@ TEST_CASE("a job begins with samples that are given") {
     const std::uint32_t count = recording.run();
     auto given =
         recording.read<geodisk_sample_record>(recording.buffer(GEODISK_SAMPLES_BUFFER), count / 2);
-    const auto set_settled = [&](std::size_t size) {
-        REQUIRE(geodisk_job_set_settled(recording.job(), given.data(), size, nullptr) ==
+    const auto set_existing = [&](std::size_t size) {
+        REQUIRE(geodisk_job_set_existing(recording.job(), given.data(), size, nullptr) ==
                 GEODISK_OK);
         CHECK(recording.need(GEODISK_SAMPLES_BUFFER).upload_bytes ==
               size * sizeof(geodisk_sample_record));
         recording.workshop().start_over();
     };
-    set_settled(given.size());
+    set_existing(given.size());
     recording.bind_all();
     CHECK(recording.placed(recording.run()) == set);
-    set_settled(0);
+    set_existing(0);
     recording.bind_all();
     CHECK(recording.placed(recording.run()) == set);
 
-    CHECK(geodisk_job_set_settled(recording.job(), nullptr, 1, nullptr) ==
+    CHECK(geodisk_job_set_existing(recording.job(), nullptr, 1, nullptr) ==
           GEODISK_INVALID_ARGUMENT);
     given[1].face = 1'000'000;
-    set_settled(2);
+    set_existing(2);
     std::vector<geodisk_buffer_range> ranges(GEODISK_BUFFERS);
     WorkspaceNeeds needs;
     for (std::uint32_t i = 0; i < GEODISK_BUFFERS; ++i) {
@@ -412,7 +412,7 @@ TEST_CASE("a job begins with samples that are given") {
     std::transform(workspace.begin(), workspace.end(), ranges.begin(), given_range);
     auto error = sized<geodisk_error>();
     CHECK(geodisk_job_bind(recording.job(), ranges.data(), &error) == GEODISK_INVALID_ARGUMENT);
-    CHECK(std::string(error.message).find("settled sample 1 is in face") != std::string::npos);
+    CHECK(std::string(error.message).find("existing sample 1 is in face") != std::string::npos);
 }
 
 TEST_CASE("buffers of a job that become too small are replaced") {

@@ -249,7 +249,7 @@ TEST_CASE("neighbours that cannot be found are refused") {
     params.point_count = 2;
     CHECK(refusal(mesh.get(), params) == "params->points is NULL");
     params = params_within(1);
-    params.most_pairs = 3;
+    params.max_pairs = 3;
     CHECK(refusal(mesh.get(), params).find("pairs are to be expected") != std::string::npos);
     CHECK(refusal(nullptr, params_within(1)) == "mesh or neighbours is NULL");
     CHECK(refusal(mesh.get(), params_within(1), [](void*, const geodisk_progress*) { return 1; }) ==

@@ -162,10 +162,10 @@ TEST_CASE("a request that contradicts itself is refused, and the sampler stays f
     CubeRequest cube;
     cube.request.count = 50;
     cube.request.is_exact = 1;
-    cube.params.throws = 100;
-    CHECK(cube.refusal() == "is_exact and throws exclude each other: darts stop at exactly "
+    cube.params.darts = 100;
+    CHECK(cube.refusal() == "is_exact and darts exclude each other: darts stop at exactly "
                             "stop_count samples");
-    cube.params.throws = 0;
+    cube.params.darts = 0;
     cube.request.order = 7;
     CHECK(cube.refusal() == "request->order is none of the three");
     cube.request.order = GEODISK_ORDER_DART;

@@ -158,8 +158,8 @@ TEST_CASE("features are sampled before the faces") {
     }
     CHECK(of_corners == 8);
     CHECK(given.size() > 60);
-    params.given = given.data();
-    params.given_count = given.size();
+    params.existing = given.data();
+    params.existing_count = given.size();
     const auto faces = owned<geodisk_domain>([&](auto made, auto error) {
         return geodisk_domain_surface(mesh.get(), &params, made, error);
     });
@@ -190,8 +190,8 @@ TEST_CASE("samples that are given come first, and are told") {
     auto params = sized<geodisk_surface_params>();
     params.min_distance = 0.2;
     params.seed = 3;
-    params.given = given.data();
-    params.given_count = given.size();
+    params.existing = given.data();
+    params.existing_count = given.size();
     const auto domain = owned<geodisk_domain>([&](auto made, auto error) {
         return geodisk_domain_surface(mesh.get(), &params, made, error);
     });
@@ -200,7 +200,7 @@ TEST_CASE("samples that are given come first, and are told") {
     CHECK(placed(samples.get()) == all);
     auto report = sized<geodisk_report>();
     REQUIRE(geodisk_samples_report(samples.get(), &report, nullptr) == GEODISK_OK);
-    CHECK(report.given == 20);
+    CHECK(report.existing == 20);
     const auto job = owned<geodisk_job>([&](auto made, auto error) {
         return geodisk_job_create(shared_device(), domain.get(), nullptr, made, error);
     });
@@ -210,7 +210,7 @@ TEST_CASE("samples that are given come first, and are told") {
 
     const geodisk_surface_point center{all.faces[0], {1, 0, 0}};
     const double radius = 1;
-    params.given_count = 0;
+    params.existing_count = 0;
     params.avoid = &center;
     params.avoid_radii = &radius;
     params.avoid_count = 1;
@@ -223,8 +223,8 @@ TEST_CASE("samples that are given come first, and are told") {
     CHECK(geodisk_domain_surface(mesh.get(), &params, &no_radii, nullptr) ==
           GEODISK_INVALID_ARGUMENT);
     params.avoid_count = 0;
-    params.given_count = 20;
-    params.given = nullptr;
+    params.existing_count = 20;
+    params.existing = nullptr;
     geodisk_domain* none = nullptr;
     CHECK(geodisk_domain_surface(mesh.get(), &params, &none, nullptr) == GEODISK_INVALID_ARGUMENT);
     CHECK(none == nullptr);
@@ -247,7 +247,7 @@ TEST_CASE("a maximal set is reported") {
     CHECK(report.largest_gap == doctest::Approx(0.3 * (1 + 2 * report.guard)));
     const auto pool = sample(shared_sampler(), surface_of(mesh.get(), 0.3, 0).get());
     CHECK(geodisk_samples_count(samples.get()) > geodisk_samples_count(pool.get()));
-    params.throws = 10;
+    params.darts = 10;
     geodisk_domain* none = nullptr;
     CHECK(geodisk_domain_surface(mesh.get(), &params, &none, nullptr) == GEODISK_INVALID_ARGUMENT);
 }

@@ -118,7 +118,7 @@ TEST_CASE("painted masks and radii are followed") {
     CHECK(report.missing == 0);
 }
 
-TEST_CASE("an edited mesh is found out about, and given samples are followed") {
+TEST_CASE("an edited mesh is found out about, and existing samples are followed") {
     TestMesh shape = builtin("torus-knot", 8);
     const auto before = mesh_of(shape);
     const auto params = job_at(0.15);
@@ -127,8 +127,8 @@ TEST_CASE("an edited mesh is found out about, and given samples are followed") {
     const auto after = mesh_of(shape);
     const geodisk_surface_point given{200, {0.5f, 0.25f, 0.25f}};
     auto edited = params;
-    edited.given = &given;
-    edited.given_count = 1;
+    edited.existing = &given;
+    edited.existing_count = 1;
     const std::vector<geodisk_surface_point> points = points_of(samples);
     const auto updater = owned<geodisk_updater>([&](geodisk_updater** made, geodisk_error* error) {
         return geodisk_updater_create_edited(before.get(), &params, after.get(), &edited, nullptr,

@@ -27,8 +27,8 @@ Setting bench() {
 
 void check_row(const Json& row) {
     for (const char* const key :
-         {"triangles", "samples", "candidates", "disks", "windows", "tested", "iterations",
-          "dispatches", "regrown", "starts", "most_waiting", "longest_chain", "device_bytes"}) {
+         {"triangles", "samples", "candidates", "disks", "windows", "tested", "batches",
+          "dispatches", "regrown", "starts", "max_waiting", "longest_chain", "device_bytes"}) {
         INFO(key);
         CHECK(row[key].is_number_unsigned());
     }

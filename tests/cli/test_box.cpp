@@ -204,10 +204,10 @@ TEST_CASE("box: darts until there are so many samples, or so many darts were thr
     };
     const auto [all, of_all] = darts({"--throws", "20000"});
     CHECK(of_all["method"] == "darts");
-    CHECK(of_all["throws"] == 20000);
-    CHECK(of_all["stopped_by"] == "throws");
+    CHECK(of_all["darts"] == 20000);
+    CHECK(of_all["stopped_by"] == "darts");
     CHECK(of_all["pool_ratio"].is_null());
-    CHECK(contains(bytes_of(folder / "a.csv"), "# throws: 20000\n"));
+    CHECK(contains(bytes_of(folder / "a.csv"), "# darts: 20000\n"));
     const auto [some, of_some] = darts({"--count", "500"});
     CHECK(of_some["stopped_by"] == "count");
     REQUIRE(some.size() == 500);

@@ -72,8 +72,8 @@ TEST_CASE("existing samples count towards an exact count") {
     sample(folder, "b.ply", {"--count", "150", "--exact", "--existing", "a.ply"});
     const tools::SampleFile all = tools::read_samples(folder / "b.ply");
     CHECK(all.rows.size() == 150);
-    CHECK(all.extra_values("given")[99] == 1);
-    CHECK(all.extra_values("given")[100] == 0);
+    CHECK(all.extra_values("existing")[99] == 1);
+    CHECK(all.extra_values("existing")[100] == 0);
     CHECK(run(folder, {"verify", kCountsMesh, "b.ply"}).status == 0);
 }
 
@@ -173,8 +173,8 @@ TEST_CASE("a progressive order has counts, existing samples and levels of one's 
     sample(folder, "b.csv",
            {"-n", "600", "--order", "progressive", "--level-factor", "1.5", "--existing", "a.csv"});
     const tools::SampleFile more = tools::read_samples(folder / "b.csv");
-    CHECK(more.extra_values("given")[299] == 1);
-    CHECK(more.extra_values("given")[300] == 0);
+    CHECK(more.extra_values("existing")[299] == 1);
+    CHECK(more.extra_values("existing")[300] == 0);
     CHECK(more.extra_values("level")[299] == 0);
     CHECK(run(folder, {"verify", kCountsMesh, "b.csv"}).status == 0);
     // One level is dart order.

@@ -76,16 +76,16 @@ TEST_CASE("darts stop at their number, and are a pool if they are as many") {
         thrown(folder, sample_darts({"-d", "0.2", "--method", "psdp", "--pool-ratio", "5"}));
     CHECK(pool.report["method"] == "pool");
     CHECK(pool.report["stopped_by"] == "pool");
-    CHECK(pool.report["throws"].is_null());
+    CHECK(pool.report["darts"].is_null());
     const auto size = pool.report["candidates"].get<std::uint64_t>();
     const Throw set = thrown(folder, darts({"-d", "0.2", "--darts", std::to_string(size)}));
     CHECK(places(set) == places(pool));
     CHECK(set.report["method"] == "darts");
-    CHECK(set.report["throws"] == size);
-    CHECK(set.report["stopped_by"] == "throws");
+    CHECK(set.report["darts"] == size);
+    CHECK(set.report["stopped_by"] == "darts");
     CHECK(set.report["chunks"] == 1);
     CHECK(set.report["pool_ratio"].is_null());
-    CHECK(has_entry(set.header, "throws", std::to_string(size)));
+    CHECK(has_entry(set.header, "darts", std::to_string(size)));
     CHECK(contains(set.summary, "darts         "));
 
     const Throw more = thrown(folder, darts({"-r", "0.1", "--throws", "2e5"}));
@@ -104,9 +104,9 @@ TEST_CASE("darts stop at exactly the count, with the first samples") {
         CHECK(places(set) == Places(all.begin(), all.begin() + 300));
         CHECK(set.report["stopped_by"] == "count");
         // Just as many darts as that took: without the last there is one sample fewer.
-        const auto throws = set.report["throws"].get<std::uint64_t>();
+        const auto had = set.report["darts"].get<std::uint64_t>();
         for (const std::uint64_t fewer : {0u, 1u}) {
-            const std::string darts_left = std::to_string(throws - fewer);
+            const std::string darts_left = std::to_string(had - fewer);
             CHECK(thrown(folder, darts({"-d", "0.1", "--throws", darts_left})).rows.size() ==
                   300 - fewer);
         }
@@ -119,7 +119,7 @@ TEST_CASE("darts that run out before the count are told, or an error where none 
     const TemporaryFolder folder;
     const Throw set = thrown(folder, darts({"-d", "0.5", "--count", "5000", "--throws", "300"}));
     CHECK(set.rows.size() < 100);
-    CHECK(set.report["stopped_by"] == "throws");
+    CHECK(set.report["stopped_by"] == "darts");
     CHECK(contains(set.summary, " of 5,000 asked for, when the darts ran out, rho"));
     CHECK(set.report["warnings"].back()["kind"] == "count_missed");
     CHECK(contains(set.report["warnings"].back()["message"].get<std::string>(),

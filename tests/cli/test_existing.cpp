@@ -25,7 +25,7 @@ bool same(const tools::SampleRow& a, const tools::SampleRow& b) {
 std::size_t check_kept(const TemporaryFolder& folder) {
     const tools::SampleFile given = tools::read_samples(folder / "a.ply");
     const tools::SampleFile all = tools::read_samples(folder / "b.ply");
-    const auto marks = all.extra_values("given");
+    const auto marks = all.extra_values("existing");
     REQUIRE(marks.size() == all.rows.size());
     REQUIRE(all.rows.size() > given.rows.size());
     for (std::size_t i = 0; i < all.rows.size(); ++i) {
@@ -46,14 +46,14 @@ TEST_CASE("existing samples are kept and marked, and new ones keep the distance"
     REQUIRE(made.status == 0);
     CHECK(made.err.empty());
     const std::size_t given = check_kept(folder);
-    CHECK(contains(made.out, "given         " + std::to_string(given) + " of them\n"));
-    CHECK(json_in(folder, "b.json")["given"]["samples"] == given);
-    CHECK(json_in(folder, "b.json")["given"]["close_pairs"] == 0);
+    CHECK(contains(made.out, "existing      " + std::to_string(given) + " of them\n"));
+    CHECK(json_in(folder, "b.json")["existing"]["samples"] == given);
+    CHECK(json_in(folder, "b.json")["existing"]["close_pairs"] == 0);
     const Outcome verified = run(folder, {"verify", kExistingMesh, "b.ply"});
     INFO(verified.out, verified.err);
     CHECK(verified.status == 0);
-    CHECK(contains(verified.out, "given         " + std::to_string(given) + " of them\n"));
-    CHECK(contains(verified.out, " of the minimum distance, pairs of given samples aside\n"));
+    CHECK(contains(verified.out, "existing      " + std::to_string(given) + " of them\n"));
+    CHECK(contains(verified.out, " of the minimum distance, pairs of existing samples aside\n"));
     const tools::SampleFile all = tools::read_samples(folder / "b.ply");
     REQUIRE(all.header.find("existing") != nullptr);
     CHECK(*all.header.find("existing") == "a.ply");
@@ -63,7 +63,8 @@ TEST_CASE("existing samples are kept and marked, and new ones keep the distance"
         REQUIRE(run(folder, {"sample", kExistingMesh, "-o", output, "-n", "400", "--seed", "2",
                              "--existing", "a.ply"})
                     .status == 0);
-        CHECK(tools::read_samples(folder / output).extra_values("given").size() == all.rows.size());
+        CHECK(tools::read_samples(folder / output).extra_values("existing").size() ==
+              all.rows.size());
     }
     for (const std::string output : {"b.xyz", "b.npz", "b.glb"}) {
         CHECK(
@@ -105,15 +106,15 @@ TEST_CASE("points of other programs are put on the mesh, and pairs too close are
                              "are kept. The closest are samples 1 and 2, at 0.0001"));
     CHECK(contains(made.out, "3 of them; 1 pair among these too close\n"));
     const Json told = json_in(folder, "b.json");
-    CHECK(told["given"]["close_pairs"] == 1);
-    CHECK(told["given"]["closest"]["samples"] == Json({1, 2}));
+    CHECK(told["existing"]["close_pairs"] == 1);
+    CHECK(told["existing"]["closest"]["samples"] == Json({1, 2}));
     const Outcome verified =
         run(folder, {"verify", "builtin:plate:4", "b.ply", "--json", "v.json"});
     INFO(verified.out, verified.err);
     CHECK(verified.status == 0);
     CHECK(contains(verified.out, "violations    0\n"));
     CHECK(contains(verified.out, "3 of them; 1 pair among these too close, no violation\n"));
-    CHECK(json_in(folder, "v.json")["given"]["violations"]["pairs"] == 1);
+    CHECK(json_in(folder, "v.json")["existing"]["violations"]["pairs"] == 1);
 
     // A new sample that is too close to an existing one is a violation all the same.
     tools::SampleFile moved = tools::read_samples(folder / "b.ply");
@@ -135,7 +136,7 @@ TEST_CASE("of existing samples far closer than the distance some pairs count, an
     INFO(made.out, made.err);
     REQUIRE(made.status == 0);
     CHECK(contains(made.err, "a.csv: at least "));
-    const Json given = json_in(folder, "b.json")["given"];
+    const Json given = json_in(folder, "b.json")["existing"];
     CHECK(given["complete"] == false);
     CHECK(given["close_pairs"] > 0);
 
@@ -157,16 +158,16 @@ TEST_CASE("of existing samples far closer than the distance some pairs count, an
     INFO(verified.out, verified.err);
     CHECK(verified.status == 0);
     CHECK(contains(verified.out, " of them; at least "));
-    CHECK(json_in(folder, "v.json")["given"]["violations"]["complete"] == false);
+    CHECK(json_in(folder, "v.json")["existing"]["violations"]["complete"] == false);
 }
 
-TEST_CASE("a column given of another program marks nothing") {
+TEST_CASE("a column existing of another program marks nothing") {
     const TemporaryFolder folder;
-    folder.write("points.csv", "x,y,z,given\n0.5,0.25,0.005,1\n0.5,0.26,0.005,7\n");
+    folder.write("points.csv", "x,y,z,existing\n0.5,0.25,0.005,1\n0.5,0.26,0.005,7\n");
     const Outcome verified = run(folder, {"verify", "builtin:plate:4", "points.csv", "-d", "0.1"});
     CHECK(verified.status == 1);
     CHECK(contains(verified.err, "points.csv: ignoring the column: sample 1 has no 0 or 1 in the "
-                                 "column given\n"));
+                                 "column existing\n"));
     CHECK(contains(verified.out, " of the minimum distance\n"));
 }
 
@@ -179,8 +180,8 @@ TEST_CASE("a column that the header names must have its numbers") {
         check_fails(folder, 3, "points.csv: sample 1 has no " + part + " in the column " + column,
                     {"verify", "builtin:plate:4", "points.csv"});
     };
-    fails("given", "existing: a.csv", "3", "0 or 1");
-    fails("given", "existing: a.csv", "0.5", "0 or 1");
+    fails("existing", "existing: a.csv", "3", "0 or 1");
+    fails("existing", "existing: a.csv", "0.5", "0 or 1");
     fails("class", "classes: 2", "-1", "whole number");
     fails("class", "classes: 2", "1.5", "whole number");
     fails("class", "classes: 2", "x", "whole number");
@@ -200,7 +201,7 @@ TEST_CASE("points are avoided, each by a radius of its own, and verified") {
     CHECK(contains(made.out, "avoided       2 points\n"));
     CHECK(json_in(folder, "b.json")["avoided"] == 2);
     const tools::SampleFile all = tools::read_samples(folder / "b.ply");
-    CHECK(all.extra_values("given").empty());
+    CHECK(all.extra_values("existing").empty());
     CHECK(*all.header.find("avoid") == "wells.csv:Size");
     for (const tools::SampleRow& row : all.rows) {
         const bool is_above = row.position[2] > 0.004;

@@ -66,7 +66,7 @@ TEST_CASE("samples in farthest-point order are those of dart order, with their c
     CHECK(report["farthest"]["samples"] == after.size());
     CHECK(report["farthest"]["kept"] == after.size());
     CHECK(report["farthest"]["left_out_within"] == 0);
-    CHECK(report["farthest"]["least_cover"].get<double>() == cover.back());
+    CHECK(report["farthest"]["min_cover"].get<double>() == cover.back());
     CHECK(report["seconds"]["order"].get<double>() > 0);
     CHECK(run(folder, {"verify", kFarthestMesh, "far.csv"}).status == 0); // Also the classes.
 }
@@ -130,7 +130,7 @@ TEST_CASE("columns that a format lacks are left out with a warning") {
     warns("cover", "a.xyz", {"sample", kFarthestMesh, "-n", "50", "--order", "farthest"});
     warns("cover", "b.obj",
           {"transfer", "dart.ply", kFarthestMesh, kFarthestMesh, "--order", "farthest"});
-    warns("given", "c.xyz", {"sample", kFarthestMesh, "-n", "600", "--existing", "dart.ply"});
+    warns("existing", "c.xyz", {"sample", kFarthestMesh, "-n", "600", "--existing", "dart.ply"});
     warns("feature", "d.xyz", {"sample", kFarthestMesh, "-n", "50", "--features", "30"});
     warns("level", "e.xyz", {"sample", kFarthestMesh, "-n", "50", "--order", "progressive"});
     CHECK_FALSE(

@@ -68,9 +68,9 @@ TEST_CASE("the report has every documented key") {
     const Json report = Json::parse(bytes_of(folder / "a.json"));
     check_mesh(report["mesh"]);
     check_seconds(report["seconds"]);
-    for (const char* const key : {"seed", "candidates", "samples", "iterations", "dispatches",
-                                  "disks", "windows", "most_waiting", "regrown", "starts",
-                                  "device_bytes", "tested", "longest_chain", "chunks", "runs"}) {
+    for (const char* const key : {"seed", "candidates", "samples", "batches", "dispatches", "disks",
+                                  "windows", "max_waiting", "regrown", "starts", "device_bytes",
+                                  "tested", "longest_chain", "chunks", "runs"}) {
         INFO(key);
         CHECK(report[key].is_number_unsigned());
     }

@@ -69,7 +69,7 @@ TEST_SUITE("advance") {
     TEST_CASE("larger slices, lists and buffers of samples") {
         const Knot knot;
         RunPlan plan;
-        plan.slots = kLeastSlots;
+        plan.slots = kMinSlots;
         plan.sample_capacity = 20;
         DeviceRun run(knot.mesh, knot.params, plan);
         run.set_plan(tightened(run.plan()));

@@ -194,7 +194,7 @@ TEST_SUITE("borrowed") {
         AppDevice app;
         SamplerOptions options;
         options.ahead = Ahead::surface;
-        options.threads.most_threads = 8;
+        options.threads.max_threads = 8;
         {
             Runner runner = expect(Runner::create(
                 std::make_shared<const Sampler>(expect(Sampler::create(app.refs(), options))),

@@ -17,7 +17,7 @@ namespace {
 PFN_vkGetInstanceProcAddr real = nullptr;
 PFN_vkGetPhysicalDeviceProperties2 real_properties = nullptr;
 PFN_vkGetPhysicalDeviceMemoryProperties2 real_memory = nullptr;
-VkDeviceSize most_at_once = 0; ///< Unless 0.
+VkDeviceSize max_at_once = 0; ///< Unless 0.
 VkDeviceSize free_bytes = 0;
 
 /// The struct of a chain with this type.
@@ -35,8 +35,8 @@ VKAPI_ATTR void VKAPI_CALL small_allocations(VkPhysicalDevice device,
     real_properties(device, properties);
     auto* const limits = find<VkPhysicalDeviceMaintenance3Properties>(
         properties->pNext, VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_3_PROPERTIES);
-    if (limits != nullptr && most_at_once != 0) {
-        limits->maxMemoryAllocationSize = most_at_once;
+    if (limits != nullptr && max_at_once != 0) {
+        limits->maxMemoryAllocationSize = max_at_once;
     }
 }
 
@@ -89,18 +89,18 @@ struct LimitedJob {
 TEST_SUITE("device memory") {
     TEST_CASE("no allocation is larger than the device allows") {
         LimitedJob job;
-        most_at_once = 0;
+        max_at_once = 0;
         const SampleSet wanted = expect(job.run());
         const VkDeviceSize usual = job.arena.largest;
         for (const VkDeviceSize most : {usual - 1, usual / 8 * 7}) {
             CAPTURE(most);
-            most_at_once = most;
+            max_at_once = most;
             CHECK(points_of(expect(job.run())) == points_of(wanted));
             CHECK(job.arena.largest <= most);
         }
-        most_at_once = VkDeviceSize{100} << 10;
+        max_at_once = VkDeviceSize{100} << 10;
         const auto none = job.run();
-        most_at_once = 0;
+        max_at_once = 0;
         REQUIRE_FALSE(none);
         CHECK(none.error().status == Status::out_of_device_memory);
         CHECK(none.error().message.find("but the device allocates at most 102400 at once") !=

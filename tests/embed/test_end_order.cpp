@@ -144,7 +144,7 @@ TEST_SUITE("end order") {
         const PreparedMesh mesh = prepared(builtin("torus-knot", 8));
         const SampleParams params = params_for(mesh, 100);
         for (const std::uint32_t stages : {1u, 3u, 4u}) {
-            for (const std::uint32_t slots : {kLeastSlots, 200u}) {
+            for (const std::uint32_t slots : {kMinSlots, 200u}) {
                 CAPTURE(stages);
                 CAPTURE(slots);
                 DeviceRun run(mesh, params, small_plan(slots, stages));
@@ -185,7 +185,7 @@ TEST_SUITE("end order") {
     TEST_CASE("a run of darts and one that stops at a count pause and go on") {
         const PreparedMesh mesh = prepared(builtin("torus-knot", 8));
         SampleParams params = params_for(mesh, 100);
-        params.throws = 3'000;
+        params.darts = 3'000;
         DeviceRun darts(mesh, params, small_plan(40, 1));
         check_stops(darts);
         CHECK(ready_points(darts) == float_set(mesh, params, darts.plan().error_bound));
@@ -201,14 +201,14 @@ TEST_SUITE("end order") {
     TEST_CASE("a job throws an exact number of darts, and tells how many a count took") {
         const PreparedMesh mesh = prepared(builtin("torus-knot", 8));
         Runner runner = expect(Runner::create(shared_context().device(), shared_context().queue()));
-        for (const std::uint32_t throws : {1u, 700u, 5'000u}) {
-            CAPTURE(throws);
+        for (const std::uint32_t darts : {1u, 700u, 5'000u}) {
+            CAPTURE(darts);
             SampleParams params = params_for(mesh, 100);
-            params.throws = throws;
+            params.darts = darts;
             DeviceRun run(mesh, params);
             const Advice last = run.follow_all();
             REQUIRE(last.next == Next::complete);
-            CHECK(last.candidates == throws);
+            CHECK(last.candidates == darts);
             CHECK(ready_points(run) == float_set(mesh, params, run.plan().error_bound));
 
             params.stop_count = 20;
@@ -234,7 +234,7 @@ TEST_SUITE("end order") {
         {
             const Sampler sampler = expect(Sampler::create(context.device()));
             Task knot = task(sampler, "torus-knot", 8, 200);
-            knot.params.throws = 4'000;
+            knot.params.darts = 4'000;
             const RunPlan plan = expect(sampler.plan_run(knot.domain(), Workshop::kPoolBytes));
             knot.wanted = float_set(knot.mesh, knot.params, plan.error_bound);
             Workshop workshop(context);

@@ -22,7 +22,7 @@
 namespace geodisk::test {
 namespace {
 
-constexpr std::uint32_t kMostCalls = 20'000;
+constexpr std::uint32_t kMaxCallsOfSearch = 20'000;
 
 struct SearchBench : Workshop {
     explicit SearchBench(const Context& on)
@@ -69,7 +69,7 @@ std::vector<T> words(SearchBench& bench, VkBuffer buffer, VkDeviceSize offset, s
 std::uint32_t record_all(SearchBench& bench, FrameNeighbours& frames) {
     std::uint32_t calls = 0;
     for (bool is_complete = false; !is_complete; ++calls) {
-        REQUIRE(calls < kMostCalls);
+        REQUIRE(calls < kMaxCallsOfSearch);
         bench.frame(calls, [&](VkCommandBuffer commands) {
             is_complete = expect(frames.record(commands));
         });
@@ -462,13 +462,13 @@ TEST_SUITE("frame neighbours") {
             REQUIRE_FALSE(recorded);
             CHECK(recorded.error().message ==
                   "the buffers hold no mesh: a command buffer with uploads was not submitted");
-            subject.query.most_pairs = 100; // Seen before the search.
+            subject.query.max_pairs = 100; // Seen before the search.
             const auto seen = FrameNeighbours::create(bench.sampler, subject.mesh, subject.query);
             REQUIRE_FALSE(seen);
             CHECK(seen.error().status == Status::job_too_large);
             // Along edges a few seem too far, so that so many are seen only by the search.
-            subject.query.most_pairs = NeighbourQuery().most_pairs;
-            subject.query.most_pairs = bench.wanted(subject.mesh, subject.query).indices.size() - 1;
+            subject.query.max_pairs = NeighbourQuery().max_pairs;
+            subject.query.max_pairs = bench.wanted(subject.mesh, subject.query).indices.size() - 1;
             FrameNeighbours many = bench.frames(subject.mesh, subject.query);
             Runner runner = expect(Runner::create(bench.sampler, context.queue()));
             const auto done = many.find_and_wait(runner);

@@ -118,7 +118,7 @@ void check_all(Workshop& workshop, const FrameSampler& frames, const SampledSubj
 } // namespace
 
 TEST_SUITE("frame sampler") {
-    TEST_CASE("given samples are drawn first, and points to avoid are not") {
+    TEST_CASE("existing samples are drawn first, and points to avoid are not") {
         const Context context = validated_context();
         {
             const auto sampler = shared_sampler(context);
@@ -128,7 +128,7 @@ TEST_SUITE("frame sampler") {
             const std::vector<KeepOut> avoid{
                 {{700, {0.5f, 0.25f, 0.25f}}, 2 * knot.params.min_distance},
                 {{20, {1, 0, 0}}, 0.5 * knot.params.min_distance}};
-            knot.params.given = given;
+            knot.params.existing = given;
             knot.params.avoid = avoid;
             knot.domain = expect(Domain::surface(knot.mesh, knot.params));
             knot.wanted =

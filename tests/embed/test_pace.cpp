@@ -281,7 +281,7 @@ TEST_SUITE("pace") {
         CHECK(points_of(set) == points_of(expect(fast.sample_and_wait(mesh, params))));
         const Domain domain = expect(Domain::box(box));
         const SampleSet points = expect(slow.sample_and_wait(domain));
-        CHECK(points.report.most_conflicts > 5 * gpu::kListPerDispatch);
+        CHECK(points.report.max_conflicts > 5 * gpu::kListPerDispatch);
         CHECK(points.points == expect(fast.sample_and_wait(domain)).points);
     }
 
@@ -303,7 +303,7 @@ TEST_SUITE("pace") {
     TEST_CASE("a device that does nothing is an error, not an endless loop") {
         Bench bench;
         RunnerOptions options;
-        options.plan.slots = kLeastSlots;
+        options.plan.slots = kMinSlots;
         Runner runner = expect(bench.create(options));
         std::vector<std::byte> first;
         bench.spy.on_done = [&](std::span<const std::span<std::byte>> mapped) {

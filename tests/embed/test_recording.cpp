@@ -315,7 +315,7 @@ TEST_SUITE("recording") {
         const SampleParams params = params_for(mesh, 60);
         RunPlan plan;
         plan.dispatch_items = 500;
-        plan.slots = kLeastSlots;
+        plan.slots = kMinSlots;
         DeviceRun run(mesh, params, plan);
         for (const std::uint32_t dispatches : {0u, 1u, 2u, 5u, 11u}) {
             CAPTURE(dispatches);
@@ -342,7 +342,7 @@ TEST_SUITE("recording") {
         RunPlan plan;
         check_finishes(plan);
         check_finishes_in_box(plan);
-        plan.slots = kLeastSlots;
+        plan.slots = kMinSlots;
         check_finishes(plan);
         check_finishes_in_box(plan);
         plan.stages = 1;

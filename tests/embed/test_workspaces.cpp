@@ -131,7 +131,7 @@ TEST_SUITE("workspaces") {
         check(&RunPlan::lanes, 0);
         check(&RunPlan::detect_passes, 0);
         check(&RunPlan::detect_passes, 5000);
-        check(&RunPlan::slots, kLeastSlots - 1);
+        check(&RunPlan::slots, kMinSlots - 1);
         check(&RunPlan::sample_capacity, 0);
         check(&RunPlan::sample_capacity, good.plan().slots);
         check(&RunPlan::stages, 0);

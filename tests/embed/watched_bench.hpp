@@ -21,8 +21,8 @@ namespace geodisk::test {
 inline RunnerOptions growing() {
     RunnerOptions options;
     options.plan.stages = 1;
-    options.plan.slots = kLeastSlots;
-    options.plan.sample_capacity = kLeastSlots + 1;
+    options.plan.slots = kMinSlots;
+    options.plan.sample_capacity = kMinSlots + 1;
     return options;
 }
 

@@ -38,7 +38,7 @@ namespace {
 
 using namespace geodisk::tools;
 
-constexpr std::uint32_t kMostCandidatesDrawn = 2000;
+constexpr std::uint32_t kMaxCandidatesDrawn = 2000;
 
 std::string text_of(std::span<const std::byte> bytes) {
     return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
@@ -132,7 +132,7 @@ void read_as_saved_radii(const FuzzedFile& file) {
     }
     const bool is_right = std::abs(area - field->effective_area()) < 1e-3 * area;
     const auto size = pool_size(cube(), params);
-    if (is_right && size && *size <= kMostCandidatesDrawn) {
+    if (is_right && size && *size <= kMaxCandidatesDrawn) {
         ref::draw_pool(ref::Surface<float>(cube(), params), params);
     }
 }

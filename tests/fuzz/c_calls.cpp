@@ -168,7 +168,7 @@ class Program {
         params.weld = bytes_.below(4) == 0 ? 1 : 0;
         params.weld_distance = bytes_.number();
         params.keep_seams = bytes_.below(4) == 0 ? 1 : 0;
-        params.most_threads %= 4;
+        params.max_threads %= 4;
         if (bytes_.below(2) == 0) { // Not quite the cube.
             positions[bytes_.below(positions.size())] = bytes_.number();
             indices[bytes_.below(indices.size())] = bytes_.next<std::uint8_t>();
@@ -183,7 +183,7 @@ class Program {
         auto params = bytes_.any_struct<geodisk_surface_params>();
         params.min_distance = bytes_.number();
         params.pool_ratio = bytes_.number();
-        params.throws %= 1000;
+        params.darts %= 1000;
         params.radii = bytes_.below(2) == 0 ? radii_.any(bytes_) : nullptr;
         static std::array<std::uint32_t, kFaces> keys;
         for (std::size_t i = 0; i < keys.size(); ++i) {
@@ -228,7 +228,7 @@ class Program {
         params.dimension = static_cast<std::uint32_t>(bytes_.below(9));
         params.min_distance = bytes_.number();
         params.pool_ratio = bytes_.number();
-        params.throws %= 1000;
+        params.darts %= 1000;
         return params;
     }
 
@@ -336,7 +336,7 @@ class Program {
         geodisk_job_set_seed(job, bytes_.next<std::uint64_t>(), e);
         geodisk_job_set_end_order(job, bytes_.next<std::uint64_t>(), e);
         const geodisk_sample_record given[] = {bytes_.next<geodisk_sample_record>()};
-        geodisk_job_set_settled(job, given, bytes_.below(2), e);
+        geodisk_job_set_existing(job, given, bytes_.below(2), e);
         geodisk_job_renew(job, domains_.any(bytes_), e);
         auto params = bytes_.any_struct<geodisk_placement_params>();
         geodisk_placement* placement = nullptr;

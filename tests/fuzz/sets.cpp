@@ -20,7 +20,7 @@ using namespace geodisk::test;
 
 namespace {
 
-constexpr std::uint32_t kMostCandidatesTried = 2000;
+constexpr std::uint32_t kMaxCandidatesTried = 2000;
 
 /// One that has room for everything, one whose memory has to grow, one whose disks all trim, one
 /// whose disks are computed by work groups, and one where lanes leave most to groups.
@@ -81,7 +81,7 @@ void check(Input& input, const PreparedMesh& mesh) {
     params.radii = radii ? &*radii : nullptr;
     Runner& runner = runners()[input.next(5)];
     const auto candidates = pool_size(mesh, params);
-    if (!candidates || *candidates > kMostCandidatesTried) {
+    if (!candidates || *candidates > kMaxCandidatesTried) {
         return;
     }
     const auto set = runner.sample_and_wait(mesh, params);

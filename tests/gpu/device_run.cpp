@@ -190,7 +190,7 @@ std::vector<std::uint32_t> listed(const DeviceRun& run, std::size_t index, std::
 }
 
 RunPlan tightened(RunPlan plan) {
-    plan.window_capacity = plan.disks_by == DisksBy::groups ? gpu::kLeastGroupWindows : 2;
+    plan.window_capacity = plan.disks_by == DisksBy::groups ? gpu::kMinGroupWindows : 2;
     plan.table_capacity = 4;
     plan.list_capacity = 4;
     return plan;

@@ -37,12 +37,12 @@ inline Points points_of(std::span<const Sample> samples) {
 /// A surface that is edited, and its samples.
 class Scene {
   public:
-    Scene(TestMesh shape, double count, std::uint64_t seed, double least_factor = 1,
+    Scene(TestMesh shape, double count, std::uint64_t seed, double min_factor = 1,
           bool has_density = false)
         : mesh(std::move(shape)), random_(static_cast<std::uint32_t>(seed)),
           factors(mesh.vertex_count(), 1.0), by_density(has_density) {
-        if (least_factor < 1) {
-            factors = wavy_factors(mesh, least_factor);
+        if (min_factor < 1) {
+            factors = wavy_factors(mesh, min_factor);
         }
         const PreparedMesh surface = prepare();
         params.seed = seed;
@@ -238,14 +238,14 @@ class Scene {
         }
         std::ranges::reverse(factors);
     }
-    std::vector<std::uint32_t> change_given() {
-        if (!given.empty() && below(2) == 0) {
-            given.erase(given.begin() + below(static_cast<std::uint32_t>(given.size())));
+    std::vector<std::uint32_t> change_existing() {
+        if (!existing.empty() && below(2) == 0) {
+            existing.erase(existing.begin() + below(static_cast<std::uint32_t>(existing.size())));
             return {};
         }
         const std::uint32_t face = below(mesh.face_count());
         if (takes_part(face)) {
-            given.push_back({face, {0.5f, 0.25f, 0.25f}});
+            existing.push_back({face, {0.5f, 0.25f, 0.25f}});
         }
         return {};
     }
@@ -268,7 +268,7 @@ class Scene {
     std::vector<double> factors;
     std::vector<std::uint8_t> mask;
     std::vector<std::uint32_t> keys;
-    std::vector<Sample> given;
+    std::vector<Sample> existing;
     std::vector<KeepOut> avoid;
     bool by_density; ///< Densities are powers of the factors.
     SampleParams params;
@@ -283,8 +283,8 @@ class Scene {
             radii =
                 by_density ? density_field(surface, densities()) : radius_field(surface, factors);
         }
-        // Given samples and points to avoid go with their faces.
-        std::erase_if(given, [this](const Sample& sample) { return !takes_part(sample.face); });
+        // Existing samples and points to avoid go with their faces.
+        std::erase_if(existing, [this](const Sample& sample) { return !takes_part(sample.face); });
         std::erase_if(avoid, [this](const KeepOut& one) { return !takes_part(one.center.face); });
         params = job();
         return surface;
@@ -294,8 +294,8 @@ class Scene {
     /// Copies all but the updater.
     Scene(const Scene& other)
         : mesh(other.mesh), random_(other.random_), factors(other.factors), mask(other.mask),
-          keys(other.keys), given(other.given), avoid(other.avoid), by_density(other.by_density),
-          params(other.params), radii(other.radii) {}
+          keys(other.keys), existing(other.existing), avoid(other.avoid),
+          by_density(other.by_density), params(other.params), radii(other.radii) {}
 
     /// Returns the parameters of the surface as it is.
     SampleParams job() const {
@@ -303,7 +303,7 @@ class Scene {
         own.radii = radii ? &*radii : nullptr;
         own.face_mask = mask;
         own.face_keys = keys;
-        own.given = given;
+        own.existing = existing;
         own.avoid = avoid;
         return own;
     }

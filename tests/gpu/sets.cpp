@@ -35,7 +35,7 @@ Points sequential_set(const PreparedMesh& mesh, const SampleParams& params, doub
         candidates != nullptr ? pool_of(surface, *candidates) : ref::draw_pool(surface, params);
     Points points;
     std::vector<ref::FacePoint<Real>> given;
-    for (const Sample& sample : params.given) {
+    for (const Sample& sample : params.existing) {
         points.push_back({sample.face, sample.weights[1], sample.weights[2]});
         given.push_back({sample.face, sample.weights[1], sample.weights[2]});
     }
@@ -47,8 +47,8 @@ Points sequential_set(const PreparedMesh& mesh, const SampleParams& params, doub
     }
     const ref::RunResult result =
         ref::throw_darts<Real>(surface, pool, ref::frame_of(mesh, params).tolerances(error_bound),
-                               params.stop_count != 0 ? params.stop_count : kMostCandidates, given,
-                               avoided, params.given_classes);
+                               params.stop_count != 0 ? params.stop_count : kMaxCandidates, given,
+                               avoided, params.existing_classes);
     for (const std::uint32_t rank : result.ranks) {
         const ref::FacePoint<Real> point = pool.candidate(rank);
         points.push_back(
@@ -64,8 +64,8 @@ Points sequential_set(const PreparedMesh& mesh, const SampleParams& params, doub
 
 Points float_set(const PreparedMesh& mesh, const SampleParams& params, double error_bound,
                  std::vector<std::uint8_t>& classes) {
-    classes.assign(params.given_classes.begin(), params.given_classes.end());
-    classes.resize(params.given.size(), 0);
+    classes.assign(params.existing_classes.begin(), params.existing_classes.end());
+    classes.resize(params.existing.size(), 0);
     return sequential_set<float>(mesh, params, error_bound, nullptr, &classes);
 }
 
@@ -82,11 +82,11 @@ Points double_set(const PreparedMesh& mesh, const SampleParams& params, double e
     return sequential_set<double>(mesh, params, error_bound);
 }
 
-Points settled_set(const PreparedMesh& mesh, const SampleParams& params, double error_bound,
-                   const Points& settled) {
+Points set_after(const PreparedMesh& mesh, const SampleParams& params, double error_bound,
+                 const Points& settled) {
     const std::vector<Sample> given = samples_of(settled);
     SampleParams with = params;
-    with.given = given;
+    with.existing = given;
     return float_set(mesh, with, error_bound);
 }
 

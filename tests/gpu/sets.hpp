@@ -22,18 +22,18 @@ struct SamplePoint {
 /// In dart order.
 using Points = std::vector<SamplePoint>;
 
-/// What sequential dart throwing accepts, as the float twin decides; given samples come first.
+/// What sequential dart throwing accepts, as the float twin decides; existing samples come first.
 Points float_set(const PreparedMesh& mesh, const SampleParams& params, double error_bound);
 /// The same with the class of each sample.
 Points float_set(const PreparedMesh& mesh, const SampleParams& params, double error_bound,
                  std::vector<std::uint8_t>& classes);
 /// What it accepts behind samples that are settled and reject first; they come first.
-Points settled_set(const PreparedMesh& mesh, const SampleParams& params, double error_bound,
-                   const Points& settled);
+Points set_after(const PreparedMesh& mesh, const SampleParams& params, double error_bound,
+                 const Points& settled);
 /// As float_set, in double precision.
 Points double_set(const PreparedMesh& mesh, const SampleParams& params, double error_bound);
 
-/// What it accepts of listed candidates behind the given samples.
+/// What it accepts of listed candidates behind the existing samples.
 Points listed_set(const PreparedMesh& mesh, const SampleParams& params, double error_bound,
                   const Points& candidates);
 

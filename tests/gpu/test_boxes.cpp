@@ -59,7 +59,7 @@ template <class Real>
 std::vector<double> sequential_set(const BoxParams& box) {
     const ref::BoxPool<Real> pool(box);
     std::vector<ref::BoxPoint> points;
-    const std::uint32_t most = box.stop_count != 0 ? box.stop_count : kMostCandidates;
+    const std::uint32_t most = box.stop_count != 0 ? box.stop_count : kMaxCandidates;
     for (const std::uint32_t rank : ref::throw_darts(pool, most)) {
         points.push_back(pool.points[pool.places[rank]]);
     }
@@ -88,7 +88,7 @@ double smallest_distance2(const BoxParams& box, const SampleSet& set) {
 /// What the disks of a batch took.
 struct DiskTotals {
     std::uint64_t disks = 0, rows = 0, tested = 0;
-    std::uint32_t most_conflicts = 0;
+    std::uint32_t max_conflicts = 0;
 };
 
 DiskTotals totals_of(const gpu::ControlRec& control) {
@@ -96,7 +96,7 @@ DiskTotals totals_of(const gpu::ControlRec& control) {
         return std::uint64_t{high} << 32 | low;
     };
     return {control.disks, wide(control.windows_low, control.windows_high),
-            wide(control.tested_low, control.tested_high), control.most_conflicts};
+            wide(control.tested_low, control.tested_high), control.max_conflicts};
 }
 
 /// The twin's side of a run.
@@ -131,7 +131,7 @@ struct BoxTwin {
         ++totals.disks;
         totals.rows += count.rows;
         totals.tested += count.tested;
-        totals.most_conflicts = std::max(totals.most_conflicts, all);
+        totals.max_conflicts = std::max(totals.max_conflicts, all);
         return conflicts;
     }
 
@@ -229,7 +229,7 @@ void compare_batch(const DeviceRun& run, BoxTwin& twin, const std::vector<std::u
     CHECK(totals.disks == twin.totals.disks);
     CHECK(totals.rows == twin.totals.rows);
     CHECK(totals.tested == twin.totals.tested);
-    CHECK(totals.most_conflicts == twin.totals.most_conflicts);
+    CHECK(totals.max_conflicts == twin.totals.max_conflicts);
     ref::resolve_batch(batch, conflicts, twin.states);
 }
 
@@ -350,7 +350,7 @@ TEST_SUITE("boxes") {
             const auto same = [&](const RunnerOptions& options) {
                 return sample_box(box, options).points == want;
             };
-            for (const std::uint32_t slots : {kLeastSlots, kLeastSlots + 1, 1000u}) {
+            for (const std::uint32_t slots : {kMinSlots, kMinSlots + 1, 1000u}) {
                 RunnerOptions options;
                 options.plan.slots = slots;
                 CHECK(same(options));
@@ -430,7 +430,7 @@ TEST_SUITE("boxes") {
         box.pool_ratio = 10000;
         const SampleSet set = sample_box(box);
         CHECK(set.report.tested / set.report.disks > 2000);
-        CHECK(set.report.most_conflicts > 65535 / 6);
+        CHECK(set.report.max_conflicts > 65535 / 6);
         CHECK(set.points == sequential_set<float>(box));
     }
 
@@ -438,11 +438,11 @@ TEST_SUITE("boxes") {
         for (const std::size_t dimension : {1u, 2u, 3u, 5u}) {
             CAPTURE(dimension);
             BoxParams box = unit_box(dimension, 150, dimension == 3, 4);
-            box.throws = 1'000;
+            box.darts = 1'000;
             const SampleSet few = sample_box(box);
             CHECK(few.points == sequential_set<float>(box));
             CHECK(few.report.candidates == 1'000);
-            box.throws = 20'000;
+            box.darts = 20'000;
             const SampleSet many = sample_box(box);
             CHECK(many.points == sequential_set<float>(box));
             CHECK(many.report.candidates == 20'000);
@@ -454,14 +454,14 @@ TEST_SUITE("boxes") {
             CHECK(half.points.size() == box.stop_count * dimension);
             CHECK(half.report.candidates < 20'000);
             // And of a pool.
-            box.throws = 0;
+            box.darts = 0;
             CHECK(sample_box(box).points == sequential_set<float>(box));
         }
     }
 
     TEST_CASE("few darts come of few candidates, however many samples there is room for") {
         BoxParams box = unit_box(2, 2.5e6, false, 9);
-        box.throws = 200;
+        box.darts = 200;
         const SampleSet few = sample_box(box);
         CHECK(few.points == sequential_set<float>(box));
         CHECK(few.report.candidates == 200);

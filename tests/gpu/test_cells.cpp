@@ -403,7 +403,7 @@ TEST_SUITE("cells") {
         narrow.plan.window_capacity = 8;
         narrow.plan.table_capacity = 16;
         narrow.device_bytes = 4 << 20;
-        narrow.threads.most_threads = 1;
+        narrow.threads.max_threads = 1;
         Runner runner =
             expect(Runner::create(shared_context().device(), shared_context().queue(), narrow));
         const SurfaceCells other = expect(find_cells(runner, knot, samples));
@@ -494,7 +494,7 @@ TEST_SUITE("cells") {
         Runner& runner = cells_runner();
         CHECK(find_cells(runner, cube, {}).error().message == "there is no sample");
         CellParams few;
-        few.most_records = 10;
+        few.max_records = 10;
         const auto large = find_cells(runner, cube, samples, few);
         REQUIRE_FALSE(large);
         CHECK(large.error().status == Status::job_too_large);

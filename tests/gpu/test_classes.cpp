@@ -27,10 +27,10 @@ const Factors kUneven{1, 0.3f, 0.3f, 0.2f};
 const Factors kRepelling{0.2f, 1, 1, 0.1f};
 
 /// As many classes as there may be.
-Factors most_factors() {
-    Factors factors(std::size_t{gpu::kMostClasses} * gpu::kMostClasses, 0.4f);
-    for (std::size_t i = 0; i < gpu::kMostClasses; ++i) {
-        factors[i * (gpu::kMostClasses + 1)] = 1;
+Factors max_factors() {
+    Factors factors(std::size_t{gpu::kMaxClasses} * gpu::kMaxClasses, 0.4f);
+    for (std::size_t i = 0; i < gpu::kMaxClasses; ++i) {
+        factors[i * (gpu::kMaxClasses + 1)] = 1;
     }
     return factors;
 }
@@ -84,10 +84,10 @@ TEST_SUITE("classes") {
     TEST_CASE("as many classes as there may be") {
         const PreparedMesh mesh = prepared(builtin("torus-knot", 8));
         SampleParams params = params_for(mesh, 60, 3);
-        const Factors factors = most_factors();
+        const Factors factors = max_factors();
         params.class_factors = factors;
         const SampleSet set = check_classed(mesh, params);
-        const auto counts = counts_of(set.classes, gpu::kMostClasses);
+        const auto counts = counts_of(set.classes, gpu::kMaxClasses);
         CHECK(std::ranges::all_of(counts, [](std::size_t n) { return n > 0; }));
     }
 
@@ -126,7 +126,7 @@ TEST_SUITE("classes") {
         }
     }
 
-    TEST_CASE("with given samples, points to avoid, masks, darts, keys and a stop count") {
+    TEST_CASE("with existing samples, points to avoid, masks, darts, keys and a stop count") {
         const TestMesh shape = builtin("torus-knot", 8);
         const PreparedMesh mesh = prepared(shape);
         SampleParams params = params_for(mesh, 100, 3);
@@ -134,11 +134,11 @@ TEST_SUITE("classes") {
         const SampleSet whole = check_classed(mesh, params);
         const std::vector<Sample> given(whole.samples.begin(), whole.samples.begin() + 20);
         const Classes classes(whole.classes.begin(), whole.classes.begin() + 20);
-        params.given = given;
-        params.given_classes = classes;
+        params.existing = given;
+        params.existing_classes = classes;
         CHECK(points_of(sample(mesh, params)) == points_of(whole));
         CHECK(sample(mesh, params).classes == whole.classes);
-        params.given_classes = {};
+        params.existing_classes = {};
         params.seed = 4;
         check_classed(mesh, params);
         const std::vector<KeepOut> avoid{{whole.samples[30], 3 * params.min_distance}};
@@ -149,7 +149,7 @@ TEST_SUITE("classes") {
         params.stop_count = 60;
         check_classed(mesh, params);
         params.stop_count = 0;
-        params.throws = 3000;
+        params.darts = 3000;
         check_classed(mesh, params);
     }
 
@@ -172,11 +172,11 @@ TEST_SUITE("classes") {
         params.class_factors = kThree;
         const Classes wrong{0, 3};
         const std::vector<Sample> given(2, Sample{1, {0.5f, 0.25f, 0.25f}});
-        params.given_classes = wrong;
+        params.existing_classes = wrong;
         CHECK(refusal(mesh, params).find("2 classes for 0 given") != std::string::npos);
-        params.given = given;
+        params.existing = given;
         CHECK(refusal(mesh, params).find("has class 3") != std::string::npos);
-        params.given_classes = {};
+        params.existing_classes = {};
         const RadiusField radii = radius_field(mesh, wavy_factors(shape, 0.3));
         params.radii = &radii;
         CHECK(refusal(mesh, params).find("radii that vary") != std::string::npos);

@@ -22,10 +22,10 @@ RunnerOptions by_stages(std::uint32_t stages) {
     return options;
 }
 
-SampleParams darts_for(const PreparedMesh& mesh, double count, std::uint32_t throws,
+SampleParams darts_for(const PreparedMesh& mesh, double count, std::uint32_t darts,
                        std::uint32_t stop_count = 0) {
     SampleParams params = params_for(mesh, count);
-    params.throws = throws;
+    params.darts = darts;
     params.stop_count = stop_count;
     return params;
 }
@@ -42,12 +42,12 @@ TEST_SUITE("darts") {
             prepared(builtin("torus-knot", 12)), prepared(builtin("cube", 1)),
             prepared(builtin("folded-sheet", 16)), prepared(builtin("moebius", 8))};
         for (const PreparedMesh& mesh : meshes) {
-            for (const std::uint32_t throws : {1u, 7u, 1'400u, 10'000u, 33'333u}) {
-                CAPTURE(throws);
-                const SampleParams params = darts_for(mesh, 300, throws);
+            for (const std::uint32_t darts : {1u, 7u, 1'400u, 10'000u, 33'333u}) {
+                CAPTURE(darts);
+                const SampleParams params = darts_for(mesh, 300, darts);
                 const SampleSet set = sample(mesh, params);
-                CHECK(set.report.candidates == throws);
-                CHECK(set.report.chunks == (throws < 1'450 ? 1 : throws < 11'000 ? 3 : 5));
+                CHECK(set.report.candidates == darts);
+                CHECK(set.report.chunks == (darts < 1'450 ? 1 : darts < 11'000 ? 3 : 5));
                 CHECK(points_of(set) == double_set(mesh, params, set.report.plan.error_bound));
             }
         }
@@ -110,7 +110,7 @@ TEST_SUITE("darts") {
             const SampleParams params = darts_for(mesh, 400, 12'000, count);
             const Points want = first_of(points, count);
             std::vector<RunnerOptions> ways{{}};
-            for (const std::uint32_t slots : {kLeastSlots, 37u, 1'000u}) {
+            for (const std::uint32_t slots : {kMinSlots, 37u, 1'000u}) {
                 ways.emplace_back().plan.slots = slots;
             }
             std::vector<std::uint32_t> darts;
@@ -207,7 +207,7 @@ TEST_SUITE("darts") {
             params.stop_count = stop_count;
             const SampleSet base = sample(mesh, params);
             CHECK(base.report.guard > 0x1p-13);
-            for (const std::uint32_t slots : {kLeastSlots, 1'000u}) {
+            for (const std::uint32_t slots : {kMinSlots, 1'000u}) {
                 for (const std::uint32_t stages : {1u, 4u}) {
                     RunnerOptions options = by_stages(stages);
                     options.plan.slots = slots;
@@ -243,7 +243,7 @@ TEST_SUITE("darts") {
         const SampleParams params = darts_for(mesh, 200, 3'000);
         BoxParams square{{1, 1}};
         square.min_distance = 0.08;
-        square.throws = 2'000;
+        square.darts = 2'000;
         const Domain box = expect(Domain::box(square));
         Context& context = shared_context();
         Runner usual = expect(Runner::create(context.device(), context.queue()));
@@ -285,7 +285,7 @@ TEST_SUITE("darts") {
         const PreparedMesh mesh = prepared(builtin("icosphere", 2));
         const Sampler sampler = expect(Sampler::create(shared_context().device()));
         const std::uint64_t binding = sampler.report().limits.max_storage_buffer_range;
-        if (binding / 8 >= kMostCandidates / 2) {
+        if (binding / 8 >= kMaxCandidates / 2) {
             return; // A GPU that binds all.
         }
         const SampleParams params =

@@ -95,9 +95,9 @@ TEST_SUITE("features") {
         const auto on_curves = static_cast<double>(count_of(set.samples, FeatureKind::curve));
         CHECK(on_curves > 0.6 * most - 12);
         CHECK(on_curves < 0.85 * most);
-        params.given = set.samples;
+        params.existing = set.samples;
         const SampleSet all = sample(mesh, params);
-        CHECK(all.given == set.samples.size());
+        CHECK(all.existing == set.samples.size());
         CHECK(all.samples.size() > 250);
         CHECK(smallest_distance(shape, all.samples, 1.1 * params.min_distance) >=
               params.min_distance);
@@ -116,7 +116,7 @@ TEST_SUITE("features") {
               params.min_distance);
     }
 
-    TEST_CASE("with radii that vary, masks, given samples and keys") {
+    TEST_CASE("with radii that vary, masks, existing samples and keys") {
         const TestMesh shape = builtin("cube", 6);
         const PreparedMesh mesh = prepared(shape);
         const Features features = found(shape, mesh);
@@ -130,9 +130,9 @@ TEST_SUITE("features") {
         const std::vector<std::uint8_t> mask = mask_above(shape, 0);
         params.face_mask = mask;
         const std::vector<Sample> given{{0, {0.5f, 0.25f, 0.25f}}};
-        params.given = given;
+        params.existing = given;
         const SampleSet set = sample_features(mesh, params, features);
-        CHECK(set.given == 1);
+        CHECK(set.existing == 1);
         CHECK(test::points_of(set) == listed_set(mesh, params, set.report.plan.error_bound,
                                                  points_of(feature_darts(mesh, params, features))));
         CHECK(std::all_of(set.samples.begin() + 1, set.samples.end(),
@@ -153,9 +153,9 @@ TEST_SUITE("features") {
         };
         const PreparedMesh other = prepared(builtin("cube", 2));
         refuses(other, "of another mesh");
-        params.throws = 10;
+        params.darts = 10;
         refuses(mesh, "no darts");
-        params.throws = 0;
+        params.darts = 0;
         const RadiusField density = density_field(mesh, rough_density(shape));
         params.radii = &density;
         refuses(mesh, "no density");

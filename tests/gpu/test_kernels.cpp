@@ -110,21 +110,21 @@ gpu::SampleRec record_of(const gpu::SlotRec& slot) {
 /// What all disks so far took and found.
 struct Totals {
     std::uint64_t disks = 0, windows = 0, tested = 0;
-    std::uint32_t most_waiting = 0, most_vertices = 0;
+    std::uint32_t max_waiting = 0, max_vertices = 0;
 
     void add(const ref::DiskCount& disk) {
         ++disks;
         windows += disk.windows;
         tested += disk.tested;
-        most_waiting = std::max(most_waiting, disk.most_waiting);
-        most_vertices = std::max(most_vertices, disk.vertices);
+        max_waiting = std::max(max_waiting, disk.max_waiting);
+        max_vertices = std::max(max_vertices, disk.vertices);
     }
     void compare(const gpu::ControlRec& control) const {
         CHECK(control.disks == disks);
         CHECK((std::uint64_t{control.windows_high} << 32 | control.windows_low) == windows);
         CHECK((std::uint64_t{control.tested_high} << 32 | control.tested_low) == tested);
-        CHECK(control.most_waiting == most_waiting);
-        CHECK(control.most_vertices == most_vertices);
+        CHECK(control.max_waiting == max_waiting);
+        CHECK(control.max_vertices == max_vertices);
     }
 };
 
@@ -481,7 +481,7 @@ TEST_SUITE("kernels") {
     }
 
     TEST_CASE("step by step with as few candidates at a time as may be") {
-        step_through(prepared(builtin("icosphere", 2)), 60, on_cpu(), kLeastSlots);
+        step_through(prepared(builtin("icosphere", 2)), 60, on_cpu(), kMinSlots);
     }
 }
 

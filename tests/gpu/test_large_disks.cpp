@@ -62,7 +62,7 @@ TEST_SUITE("large disks") {
         options.plan.disks_by = DisksBy::groups;
         options.plan.window_capacity = 2;
         const SampleSet set = sample(mesh, params, options);
-        CHECK(set.report.plan.window_capacity >= gpu::kLeastGroupWindows);
+        CHECK(set.report.plan.window_capacity >= gpu::kMinGroupWindows);
         CHECK(points_of(set) == float_set(mesh, params, set.report.plan.error_bound));
     }
 
@@ -96,7 +96,7 @@ TEST_SUITE("large disks") {
         check_same(mesh, params_for(mesh, 100, 1, &rough));
         SampleParams params = params_for(mesh, 100);
         const SampleSet first = sample(mesh, params);
-        params.given = std::span(first.samples).first(20);
+        params.existing = std::span(first.samples).first(20);
         CHECK(points_of(sample(mesh, params, leaving_after(40))) ==
               points_of(sample(mesh, params)));
     }

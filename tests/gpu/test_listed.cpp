@@ -45,7 +45,7 @@ void check_as_twin(const PreparedMesh& mesh, const SampleParams& params, std::si
         Runner runner =
             expect(Runner::create(shared_context().device(), shared_context().queue(), options));
         const SampleSet set = expect(runner.sample_and_wait(domain));
-        CHECK(set.given == params.given.size());
+        CHECK(set.existing == params.existing.size());
         CHECK(set.report.candidates == count);
         CHECK(test::points_of(set) ==
               listed_set(mesh, params, set.report.plan.error_bound, points_of(candidates)));
@@ -75,10 +75,10 @@ void check_drawn(const PreparedMesh& mesh, const SampleParams& params) {
           test::points_of(sample(mesh, params)));
 }
 
-std::string refusal(const std::vector<ListedCandidate>& candidates, std::uint32_t throws = 0) {
+std::string refusal(const std::vector<ListedCandidate>& candidates, std::uint32_t darts = 0) {
     const PreparedMesh mesh = prepared(builtin("cube", 1));
     SampleParams params = params_for(mesh, 100);
-    params.throws = throws;
+    params.darts = darts;
     const auto domain = listed_domain(mesh, params, candidates);
     REQUIRE_FALSE(domain);
     CHECK(domain.error().status == Status::invalid_argument);
@@ -96,7 +96,7 @@ TEST_SUITE("listed") {
         check_as_twin(knot, params_for(knot, 200, 1, &radii), 3000);
         SampleParams settled = params_for(knot, 200);
         const std::vector<Sample> given = sample(knot, settled).samples;
-        settled.given = std::span(given).first(60);
+        settled.existing = std::span(given).first(60);
         check_as_twin(knot, settled, 2000);
     }
 

@@ -84,7 +84,7 @@ TEST_SUITE("masks") {
         params.stop_count = 100;
         CHECK(check_masked(mesh, params) == Points(whole.begin(), whole.begin() + 100));
         params.stop_count = 0;
-        params.throws = 5000;
+        params.darts = 5000;
         check_masked(mesh, params);
         // The least pool is that of the faces left.
         params = params_for(mesh, 2, 5);
@@ -112,7 +112,7 @@ TEST_SUITE("masks") {
         }
     }
 
-    TEST_CASE("with given samples, which may lie on faces that the mask leaves out") {
+    TEST_CASE("with existing samples, which may lie on faces that the mask leaves out") {
         const TestMesh shape = builtin("torus-knot", 8);
         const PreparedMesh mesh = prepared(shape);
         SampleParams params = params_for(mesh, 300, 3);
@@ -127,10 +127,10 @@ TEST_SUITE("masks") {
         params.face_mask = half;
         params.seed = 4;
         const SampleParams alone = params;
-        params.given = given;
+        params.existing = given;
         const SampleSet set = sample(mesh, params);
         const Points points = points_of(set);
-        CHECK(points == settled_set(mesh, alone, set.report.plan.error_bound, settled));
+        CHECK(points == set_after(mesh, alone, set.report.plan.error_bound, settled));
         CHECK(std::ranges::all_of(points.begin() + 60, points.end(),
                                   [&](const SamplePoint& point) { return half[point.face] != 0; }));
     }

@@ -66,7 +66,7 @@ SampleSet check_maximal(const PreparedMesh& mesh, SampleParams params) {
     const Points points = points_of(set), first = points_of(pool);
     REQUIRE(points.size() >= first.size());
     CHECK(std::equal(first.begin(), first.end(), points.begin()));
-    CHECK(set.given == params.given.size());
+    CHECK(set.existing == params.existing.size());
     CHECK(set.report.maximal.certified);
     CHECK(set.report.maximal.largest_gap ==
           doctest::Approx(params.min_distance * (1 + 2 * set.report.guard)));
@@ -112,7 +112,7 @@ TEST_SUITE("maximal") {
         }
     }
 
-    TEST_CASE("with radii that vary, given samples, points to avoid and masks") {
+    TEST_CASE("with radii that vary, existing samples, points to avoid and masks") {
         const TestMesh shape = builtin("torus-knot", 8);
         const PreparedMesh knot = prepared(shape);
         const RadiusField radii = radius_field(knot, wavy_factors(shape, 0.3));
@@ -120,7 +120,7 @@ TEST_SUITE("maximal") {
         check_narrow(knot, varying, check_maximal(knot, varying));
         SampleParams params = params_for(knot, 150);
         const std::vector<Sample> given = sample(knot, params_for(knot, 20, 7)).samples;
-        params.given = given;
+        params.existing = given;
         const std::vector<KeepOut> avoid{{{5, {0.25f, 0.5f, 0.25f}}, 3 * params.min_distance},
                                          {{90, {0.25f, 0.5f, 0.25f}}, params.min_distance / 3}};
         params.avoid = avoid;
@@ -166,7 +166,7 @@ TEST_SUITE("maximal") {
         const TestMesh shape = builtin("cube", 1);
         const PreparedMesh cube = prepared(shape);
         SampleParams params = params_for(cube, 100);
-        params.throws = 5;
+        params.darts = 5;
         CHECK(refusal(cube, params) ==
               "a maximal set ends when no sample fits, not after a number of darts");
         params = params_for(cube, 100);

@@ -341,7 +341,7 @@ TEST_SUITE("neighbours") {
         CHECK(message([](Query&) {}) ==
               "source 3 has weights that are negative or do not sum to 1");
         sources[3] = {0, {1, 0, 0}};
-        good.most_pairs = 100;
+        good.max_pairs = 100;
         good.within = 10;
         const Error too_many = refusal(cube, good);
         CHECK(too_many.status == Status::job_too_large);
@@ -352,11 +352,11 @@ TEST_SUITE("neighbours") {
         good.kind = NeighbourKind::sources;
         CHECK(refusal(cube, good).message.find("about 650 pairs are to be expected") == 0);
         good.nearest = 4;
-        good.most_pairs = 103;
+        good.max_pairs = 103;
         CHECK(refusal(cube, good).message.find("about 104 pairs are to be expected") == 0);
         good.kind = NeighbourKind::vertices;
         good.nearest = 0;
-        good.most_pairs = 676;
+        good.max_pairs = 676;
         CHECK(found(cube, good).indices.size() == 676);
         CHECK(refusal(cube, good, [](const Progress&) { return false; }).status ==
               Status::cancelled);

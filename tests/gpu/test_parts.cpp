@@ -36,11 +36,11 @@ Result<std::vector<std::uint32_t>> scattered(const PreparedMesh& mesh, const Sam
 }
 
 Result<PartsResult> in_parts(const PreparedMesh& mesh, const SampleParams& params,
-                             std::uint32_t count, const Cut& cut, double most_candidates,
+                             std::uint32_t count, const Cut& cut, double max_candidates,
                              const Checkpoints* checkpoints = nullptr) {
     static const auto sampler =
         std::make_shared<const Sampler>(expect(Sampler::create(shared_context().device())));
-    const WholeSurface whole{mesh, params, cut, most_candidates, checkpoints};
+    const WholeSurface whole{mesh, params, cut, max_candidates, checkpoints};
     std::vector<std::optional<Result<PartsResult>>> results(count);
     run_threads(count, [&](Exchange& exchange) {
         auto runner = Runner::create(sampler, shared_context().queue());
@@ -61,13 +61,13 @@ Result<PartsResult> in_parts(const PreparedMesh& mesh, const SampleParams& param
 
 void check_parts(const PreparedMesh& mesh, const SampleParams& params,
                  std::initializer_list<std::uint32_t> counts, const Cut& cut = grown,
-                 double most_candidates = 0x1p26) {
+                 double max_candidates = 0x1p26) {
     const SampleSet whole = sample(mesh, params);
     for (const std::uint32_t count : counts) {
         CAPTURE(count);
-        const PartsResult result = expect(in_parts(mesh, params, count, cut, most_candidates));
+        const PartsResult result = expect(in_parts(mesh, params, count, cut, max_candidates));
         CHECK(points_of(result.set) == points_of(whole));
-        CHECK(result.set.given == whole.given);
+        CHECK(result.set.existing == whole.existing);
         CHECK(result.set.report.guard == whole.report.guard);
         std::uint64_t faces = 0;
         for (const ProcessReport& process : result.processes) {
@@ -165,7 +165,7 @@ TEST_SUITE("parts") {
         check_parts(bare, params_for(bare, 300), {4});
     }
 
-    TEST_CASE("masks, keys, given samples, points to avoid, and a count to stop at") {
+    TEST_CASE("masks, keys, existing samples, points to avoid, and a count to stop at") {
         const TestMesh shape = builtin("torus-knot", 8);
         const PreparedMesh knot = prepared(shape);
         const std::vector<std::uint8_t> mask = mask_above(shape, 2);
@@ -183,7 +183,7 @@ TEST_SUITE("parts") {
         const KeepOut avoided[] = {{given[3], params.min_distance * 3},
                                    {given[9], params.min_distance / 2}};
         params = params_for(knot, 500);
-        params.given = given;
+        params.existing = given;
         params.avoid = avoided;
         check_parts(knot, params, {4});
 
@@ -196,11 +196,11 @@ TEST_SUITE("parts") {
         const PreparedMesh knot = prepared(shape);
         check_parts(knot, params_for(knot, 800), {3}, grown, 1);
         SampleParams params = params_for(knot, 300);
-        params.throws = 2345;
+        params.darts = 2345;
         check_parts(knot, params, {1, 4});
         params.stop_count = 200;
         check_parts(knot, params, {3});
-        params.throws = 1000000;
+        params.darts = 1000000;
         params.stop_count = 280;
         check_parts(knot, params, {2});
     }
@@ -224,12 +224,12 @@ TEST_SUITE("parts") {
         check_resumed(knot, params_for(knot, 600), 4);
         const RadiusField waves = radius_field(knot, wavy_factors(shape, 0.3));
         SampleParams params = params_for(knot, 300, 2, &waves);
-        params.throws = 3000;
+        params.darts = 3000;
         check_resumed(knot, params, 2);
         params = params_for(knot, 300, 3);
         params.stop_count = 250;
         const std::vector<Sample> given{{5, {0.25f, 0.25f, 0.5f}}, {900, {0.5f, 0.25f, 0.25f}}};
-        params.given = given;
+        params.existing = given;
         check_resumed(knot, params, 1);
     }
 

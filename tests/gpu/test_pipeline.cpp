@@ -127,7 +127,7 @@ TEST_SUITE("pipeline") {
         const TestMesh shape = builtin("terrain", 48);
         const PreparedMesh mesh = prepared(shape);
         std::vector<double> factors(shape.vertex_count(), 1.0);
-        factors[shape.vertex_count() / 2] = RadiusField::kLeastFactor;
+        factors[shape.vertex_count() / 2] = RadiusField::kMinFactor;
         const RadiusField pit = radius_field(mesh, factors);
         check_against_reference(mesh, 500, 1, &pit);
     }

@@ -119,12 +119,12 @@ void check_same(const RadiusField& a, const RadiusField& b) {
     CHECK(std::ranges::equal(a.densities(), b.densities()));
     CHECK(a.effective_area() == b.effective_area());
     CHECK(a.largest_density() == b.largest_density());
-    CHECK(a.least_density() == b.least_density());
+    CHECK(a.min_density() == b.min_density());
 }
 
 /// What one of some threads finds of a surface and its fields.
 struct Ranged {
-    double area = 0, borders = 0, least_factor = 1;
+    double area = 0, borders = 0, min_factor = 1;
     std::uint64_t digest = 0;
     std::unique_ptr<Part> part; ///< With its mesh.
 };
@@ -146,7 +146,7 @@ std::vector<Ranged> ranged(const Sheet& sheet, const Fields& fields, SampleParam
         Ranged& found = all[exchange.rank()];
         found.area = surface->effective_area();
         found.borders = surface->borders();
-        found.least_factor = surface->radii() != nullptr ? surface->radii()->least_factor() : 1;
+        found.min_factor = surface->radii() != nullptr ? surface->radii()->min_factor() : 1;
         found.digest = surface->statistics().digest;
         auto part = surface->part(exchange, params, *frame, 0x1p26, CheckpointTerms());
         if (part) {
@@ -245,7 +245,7 @@ TEST_SUITE("parts") {
                         REQUIRE(part.radii.has_value() == radii.has_value());
                         if (radii) {
                             check_same(*part.radii, radii->on_part(part.mesh, part.faces));
-                            CHECK(found.least_factor == radii->least_factor());
+                            CHECK(found.min_factor == radii->min_factor());
                         }
                     }
                 }

@@ -58,8 +58,8 @@ class PairRequest {
             request_.count = 20;
             request_.is_exact = true;
             break;
-        case RequestField::throws:
-            params.throws = 100;
+        case RequestField::darts:
+            params.darts = 100;
             break;
         case RequestField::stop_count:
             params.stop_count = 10;
@@ -73,8 +73,8 @@ class PairRequest {
         case RequestField::class_factors:
             params.class_factors = factors_;
             break;
-        case RequestField::given:
-            params.given = given_;
+        case RequestField::existing:
+            params.existing = given_;
             break;
         case RequestField::features:
             request_.features = 30;
@@ -139,10 +139,10 @@ TEST_SUITE("request") {
         double distance = 0;
         std::size_t on_features = 0;
         for (;;) {
-            params.given = {};
+            params.existing = {};
             const SampleSet first =
                 expect(runner.sample_and_wait(expect(feature_domain(mesh, params, features))));
-            params.given = first.samples;
+            params.existing = first.samples;
             const Points points = run_of(runner, mesh, params);
             const auto next = search.note(params.min_distance, points.size());
             if (search.is_nearest()) {
@@ -161,7 +161,7 @@ TEST_SUITE("request") {
         CHECK(found.cut == best.size() - 300);
         best.resize(300);
         CHECK(points_of(found.set) == best);
-        CHECK(found.set.given == 0);
+        CHECK(found.set.existing == 0);
         CHECK(found.corners == 8);
         REQUIRE(found.features.size() == 300);
         const auto faces = std::ranges::count(found.features, FeatureKind::face);
@@ -191,7 +191,7 @@ TEST_SUITE("request") {
         SampleSet by_hand;
         by_hand.samples = before;
         CHECK(points_of(found.set) == points_of(by_hand));
-        CHECK(found.set.given == 0);
+        CHECK(found.set.existing == 0);
     }
 
     TEST_CASE("the farthest order takes along what belongs to the samples") {
@@ -270,9 +270,9 @@ TEST_SUITE("request") {
         CHECK(refusal(request).starts_with("count is 0.5"));
         const std::vector<Sample> given(5, Sample{0, {1, 0, 0}});
         request.count = 5;
-        request.params.given = given;
-        CHECK(refusal(request) == "count is 5, but 5 given samples count too");
-        request.params.given = {};
+        request.params.existing = given;
+        CHECK(refusal(request) == "count is 5, but 5 existing samples count too");
+        request.params.existing = {};
         request.count = 10.5;
         request.is_exact = true;
         CHECK(refusal(request).starts_with("is_exact needs a whole number"));

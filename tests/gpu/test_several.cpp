@@ -189,7 +189,7 @@ TEST_SUITE("several") {
         const SampleSet set = expect(runner.sample_and_wait(domain));
         const auto points = points_by_surface(domain, set);
         CHECK(std::ranges::count(points, alone) == 1000);
-        CHECK(set.report.iterations < 300);
+        CHECK(set.report.batches < 300);
         RunnerOptions options;
         options.plan.stages = 1;
         options.plan.slots = 200;
@@ -232,7 +232,7 @@ TEST_SUITE("several") {
                   "surface 0: the scale must be a positive finite number");
         }
         SampleParams thrown = good;
-        thrown.throws = 100;
+        thrown.darts = 100;
         SampleParams stopped = good;
         stopped.stop_count = 10;
         for (const SampleParams& counted : {thrown, stopped}) {

@@ -160,7 +160,7 @@ TEST_SUITE("space") {
             RunnerOptions options;
             options.sampler.tuning.reads = reads;
             options.sampler.rounding = Rounding::emulated;
-            options.plan.slots = kLeastSlots;
+            options.plan.slots = kMinSlots;
             options.plan.list_capacity = 4;
             options.plan.step_budget = 5;
             const SampleSet set = sample_space(mesh, params, Metric::approximate, options);

@@ -62,7 +62,7 @@ void check_edits(Scene& scene, int edits) {
             scene.follow(scene.mask_stroke(width));
             break;
         case 5:
-            scene.follow(scene.change_given());
+            scene.follow(scene.change_existing());
             break;
         case 6:
             scene.follow(scene.change_avoided(6 * distance));
@@ -180,7 +180,7 @@ TEST_SUITE("update") {
                 [&] { return scene.remove_face(); },
                 [&] { return scene.split_face(); },
                 [&] { return scene.mask_stroke(1.5 * distance); },
-                [&] { return scene.change_given(); },
+                [&] { return scene.change_existing(); },
                 [&] { return scene.change_avoided(6 * distance); },
                 [&] { return scene.copy_face(); },
                 [&] { return scene.add_flap(2 * distance); },
@@ -220,8 +220,8 @@ TEST_SUITE("update") {
                     scene.keys.resize(scene.mesh.face_count());
                     std::iota(scene.keys.rbegin(), scene.keys.rend(), 5u);
                 }
-                scene.given.push_back({50, {0.5f, 0.25f, 0.25f}});
-                scene.given.push_back({900, {0.5f, 0.25f, 0.25f}});
+                scene.existing.push_back({50, {0.5f, 0.25f, 0.25f}});
+                scene.existing.push_back({900, {0.5f, 0.25f, 0.25f}});
                 return scene;
             };
             Scene before = make();
@@ -232,7 +232,7 @@ TEST_SUITE("update") {
             after.move_vertex(0.1 * before.params.min_distance);
             if (has_keys) { // Faces and vertices are gone, and all are in another order.
                 after.reverse_without(100, 130);
-                after.given.assign({{after.mesh.face_count() - 1 - 50, {0.5f, 0.25f, 0.25f}}});
+                after.existing.assign({{after.mesh.face_count() - 1 - 50, {0.5f, 0.25f, 0.25f}}});
             }
             const PreparedMesh edited = after.prepare();
             Updater updater =
@@ -295,7 +295,7 @@ TEST_SUITE("update") {
         keys.pop_back();
         CHECK(refused(with([&](SampleParams& p) { p.face_keys = keys; })) ==
               "there are keys of 1279 faces for a mesh of 1280");
-        CHECK(refused(with([](SampleParams& p) { p.throws = 500; })) ==
+        CHECK(refused(with([](SampleParams& p) { p.darts = 500; })) ==
               "a number of darts cannot be updated; sample the surface again");
         CHECK(refused(with([](SampleParams& p) { p.stop_count = 500; })) ==
               "samples up to a count cannot be updated; sample the surface again");
@@ -304,8 +304,9 @@ TEST_SUITE("update") {
         const float factors[4] = {1, 0.5f, 0.5f, 1};
         CHECK(refused(with([&](SampleParams& p) { p.class_factors = factors; })) ==
               "samples of classes cannot be updated; sample the surface again");
-        CHECK(refused(with([&](SampleParams& p) { p.given = std::span(samples).subspan(1, 2); })) ==
-              "the samples must begin with the 2 given ones");
+        CHECK(refused(with([&](SampleParams& p) {
+                  p.existing = std::span(samples).subspan(1, 2);
+              })) == "the samples must begin with the 2 existing ones");
         std::vector<Sample> bad = samples;
         bad[5] = {1280, {1, 0, 0}};
         CHECK(refusal_of(ball.params, bad) == "sample 5 is in face 1280, but there are 1280");
@@ -354,11 +355,11 @@ TEST_SUITE("update") {
         params = ball.params;
         CHECK(refusal_of(params, {1280}) == "changed face 1280 does not exist");
         const Sample in_removed{3, {1, 0, 0}};
-        params.given = {&in_removed, 1};
+        params.existing = {&in_removed, 1};
         const TestMesh whole = ball.mesh;
         ball.mesh.triangles[3 * 3 + 1] = ball.mesh.triangles[3 * 3];
-        CHECK(refusal_of(params, {3}) == "given sample 0 is in face 3, which there is not");
-        params.given = {};
+        CHECK(refusal_of(params, {3}) == "existing sample 0 is in face 3, which there is not");
+        params.existing = {};
         KeepOut avoided{{1280, {1, 0, 0}}, 1};
         params.avoid = {&avoided, 1};
         CHECK(refusal_of(params) == "point to avoid 0 is in face 1280, which there is not");

@@ -52,7 +52,7 @@ def test_pairs_that_are_too_close(tmp_path):
     assert "do not fit the" in warning and "4 pairs of samples are closer" in error
 
 
-def test_radii_classes_levels_and_given_samples(tmp_path):
+def test_radii_classes_levels_and_existing_samples(tmp_path):
     samples = tmp_path / "samples.csv"
     given = tmp_path / "given.csv"
     alone(MESH, "--radius-factor", "curvature", "--count", "300", "-o", str(samples))

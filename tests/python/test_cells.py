@@ -44,7 +44,7 @@ def test_cells_that_cannot_be_found():
     with pytest.raises(geodisk.InvalidArgument):
         geodisk.cells(mesh, ([10**6], [[1, 0, 0]]))
     with pytest.raises(geodisk.OutOfMemory, match="more than the 1 that are allowed"):
-        geodisk.cells(mesh, ([0, 1], [[1, 0, 0], [0, 1, 0]]), most_records=1)
+        geodisk.cells(mesh, ([0, 1], [[1, 0, 0], [0, 1, 0]]), max_records=1)
     bare = geodisk.sample_box([1, 1], min_distance=0.5)
     with pytest.raises(geodisk.InvalidArgument, match=r"samples: samples in a box lie on no mesh"):
         geodisk.cells(mesh, bare)

@@ -14,30 +14,30 @@ def first(samples, count):
 
 def test_a_run_goes_on_from_its_own_samples():
     whole = geodisk.sample(VERTICES, FACES, min_distance=0.3)
-    assert "given" not in whole.columns and whole.report["given"] == 0
+    assert "existing" not in whole.columns and whole.report["existing"] == 0
     for existing in (whole[:20], first(whole, 20)):
         again = geodisk.sample(VERTICES, FACES, min_distance=0.3, existing=existing)
         assert same(again, whole)
-        assert again.report["given"] == 20
-        assert again.columns["given"].tolist() == [1] * 20 + [0] * (len(whole) - 20)
+        assert again.report["existing"] == 20
+        assert again.columns["existing"].tolist() == [1] * 20 + [0] * (len(whole) - 20)
     kept = again[15:25]
-    assert kept.columns["given"].sum() == 5 and kept[0].columns["given"] == 1
+    assert kept.columns["existing"].sum() == 5 and kept[0].columns["existing"] == 1
 
 
 def test_existing_samples_are_told_apart(tmp_path):
     sparse = geodisk.sample(VERTICES, FACES, min_distance=0.6, seed=4)
     samples = geodisk.sample(VERTICES, FACES, min_distance=0.3, existing=sparse)
     assert np.array_equal(samples.points[: len(sparse)], sparse.points)
-    assert geodisk.verify(samples).given == len(sparse)
+    assert geodisk.verify(samples).existing == len(sparse)
     dense = geodisk.sample(VERTICES, FACES, min_distance=0.2, seed=4)
     crowded = geodisk.sample(VERTICES, FACES, min_distance=0.3, existing=dense)
     found = geodisk.verify(crowded)
     assert found.ok and len(found.violations) == 0
-    assert found.given == len(dense) and len(found.given_violations) > 0
+    assert found.existing == len(dense) and len(found.existing_violations) > 0
     crowded.save(tmp_path / "a.ply")
     again = geodisk.read(tmp_path / "a.ply")
-    assert np.array_equal(again.columns["given"], crowded.columns["given"])
-    assert geodisk.verify(crowded[len(dense) :]).given == 0
+    assert np.array_equal(again.columns["existing"], crowded.columns["existing"])
+    assert geodisk.verify(crowded[len(dense) :]).existing == 0
 
 
 def test_each_of_many_meshes_has_its_own():
@@ -45,8 +45,8 @@ def test_each_of_many_meshes_has_its_own():
     a, b = geodisk.sample_many(
         [(VERTICES, FACES)] * 2, min_distance=0.3, seed=[1, 2], existing=[None, whole[:9]]
     )
-    assert same(b, whole) and b.columns["given"].sum() == 9
-    assert "given" not in a.columns
+    assert same(b, whole) and b.columns["existing"].sum() == 9
+    assert "existing" not in a.columns
 
 
 def test_a_count_has_the_existing_ones_in_it():
@@ -70,9 +70,9 @@ def test_wrong_ones_are_refused():
     refuses("existing: samples in a box", geodisk.sample_box([1, 1, 1], min_distance=0.5))
     refuses("has no samples", whole[:0])
     refuses("a geodisk.Samples, or a pair", whole.points, TypeError)
-    refuses("given sample 1 is in face 1000000", ([0, 1000000], [[1, 0, 0], [1, 0, 0]]))
-    refuses("given sample 0 has weights", ([0], [[1, 1, 0]]))
-    refuses("given sample 0 has weights", ([0], [[np.nan, 1, 0]]))
+    refuses("existing sample 1 is in face 1000000", ([0, 1000000], [[1, 0, 0], [1, 0, 0]]))
+    refuses("existing sample 0 has weights", ([0], [[1, 1, 0]]))
+    refuses("existing sample 0 has weights", ([0], [[np.nan, 1, 0]]))
     refuses("shape", ([0, 1], [[1, 0, 0]]))
     refuses("stop count", whole, stop_count=3)
     refuses("count too", whole, min_distance=None, count=10)

@@ -18,7 +18,7 @@ def test_a_cube_has_its_corners_and_edges(tmp_path):
     assert (np.count_nonzero((on_curves == 0) | (on_curves == 1), axis=1) == 2).all()
     assert geodisk.verify(samples).ok
     assert samples.report["corners"] == 8 and samples.report["corners_left_out"] == 0
-    assert "given" not in samples.columns
+    assert "existing" not in samples.columns
     samples.save(tmp_path / "a.ply")
     assert np.array_equal(geodisk.read(tmp_path / "a.ply").columns["feature"], feature)
 
@@ -27,7 +27,7 @@ def test_with_a_count_existing_samples_and_few_corners():
     samples = geodisk.sample(CORNERS, SIDES, count=400, features=30)
     assert abs(len(samples) - 400) <= 20
     more = geodisk.sample(CORNERS, SIDES, min_distance=0.1, features=30, existing=samples[100:103])
-    assert more.columns["given"].tolist()[:4] == [1, 1, 1, 0]
+    assert more.columns["existing"].tolist()[:4] == [1, 1, 1, 0]
     assert more.columns["feature"].tolist()[:4] == [0, 0, 0, 2]
     few = geodisk.sample(CORNERS, SIDES, min_distance=1.2, features=30)
     assert few.report["corners_left_out"] == 8 - few.report["corners"] > 0

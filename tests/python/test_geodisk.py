@@ -160,7 +160,7 @@ def test_an_exact_count_keeps_the_first_samples_of_a_run():
     many = geodisk.sample_many([mesh, mesh], count=[200, 30], exact=True, seed=3)
     assert np.array_equal(many[0].points, samples.points) and len(many[1]) == 30
     again = geodisk.sample(mesh, count=201, exact=True, existing=samples)
-    assert len(again) == 201 and again.columns["given"].sum() == 200
+    assert len(again) == 201 and again.columns["existing"].sum() == 200
     assert len(geodisk.sample_box([1, 2], count=77, exact=True)) == 77
     for wrong in [
         dict(min_distance=0.1),
@@ -199,14 +199,14 @@ def test_progressive_order_fills_level_after_level(tmp_path):
     exact = geodisk.sample(square, count=200, exact=True, order="progressive", levels=2)
     assert len(exact) == 200 and exact.level.max() == 1
     more = geodisk.sample(square, count=300, existing=exact, order="progressive", level_factor=1.5)
-    assert more.columns["given"].sum() == 200 and geodisk.verify(more).ok
+    assert more.columns["existing"].sum() == 200 and geodisk.verify(more).ok
     assert len(geodisk.sample(square, count=200, order="progressive", stop_count=30)) == 30
     for wrong in [
         dict(order="random"),
         dict(levels=2),
         dict(order="progressive", levels=0),
         dict(order="progressive", level_factor=1.0),
-        dict(order="progressive", throws=10),
+        dict(order="progressive", darts=10),
         dict(order="progressive", metric="euclidean"),
         dict(order="progressive", classes=2),
         dict(order="progressive", features=40),
@@ -227,8 +227,8 @@ def test_a_count_with_a_stop_is_searched_for_without_it():
     assert short.report["missing"] == 10**6 - len(short)
     with pytest.warns(geodisk.GeodiskWarning, match="only .* of 999 samples fit"):
         geodisk.sample_box([1, 1], min_distance=0.2, stop_count=999)
-    with pytest.raises(ValueError, match="throws"):
-        geodisk.sample(VERTICES, FACES, count=200, throws=100)
+    with pytest.raises(ValueError, match="darts"):
+        geodisk.sample(VERTICES, FACES, count=200, darts=100)
 
 
 def told(call, *arguments, **options):

@@ -120,5 +120,5 @@ def test_what_cannot_be_asked():
     refuses("none of vertices", among="faces")
     refuses("source 0 is in face 9999", sources=([9999], [[1, 0, 0]]))
     refuses("nearest", error=(TypeError, geodisk.InvalidArgument), nearest=-1)
-    refuses("most_pairs is 0, not from 1", most_pairs=0)
-    refuses("pairs are to be expected", error=geodisk.Error, most_pairs=1)
+    refuses("max_pairs is 0, not from 1", max_pairs=0)
+    refuses("pairs are to be expected", error=geodisk.Error, max_pairs=1)

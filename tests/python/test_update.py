@@ -76,9 +76,9 @@ def test_masks_and_existing_samples():
     given = ([3, 70], [[0.25, 0.5, 0.25], [0.5, 0.25, 0.25]])
     kept = whole(existing=given)
     there = geodisk.update(SAMPLES, existing=given)
-    assert same(there, kept) and there.columns["given"].sum() == 2
+    assert same(there, kept) and there.columns["existing"].sum() == 2
     with warnings.catch_warnings():
-        warnings.simplefilter("error")  # The column "given" is not missed.
+        warnings.simplefilter("error")  # The column "existing" is not missed.
         assert same(geodisk.update(there, existing=([], [])), SAMPLES)
     assert same(geodisk.update(kept, moved()), whole(moved(), existing=given))
     own = whole(existing=SAMPLES[:2])

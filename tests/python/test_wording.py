@@ -23,7 +23,7 @@ from test_mesh_sources import CUBE
         ("turned over; --lift normals pulls them apart", "turned over"),
         ("out of memory; give more with --memory", "out of memory"),
         ("out of memory; give --weld", "out of memory; give weld"),
-        ("lower --count, or raise --darts", "lower count, or raise throws"),
+        ("lower --count, or raise --darts", "lower count, or raise darts"),
         ("a--weld.obj: damaged", "a--weld.obj: damaged"),
         ("--weld.obj: damaged", "--weld.obj: damaged"),
         ("x/--weld: damaged", "x/--weld: damaged"),

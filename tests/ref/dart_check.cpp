@@ -148,7 +148,7 @@ Darts thrown(const PreparedMesh& mesh, const SampleParams& params) {
     darts.tolerances = model.tolerances();
     ref::RunResult run =
         ref::throw_darts(surface, pool, darts.tolerances,
-                         params.stop_count != 0 ? params.stop_count : kMostCandidates);
+                         params.stop_count != 0 ? params.stop_count : kMaxCandidates);
     darts.ranks = std::move(run.ranks);
     darts.largest_error = std::max(model.first_error(), model.error_of(run.longest_chain));
     return darts;

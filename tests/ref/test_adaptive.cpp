@@ -51,7 +51,7 @@ TestMesh one_triangle() {
 /// along each side, against the integral there.
 void check_density(const Case& c, std::uint32_t count, int parts) {
     SampleParams params = c.params(100, 5);
-    params.throws = count;
+    params.darts = count;
     const ref::Surface<double> surface(c.surface, params);
     const auto points = ref::draw_pool(surface, params).by_rank();
     const auto cells = static_cast<std::size_t>(parts) * static_cast<std::size_t>(parts);
@@ -113,16 +113,16 @@ void check_bounds(const std::string& name, const Case& c, double count) {
         points.push_back(points_at_vertex(c.mesh, v).front());
     }
     GeodesicQuery<double> query(c.surface, 0.51 * params.min_distance, points, tight_tolerances());
-    double least_slack = std::numeric_limits<double>::infinity();
+    double min_slack = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < 300; ++i) {
         const std::vector<double> distances = query.from(points[i]);
         for (std::size_t q = 0; q < points.size(); ++q) {
             const double beyond = surface.radius_at(points[q]) - distances[q] / params.min_distance;
             const double bound = static_cast<double>((*bounds)[points[i].face]);
-            least_slack = std::min(least_slack, bound - beyond);
+            min_slack = std::min(min_slack, bound - beyond);
         }
     }
-    CHECK(least_slack >= 0);
+    CHECK(min_slack >= 0);
     for (std::uint32_t f = 0; f < c.surface.face_count(); ++f) {
         REQUIRE(static_cast<double>((*bounds)[f]) <= 0.5 + 0x1p-14);
     }
@@ -229,7 +229,7 @@ TEST_SUITE("radius field") {
               "the radius factor g of vertex 3 (from 0) is nan; it must be from 0.001 to 1");
         CHECK(refused(surface, std::vector<double>(43, 0.0)) == "all radius factors g are zero");
         CHECK(RadiusField::prepare(surface, with(42, NAN)));
-        CHECK(RadiusField::prepare(surface, with(5, RadiusField::kLeastFactor)));
+        CHECK(RadiusField::prepare(surface, with(5, RadiusField::kMinFactor)));
     }
 
     TEST_CASE("is linear in faces") {

@@ -367,16 +367,16 @@ TEST_CASE("pools: candidates of one priority come by face and place") {
 TEST_CASE("pools: the first darts of a job, and the stages they come in") {
     const PreparedMesh surface = prepared(builtin("torus-knot", 6));
     SampleParams params = params_for(surface, 300, 3);
-    params.throws = 100'000;
+    params.darts = 100'000;
     const ref::Surface<double> of(surface, params);
     const auto all = ref::draw_stages(of, params, 0, 7);
     REQUIRE(all.size() > 100'000);
-    for (const std::uint32_t throws : {1u, 1500u, 20'000u, 100'000u}) {
-        params.throws = throws;
+    for (const std::uint32_t wanted : {1u, 1500u, 20'000u, 100'000u}) {
+        params.darts = wanted;
         const auto darts = ref::draw_pool(of, params);
-        REQUIRE(darts.size() == throws);
+        REQUIRE(darts.size() == wanted);
         check_cells(of, darts.bins);
-        for (std::uint32_t rank = 0; rank < throws; ++rank) {
+        for (std::uint32_t rank = 0; rank < wanted; ++rank) {
             REQUIRE(key_of(darts, rank) == key_of(all, rank));
         }
     }
@@ -389,7 +389,7 @@ TEST_CASE("pools: the first darts of a job, and the stages they come in") {
     }
     // Of few samples there are many stages of 64.
     params = params_for(surface, 1, 3);
-    params.throws = 1'000'000;
+    params.darts = 1'000'000;
     CHECK(pool_of<float>(surface, params).size() == 1'000'000);
 }
 
@@ -413,7 +413,7 @@ TEST_CASE("pools: a larger one begins with a smaller one, and so do darts") {
     // Only the first stage of darts is as dense as those of a pool.
     const ref::Surface<float> of(surface, params);
     const std::uint32_t first = ref::draw_stages(of, params, 0, 1).size();
-    params.throws = 10'000;
+    params.darts = 10'000;
     check_begin(ref::draw_pool(of, params), first);
 }
 

@@ -204,9 +204,9 @@ TEST_CASE("darts: moved or scaled, a mesh has the same sample") {
 TEST_CASE("darts: more of them leave the first samples as they were, and a count stops at them") {
     const PreparedMesh surface = prepared(builtin("icosphere", 4));
     SampleParams params = params_for(surface, 500);
-    params.throws = 10'000;
+    params.darts = 10'000;
     const std::vector<std::uint32_t> few = thrown<double>(surface, params).ranks;
-    params.throws = 40'000;
+    params.darts = 40'000;
     const Darts more = thrown<double>(surface, params);
     CHECK(more.pool.size() == 40'000);
     check_maximal(surface, more);
@@ -218,7 +218,7 @@ TEST_CASE("darts: more of them leave the first samples as they were, and a count
         CHECK(first.size() == count);
         CHECK(std::equal(first.begin(), first.end(), more.ranks.begin()));
     }
-    params.stop_count = kMostCandidates;
+    params.stop_count = kMaxCandidates;
     CHECK(thrown<double>(surface, params).ranks == more.ranks);
 }
 

@@ -129,12 +129,12 @@ TEST_SUITE("density") {
             CHECK(std::ranges::equal(same.spreads(), field.spreads()));
             CHECK(same.effective_area() == field.effective_area());
         }
-        CHECK(field.least_factor() == doctest::Approx(1.0 / 32));
+        CHECK(field.min_factor() == doctest::Approx(1.0 / 32));
         CHECK(*std::ranges::max_element(field.factors()) == 1);
         CHECK(field.factor_at(0, {1, 0, 0}) == doctest::Approx(field.factors()[0]));
         const RadiusField mask = density_field(
             surface, density_along(mesh, [](double x) { return x < 0.5 ? 0.0 : 255.0; }));
-        CHECK(mask.least_factor() == 1);
+        CHECK(mask.min_factor() == 1);
     }
 
     TEST_CASE("the share of candidates is convex, and 0 and 1 at its ends") {
@@ -153,7 +153,7 @@ TEST_SUITE("density") {
                                                    {0.0, 3.0, 1000.0}}) {
             const DensityCase c(density_triangle(), density);
             SampleParams params = c.params(100, 5);
-            params.throws = 200000;
+            params.darts = 200000;
             const ref::Surface<double> surface(c.surface, params);
             const auto points = ref::draw_pool(surface, params).by_rank();
             constexpr int kParts = 4, kFine = 100, kSteps = kParts * kFine;

@@ -87,7 +87,7 @@ TEST_CASE("drawn candidates: radii that vary, densities, masks and keys") {
 TEST_CASE("drawn candidates: stages of darts") {
     const PreparedMesh mesh = prepared(builtin("cube", 2));
     SampleParams params = params_for(mesh, 200);
-    params.throws = 100000;
+    params.darts = 100000;
     const auto frame = frame_of(mesh, params);
     REQUIRE(frame);
     const CandidateDraw draw(mesh, params, *frame);

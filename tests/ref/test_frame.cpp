@@ -47,7 +47,7 @@ void check_tolerances(const Tolerances& a, const ref::Tolerances& b) {
 void check_frames(const PreparedMesh& mesh, const SampleParams& params) {
     CAPTURE(params.min_distance);
     CAPTURE(params.pool_ratio);
-    CAPTURE(params.throws);
+    CAPTURE(params.darts);
     const Result<JobFrame> made = frame_of(mesh, params);
     REQUIRE_MESSAGE(made, made.error().message);
     const JobFrame& of_host = *made;
@@ -193,7 +193,7 @@ TEST_CASE("frame: of the library and of the reference are equal") {
                 check_frames(surface, params);
             }
             for (const std::uint32_t darts : {1u, 1000u, 50'000'000u}) {
-                params.throws = darts;
+                params.darts = darts;
                 check_frames(surface, params);
             }
         }
@@ -231,7 +231,7 @@ TEST_CASE("frame: of the library and of the reference are equal where a mask lea
             SampleParams params = params_for(waves.surface, count);
             params.face_mask = mask;
             check_frames(waves.surface, params);
-            params.throws = 1000;
+            params.darts = 1000;
             check_frames(waves.surface, params);
             params = waves.params(count);
             params.face_mask = mask;
@@ -250,10 +250,10 @@ TEST_CASE("frame: a part in the frame of the whole is sampled as the whole is") 
     for (const double count : {3.0, 2000.0}) {
         for (const std::uint32_t darts : {0u, 100'000u}) {
             SampleParams params = params_for(whole, count, 5);
-            params.throws = darts;
+            params.darts = darts;
             const ref::Frame frame = ref::frame_of(whole, params);
             const JobFrame of_host = frame_for(whole, params);
-            params.throws = 0; // Darts are counted on a part alone; candidates are the same.
+            params.darts = 0; // Darts are counted on a part alone; candidates are the same.
             const std::vector<Point> of_all = samples_in(whole, params, frame);
             for (const auto& [first, last] : {std::pair{0u, cut}, std::pair{cut, end}}) {
                 const Part part(both, first, last);

@@ -33,7 +33,7 @@ TEST_CASE("thin surfaces against CGAL, with few windows") {
         const char* name;
         int resolution;
         // Without trimming up to 440; without turns_back() either, tens of thousands on the cone.
-        std::uint32_t most_windows_per_face;
+        std::uint32_t max_windows_per_face;
     };
     for (const Case& c : {Case{"tube", 6, 50}, {"cone", 8, 55}, {"spike", 6, 40}}) {
         const TestMesh mesh = builtin(c.name, c.resolution);
@@ -49,7 +49,7 @@ TEST_CASE("thin surfaces against CGAL, with few windows") {
                 GeodesicQuery<float> query(surface, reach, points,
                                            ref::frame_of(surface, reach).tolerances());
                 query.from(points[s]);
-                CHECK(query.count().windows <= c.most_windows_per_face * surface.face_count());
+                CHECK(query.count().windows <= c.max_windows_per_face * surface.face_count());
             }
         }
     }
@@ -112,8 +112,8 @@ TEST_CASE("disks that begin to trim late, among many vertices, end") {
     for (const Point& source : points) {
         const auto found = query.from(source);
         const auto wanted = exact.from(source);
-        many += query.count().windows > gpu::kMostWindows / 4 && query.count().vertices > 1000 ? 1u
-                                                                                               : 0u;
+        many +=
+            query.count().windows > gpu::kMaxWindows / 4 && query.count().vertices > 1000 ? 1u : 0u;
         for (std::size_t i = 0; i < points.size(); ++i) {
             CHECK((found[i] == doctest::Approx(wanted[i]).epsilon(tolerances.guard) ||
                    std::min(found[i], wanted[i]) > reach * (1 - tolerances.guard)));

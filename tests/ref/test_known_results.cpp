@@ -16,10 +16,10 @@ namespace {
 
 constexpr double kHalfTurn = std::numbers::pi;
 
-SampleParams dart_params(double min_distance, std::uint32_t throws, std::uint64_t seed) {
+SampleParams dart_params(double min_distance, std::uint32_t darts, std::uint64_t seed) {
     SampleParams params;
     params.min_distance = min_distance;
-    params.throws = throws;
+    params.darts = darts;
     params.seed = seed;
     return params;
 }
@@ -115,17 +115,17 @@ TEST_SUITE("known results") {
         for (std::size_t dimension = 1; dimension <= 4; ++dimension) {
             CAPTURE(dimension);
             const auto [min_distance, coverage, tolerance] = kKnown[dimension - 1];
-            constexpr std::uint32_t kThrows = 800000, kRuns = 4;
+            constexpr std::uint32_t kDarts = 800000, kRuns = 4;
             BoxParams box;
             box.extents.assign(dimension, 1);
             box.is_periodic = true;
             box.min_distance = min_distance;
-            box.throws = kThrows;
+            box.darts = kDarts;
             double early = 0, late = 0; // After a quarter of the darts, and after all.
             for (box.seed = 0; box.seed < kRuns; ++box.seed) {
                 const std::vector<std::uint32_t> ranks =
                     ref::throw_darts(ref::BoxPool<double>(box));
-                const auto quarter = std::ranges::lower_bound(ranks, kThrows / 4);
+                const auto quarter = std::ranges::lower_bound(ranks, kDarts / 4);
                 early += filled(dimension, min_distance,
                                 static_cast<std::size_t>(quarter - ranks.begin())) /
                          kRuns;

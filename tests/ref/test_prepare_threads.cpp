@@ -69,11 +69,11 @@ std::set<std::thread::id> threads_used(const ThreadOptions& options, std::size_t
 
 TEST_CASE("threads: one is the calling one") {
     const std::set<std::thread::id> own{std::this_thread::get_id()};
-    CHECK(threads_used({.most_threads = 1}, 10 * kBlock + 3) == own);
+    CHECK(threads_used({.max_threads = 1}, 10 * kBlock + 3) == own);
     CHECK(threads_used({}, kBlock) == own); // A single block.
     CHECK(threads_used({}, 0).empty());
     for (const std::uint32_t most : {2u, 3u, 100u}) {
-        CHECK(threads_used({.most_threads = most}, 10 * kBlock).size() <= most);
+        CHECK(threads_used({.max_threads = most}, 10 * kBlock).size() <= most);
     }
 }
 
@@ -101,8 +101,8 @@ TEST_CASE("threads: no result depends on them") {
         REQUIRE(loaded);
         CHECK(same_mesh(*loaded, expected));
     };
-    check({.most_threads = 1});
-    check({.most_threads = 5});
+    check({.max_threads = 1});
+    check({.max_threads = 5});
     for (const auto kind : {Loop::Kind::backwards, Loop::Kind::threads, Loop::Kind::every_other,
                             Loop::Kind::twice_and_beyond, Loop::Kind::idle}) {
         Loop loop{kind};
@@ -113,8 +113,8 @@ TEST_CASE("threads: no result depends on them") {
 
 TEST_CASE("threads: none is an error") {
     const TestMesh mesh = flat_grid(1, 1, 1, 1);
-    const auto found = PreparedMesh::prepare(mesh.view(), {.most_threads = 0});
+    const auto found = PreparedMesh::prepare(mesh.view(), {.max_threads = 0});
     REQUIRE(!found);
     CHECK(found.error().status == Status::invalid_argument);
-    CHECK(!PreparedMesh::load({}, {.most_threads = 0}));
+    CHECK(!PreparedMesh::load({}, {.max_threads = 0}));
 }

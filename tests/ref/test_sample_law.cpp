@@ -36,7 +36,7 @@ std::vector<std::uint32_t> sampled_faces(const ref::Surface<float>& surface,
 
 void check_rho(const TestMesh& shape, Measured expected) {
     constexpr std::uint64_t kSeeds = 20;
-    constexpr double kMostOff = 0.005; // Of the density.
+    constexpr double kMaxOff = 0.005; // Of the density.
     const PreparedMesh mesh = prepared(shape);
     SampleParams params = params_for(mesh, 2000);
     const ref::Surface<float> surface(mesh, params);
@@ -45,7 +45,7 @@ void check_rho(const TestMesh& shape, Measured expected) {
         const auto count = static_cast<double>(sampled_faces(surface, mesh, params).size());
         rho += packing_density(mesh.statistics().area, params.min_distance, count) / kSeeds;
     }
-    CHECK(std::abs(rho / expected.mean - 1) < kMostOff);
+    CHECK(std::abs(rho / expected.mean - 1) < kMaxOff);
     // One run varies by 0.0022.
     CHECK(std::abs(rho - expected.mean) <
           5 * std::hypot(0.0022 / std::sqrt(kSeeds), expected.error));
@@ -73,7 +73,7 @@ TEST_CASE("sample law: samples of each face") {
     constexpr std::uint32_t kSeeds = 1000;
     constexpr double kExpectedSeeds = 20000;
     // Of 25 right means one in 60,000 is farther off.
-    constexpr double kMostErrors = 5;
+    constexpr double kMaxErrors = 5;
     const PreparedMesh mesh = prepared(shape);
     SampleParams params = params_for(mesh, 30);
     const ref::Surface<float> surface(mesh, params);
@@ -92,7 +92,7 @@ TEST_CASE("sample law: samples of each face") {
     };
     for (std::uint32_t face = 0; face < mesh.face_count(); ++face) {
         CAPTURE(face);
-        CHECK(errors_off(sums[face], kExpected[face]) < kMostErrors);
+        CHECK(errors_off(sums[face], kExpected[face]) < kMaxErrors);
     }
-    CHECK(errors_off(total, kExpectedTotal) < kMostErrors);
+    CHECK(errors_off(total, kExpectedTotal) < kMaxErrors);
 }

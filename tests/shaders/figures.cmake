@@ -6,11 +6,11 @@
 # on vector registers leaves GFX6 to GFX9 two waves per SIMD, and later ones eight. Kernels with disks of
 # points to avoid, with classes, or whose disks trim need a few more, which leaves later ones seven; no others pay
 # for them.
-set(most_scratch_bytes 0)
-set(most_spilled_vgprs 0)
-set(most_spilled_sgprs 20)
-set(most_vgprs 128)
-set(most_vgprs_of_few 144)
+set(max_scratch_bytes 0)
+set(max_spilled_vgprs 0)
+set(max_spilled_sgprs 20)
+set(max_vgprs 128)
+set(max_vgprs_of_few 144)
 
 # Fails where a statistic of a kernel is missing or more.
 function(require_at_most most name statistics kernel)
@@ -40,7 +40,7 @@ set(ENV{XDG_CACHE_HOME} "${OUTPUT}/cache") # No tuning of the user's.
 file(MAKE_DIRECTORY "${OUTPUT}")
 
 # Compiles for a GPU; its figures go to a file named so.
-function(check_kernels name family least_kernels)
+function(check_kernels name family min_kernels)
     set(ENV{RADV_FORCE_FAMILY} "${family}")
     execute_process(COMMAND "${GEODISK}" info --kernels --json
         RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE error)
@@ -50,7 +50,7 @@ function(check_kernels name family least_kernels)
     file(WRITE "${OUTPUT}/${name}.json" "${output}")
     string(JSON kernels GET "${output}" kernels)
     string(JSON count LENGTH "${kernels}")
-    if(count LESS least_kernels)
+    if(count LESS min_kernels)
         message(FATAL_ERROR "${name}: only ${count} kernels")
     endif()
     math(EXPR last "${count} - 1")
@@ -60,12 +60,12 @@ function(check_kernels name family least_kernels)
         string(JSON variant GET "${kernel}" variant)
         string(JSON statistics GET "${kernel}" statistics)
         set(title "${name}: ${title} (${variant})")
-        require_at_most(${most_scratch_bytes} "Scratch size" "${statistics}" "${title}")
-        require_at_most(${most_spilled_vgprs} "Spilled VGPRs" "${statistics}" "${title}")
-        require_at_most(${most_spilled_sgprs} "Spilled SGPRs" "${statistics}" "${title}")
-        set(bound ${most_vgprs})
+        require_at_most(${max_scratch_bytes} "Scratch size" "${statistics}" "${title}")
+        require_at_most(${max_spilled_vgprs} "Spilled VGPRs" "${statistics}" "${title}")
+        require_at_most(${max_spilled_sgprs} "Spilled SGPRs" "${statistics}" "${title}")
+        set(bound ${max_vgprs})
         if(variant MATCHES "points to avoid|classes|trimming")
-            set(bound ${most_vgprs_of_few})
+            set(bound ${max_vgprs_of_few})
         endif()
         require_at_most(${bound} "VGPRs" "${statistics}" "${title}")
     endforeach()

@@ -9,7 +9,7 @@
 namespace geodisk::test {
 namespace {
 
-constexpr std::uint32_t kMostFaces = 30;
+constexpr std::uint32_t kMaxFaces = 30;
 
 double coordinate(const Choose& choose) {
     return static_cast<double>(choose(9)) / 4 - 1;
@@ -135,7 +135,7 @@ TestMesh cap_mesh(const Choose& choose) {
         mesh.add_triangle(0, 1, 2);
     }
     const std::uint32_t cuts = 1 + choose(7);
-    for (std::uint32_t i = 0; i < cuts && mesh.face_count() + 2 <= kMostFaces; ++i) {
+    for (std::uint32_t i = 0; i < cuts && mesh.face_count() + 2 <= kMaxFaces; ++i) {
         // Often one of the last, for chains.
         const std::uint32_t faces = mesh.face_count();
         const std::uint32_t face =

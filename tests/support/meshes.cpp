@@ -152,7 +152,7 @@ std::vector<Point> random_points(const PreparedMesh& mesh, std::uint64_t seed,
     SampleParams params;
     params.min_distance = distance_for_count(mesh.statistics().area, count / kStageRatio);
     params.seed = seed;
-    params.throws = count;
+    params.darts = count;
     return ref::draw_pool(ref::Surface<double>(mesh, params), params).by_rank();
 }
 

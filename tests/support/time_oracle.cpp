@@ -33,14 +33,14 @@ std::vector<Point> vertices_of(const TestMesh& mesh) {
     return points;
 }
 
-void run(const char* path, double most_seconds, char** begin, char** end) {
+void run(const char* path, double max_seconds, char** begin, char** end) {
     const geodisk::tools::MeshFile file = geodisk::tools::read_mesh(path);
     const TestMesh mesh{file.positions, file.triangles};
     const std::vector<Point> points = vertices_of(mesh);
     GeodesicOracle oracle(mesh);
     double seconds = 0;
     int count = 0;
-    for (; begin != end && seconds < most_seconds; ++begin, ++count) {
+    for (; begin != end && seconds < max_seconds; ++begin, ++count) {
         const auto source = static_cast<std::size_t>(std::atoll(*begin));
         const auto start = std::chrono::steady_clock::now();
         const std::vector<double> distances = oracle.distances(points.at(source), points);

@@ -19,19 +19,20 @@ TEST_CASE("levels end with the distance of the run") {
     CHECK(levels.scale(0) == 8);
 }
 
-TEST_CASE("the first level has the seed and the given samples of the run, later ones their own") {
+TEST_CASE(
+    "the first level has the seed and the existing samples of the run, later ones their own") {
     const std::vector<Sample> given{{0, {1, 0, 0}}};
     const std::vector<Sample> before{{0, {1, 0, 0}}, {1, {0, 1, 0}}};
     SampleParams last;
     last.min_distance = 0.5;
     last.seed = 7;
-    last.given = given;
+    last.existing = given;
     std::set<std::uint64_t> seeds;
     for (std::uint32_t level = 0; level < 5; ++level) {
         const auto params = params_of_level(last, {5, 2}, level, before);
         REQUIRE(params);
         CHECK(params->min_distance == 0.5 * (1 << (4 - level)));
-        CHECK(params->given.data() == (level == 0 ? given.data() : before.data()));
+        CHECK(params->existing.data() == (level == 0 ? given.data() : before.data()));
         CHECK((params->seed == 7) == (level == 0));
         seeds.insert(params->seed);
     }
@@ -47,7 +48,7 @@ TEST_CASE("levels out of range are refused") {
         CHECK(params_of_level(last, levels, 0, {}).error().status == Status::invalid_argument);
     }
     CHECK(!params_of_level(last, {2, 2}, 2, {}));
-    last.throws = 10;
+    last.darts = 10;
     CHECK(!params_of_level(last, {2, 2}, 0, {}));
 }
 

@@ -162,7 +162,7 @@ TEST_CASE("attributes that cannot be used are refused by name and place") {
                   "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\n"
                   "vertex 0 1 0\nendloop\nendfacet\nendsolid a\n",
                   "color", "has no attribute 'color', or any other");
-    for (const char* const name : {"radius", "Class", "bary_u", "mesh", "qx", "points", "given",
+    for (const char* const name : {"radius", "Class", "bary_u", "mesh", "qx", "points", "existing",
                                    "cover", "normal", "normal_x", "st", "displayColor"}) {
         CAPTURE(name);
         const std::string taken =

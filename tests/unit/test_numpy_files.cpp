@@ -101,7 +101,7 @@ TEST_CASE("samples in arrays of numpy are whole, whoever wrote them") {
         {"face_index", npy<std::int64_t>("<i8", "(2,)", {7, 9})},
         {"barycentric", npy<double>("<f8", "(2, 3)", {1, 0, 0, .5, .25, .25})},
         {"radius", npy<double>("<f8", "(2,)", {.25, .25})},
-        {"given", npy<std::uint8_t>("|b1", "(2,)", {1, 0})},
+        {"existing", npy<std::uint8_t>("|b1", "(2,)", {1, 0})},
         {"min_distance", npy<double>("<f8", "()", {.5})}};
     const SampleFile file = read_samples(folder.write("a.npz", npz(arrays)));
     CHECK(file.has_faces);
@@ -109,7 +109,7 @@ TEST_CASE("samples in arrays of numpy are whole, whoever wrote them") {
     CHECK(file.rows[1].bary[1] == 0.25f);
     CHECK(file.rows[1].radius == 0); // All are half of the distance, so they do not vary.
     CHECK(*file.header.find("min_distance") == "0.5");
-    CHECK(file.extra_values("given")[0] == 1);
+    CHECK(file.extra_values("existing")[0] == 1);
     arrays[3].second = npy<double>("<f8", "(2,)", {.25, .125});
     CHECK(read_samples(folder.write("b.npz", npz(arrays))).rows[1].radius == .125);
     arrays[1].second = npy<std::int64_t>("<i8", "(1,)", {7});

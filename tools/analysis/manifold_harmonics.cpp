@@ -34,9 +34,9 @@ constexpr std::size_t kLargestBand = 180;
 constexpr double kNarrowest = 1e-7;
 /// By which a shift moves that hits an eigenvalue.
 constexpr double kNudge = 1e-9;
-constexpr int kMostNudges = 100;
+constexpr int kMaxNudges = 100;
 constexpr double kTolerance = 1e-10; ///< Of an eigenvalue of the inverse.
-constexpr Index kMostRestarts = 300;
+constexpr Index kMaxRestarts = 300;
 /// Of the Krylov space, beyond twice the eigenvalues looked for.
 constexpr std::size_t kSpareDimensions = 20;
 
@@ -53,7 +53,7 @@ class Factors {
 
     /// Moves the shift a little where it is an eigenvalue. Returns it.
     double factorize(double shift) {
-        for (int nudge = 0; nudge < kMostNudges; ++nudge, shift *= 1 + kNudge) {
+        for (int nudge = 0; nudge < kMaxNudges; ++nudge, shift *= 1 + kNudge) {
             solver_.factorize(laplacian_.stiffness - shift * laplacian_.mass);
             if (solver_.info() == Eigen::Success && solver_.vectorD().allFinite()) {
                 return shift;
@@ -193,7 +193,7 @@ HarmonicBand solve_slice(const Laplacian& laplacian, Factors& factors, const Sli
             solver(inverse, mass, static_cast<Index>(std::min(wanted, krylov - 1)),
                    static_cast<Index>(krylov), shift);
         solver.init();
-        solver.compute(Spectra::SortRule::LargestMagn, kMostRestarts, kTolerance);
+        solver.compute(Spectra::SortRule::LargestMagn, kMaxRestarts, kTolerance);
         if (!found.add(solver.eigenvalues(), solver.eigenvectors()) || found.count() == known) {
             fail_slice(slice, known, unit);
         }

@@ -63,10 +63,10 @@ PowerSpectrum::PowerSpectrum(const BoxParams& box, double highest)
     : sides_(box.extents), highest_(highest) {
     std::size_t size = 1;
     for (const double side : sides_) {
-        most_.push_back(static_cast<std::int64_t>(highest * side));
-        size *= 2 * static_cast<std::size_t>(most_.back()) + 1;
+        max_.push_back(static_cast<std::int64_t>(highest * side));
+        size *= 2 * static_cast<std::size_t>(max_.back()) + 1;
     }
-    const auto last = static_cast<std::size_t>(most_.back());
+    const auto last = static_cast<std::size_t>(max_.back());
     sums_.assign(size / (2 * last + 1) * (last + 1), 0);
 }
 
@@ -82,9 +82,9 @@ double PowerSpectrum::count(const BoxParams& box, double highest) {
 void PowerSpectrum::set_row(std::size_t row, std::span<std::int64_t> waves) const {
     for (std::size_t axis = 1; axis < sides_.size(); ++axis) {
         const bool is_last = axis + 1 == sides_.size();
-        const auto most = static_cast<std::size_t>(most_[axis]);
+        const auto most = static_cast<std::size_t>(max_[axis]);
         const std::size_t count = is_last ? most + 1 : 2 * most + 1;
-        waves[axis] = static_cast<std::int64_t>(row % count) - (is_last ? 0 : most_[axis]);
+        waves[axis] = static_cast<std::int64_t>(row % count) - (is_last ? 0 : max_[axis]);
         row /= count;
     }
 }
@@ -108,11 +108,11 @@ double PowerSpectrum::power(std::span<const std::int64_t> waves) const {
     std::size_t row = 0;
     for (std::size_t axis = sides_.size() - 1; axis > 0; --axis) {
         const bool is_last = axis + 1 == sides_.size();
-        const std::int64_t count = is_last ? most_[axis] + 1 : 2 * most_[axis] + 1;
+        const std::int64_t count = is_last ? max_[axis] + 1 : 2 * max_[axis] + 1;
         row = row * static_cast<std::size_t>(count) +
-              static_cast<std::size_t>(sign * waves[axis] + (is_last ? 0 : most_[axis]));
+              static_cast<std::size_t>(sign * waves[axis] + (is_last ? 0 : max_[axis]));
     }
-    const auto column = static_cast<std::size_t>(sign * waves[0] + most_[0]);
+    const auto column = static_cast<std::size_t>(sign * waves[0] + max_[0]);
     return sums_[row * columns() + column] / sets_;
 }
 
@@ -133,7 +133,7 @@ void PowerSpectrum::add(std::span<const double> points, const PartDone& tell) {
                     factors.insert(factors.end(), waves.begin() + 1, waves.end());
                 }
             }
-            RowSums sums(rows.size(), most_[0]);
+            RowSums sums(rows.size(), max_[0]);
             std::vector<Wave> along(rows.size());
             for (std::size_t i = 0; i < samples; ++i) {
                 const double* const point = &points[i * dimension];
@@ -170,7 +170,7 @@ std::vector<SpectrumRing> PowerSpectrum::rings() const {
         if (!is_alone && *slowest < 0) {
             continue; // What is mirrored,
         }
-        for (waves[0] = is_alone ? 1 : -most_[0]; waves[0] <= most_[0]; ++waves[0]) {
+        for (waves[0] = is_alone ? 1 : -max_[0]; waves[0] <= max_[0]; ++waves[0]) {
             sums.add(length(waves), power(waves)); // and the mean.
         }
         waves[0] = 0;

@@ -32,7 +32,7 @@ class PowerSpectrum {
     std::uint32_t sets() const { return sets_; }
     std::size_t dimension() const { return sides_.size(); }
     /// The most waves along a side.
-    std::int64_t most(std::size_t axis) const { return most_[axis]; }
+    std::int64_t most(std::size_t axis) const { return max_[axis]; }
     /// At so many waves along each side; 1 where samples know nothing of each other. Not of the
     /// mean and beyond the highest frequency, where it is 0.
     double power(std::span<const std::int64_t> waves) const;
@@ -42,14 +42,14 @@ class PowerSpectrum {
     std::vector<SpectrumRing> rings() const;
 
   private:
-    std::size_t columns() const { return 2 * static_cast<std::size_t>(most_[0]) + 1; }
+    std::size_t columns() const { return 2 * static_cast<std::size_t>(max_[0]) + 1; }
     std::size_t rows() const { return sums_.size() / columns(); }
     void set_row(std::size_t row, std::span<std::int64_t> waves) const;
     double length(std::span<const std::int64_t> waves) const;
 
     std::vector<double> sides_;
     double highest_;
-    std::vector<std::int64_t> most_;
+    std::vector<std::int64_t> max_;
     std::uint32_t sets_ = 0;
     /// Of the sets' periodograms, row by row. A row has all waves along the first side, and certain
     /// ones along each of the others: any, but none below 0 along the last, which goes slowest.

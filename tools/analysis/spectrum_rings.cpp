@@ -16,8 +16,8 @@ double mean_anisotropy(std::span<const SpectrumRing> rings) {
 }
 
 double decibels(double ratio) {
-    constexpr double kLeast = 1e-12;
-    return 10 * std::log10(std::max(ratio, kLeast));
+    constexpr double kMin = 1e-12;
+    return 10 * std::log10(std::max(ratio, kMin));
 }
 
 RingSums::RingSums(double width, double highest)

@@ -17,7 +17,7 @@ namespace {
 
 using Point = ref::FacePoint<double>;
 
-constexpr double kMostCells = 0x1p24;
+constexpr double kMaxCells = 0x1p24;
 /// Sources that a thread takes at a time.
 constexpr std::size_t kBatch = 64;
 constexpr double kNone = std::numeric_limits<double>::infinity();
@@ -83,7 +83,7 @@ struct Layout {
 
     Layout(const PreparedMesh& mesh, std::span<const SurfaceDisk> given,
            const std::vector<Point>& places, double spacing)
-        : surface(mesh, ref::suitable_unit(mesh, spacing, kMostCells)), samples(given.size()) {
+        : surface(mesh, ref::suitable_unit(mesh, spacing, kMaxCells)), samples(given.size()) {
         std::vector<Point> points;
         points.reserve(given.size() + places.size());
         for (const SurfaceDisk& sample : given) {

@@ -62,7 +62,7 @@ Options checked(const RawOptions& raw) {
                                      : parse_counts("--count", raw.counts);
     options.seed = tools::parse_seed("--seed", raw.seed);
     options.face_sweep_count = tools::parse_count("--scaling-samples", raw.scaling_samples);
-    options.most_faces =
+    options.max_faces =
         static_cast<std::uint64_t>(tools::parse_count("--scaling-faces", raw.scaling_faces));
     return options;
 }

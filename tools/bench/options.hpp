@@ -23,9 +23,9 @@ struct Options {
 
     bool tune = false;
     bool scaling = false;
-    std::uint32_t copies = 0;     ///< Of each mesh, to sample together; 0 for a table of meshes.
-    double face_sweep_count = 0;  ///< Target number of samples while triangles vary.
-    std::uint64_t most_faces = 0; ///< Where the sweep of triangles ends.
+    std::uint32_t copies = 0;    ///< Of each mesh, to sample together; 0 for a table of meshes.
+    double face_sweep_count = 0; ///< Target number of samples while triangles vary.
+    std::uint64_t max_faces = 0; ///< Where the sweep of triangles ends.
 
     std::string json, csv; ///< Files to write; empty for none.
 };

@@ -47,11 +47,11 @@ void visit_fields(const Measurement& row, const Visit& visit) {
     visit("tested", run.tested);
     visit("trips", run.trips);           // 0 unless stages are timed,
     visit("lane_trips", run.lane_trips); // and so is this.
-    visit("iterations", run.iterations);
+    visit("batches", run.batches);
     visit("dispatches", run.dispatches);
     visit("regrown", run.regrown);
     visit("starts", run.starts);
-    visit("most_waiting", run.most_waiting);
+    visit("max_waiting", run.max_waiting);
     visit("longest_chain", run.longest_chain);
     visit("device_bytes", run.device_bytes);
     visit("bytes_per_candidate",

@@ -78,7 +78,7 @@ class Sweeper {
     void vary_triangles(const NamedMesh& source) {
         begin(Sweep::triangles, source.name);
         for (const std::uint32_t parts :
-             edge_parts(source.file.triangles.size() / 3, options_.most_faces)) {
+             edge_parts(source.file.triangles.size() / 3, options_.max_faces)) {
             add_row(prepare_mesh(source.name, subdivide(source.file, parts), options_.repeats),
                     options_.face_sweep_count);
         }
@@ -122,9 +122,9 @@ std::vector<Series> run_all(Runner& runner, const Options& options,
     return std::move(sweeper).take_series();
 }
 
-std::vector<std::uint32_t> edge_parts(std::uint64_t faces, std::uint64_t most_faces) {
+std::vector<std::uint32_t> edge_parts(std::uint64_t faces, std::uint64_t max_faces) {
     constexpr int kSteps = 6;
-    const double most = std::sqrt(static_cast<double>(most_faces) / static_cast<double>(faces));
+    const double most = std::sqrt(static_cast<double>(max_faces) / static_cast<double>(faces));
     std::vector<std::uint32_t> parts{1};
     for (int step = 1; step <= kSteps; ++step) {
         // The summand keeps whole ratios whole.

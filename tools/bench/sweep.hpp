@@ -55,7 +55,7 @@ std::vector<Series> run_all(Runner& runner, const Options& options,
                             const std::vector<NamedMesh>& meshes, const Observer& observer);
 
 /// Into how many parts to cut the edges of a mesh of `faces` triangles: 1 and up to six more, in
-/// about equal ratios, none of which makes more than `most_faces` triangles.
-std::vector<std::uint32_t> edge_parts(std::uint64_t faces, std::uint64_t most_faces);
+/// about equal ratios, none of which makes more than `max_faces` triangles.
+std::vector<std::uint32_t> edge_parts(std::uint64_t faces, std::uint64_t max_faces);
 
 } // namespace geodisk::bench

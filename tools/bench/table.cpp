@@ -56,8 +56,8 @@ constexpr Column kColumns[] = {
      [](const Measurement& r) {
          return three_digits(r.per_disk(static_cast<double>(r.run.tested)));
      }},
-    {"", "batches", 7, [](const Measurement& r) { return std::to_string(r.run.iterations); }},
-    {"", "waiting", 7, [](const Measurement& r) { return std::to_string(r.run.most_waiting); }},
+    {"", "batches", 7, [](const Measurement& r) { return std::to_string(r.run.batches); }},
+    {"", "waiting", 7, [](const Measurement& r) { return std::to_string(r.run.max_waiting); }},
     {"", "grown", 5, [](const Measurement& r) { return std::to_string(r.run.regrown); }},
     {"device", "MiB", 7,
      [](const Measurement& r) {

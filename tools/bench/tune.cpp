@@ -11,7 +11,7 @@ namespace geodisk::bench {
 namespace {
 
 /// What a change must gain to be kept.
-constexpr double kLeastGain = 0.03;
+constexpr double kMinGain = 0.03;
 
 struct Job {
     PreparedMesh mesh;
@@ -134,7 +134,7 @@ class Search {
         }
         Runner runner = create(tuning);
         const double ratio = compare(best_, runner, jobs_, {options_.warm_ups, options_.repeats});
-        const bool is_kept = ratio < 1 - kLeastGain;
+        const bool is_kept = ratio < 1 - kMinGain;
         if (is_kept) {
             best_ = std::move(runner);
         }

@@ -9,7 +9,7 @@
 namespace geodisk::tools {
 namespace {
 
-constexpr std::size_t kMostComponents = 16;
+constexpr std::size_t kMaxComponents = 16;
 
 DracoMesh failed(std::string why) {
     DracoMesh result;
@@ -42,13 +42,13 @@ DracoMesh decode(std::string_view bytes, const std::vector<std::uint32_t>& ids) 
             return failed("its data have no attribute " + std::to_string(id));
         }
         const auto components = static_cast<std::size_t>(attribute->num_components());
-        if (components > kMostComponents) {
+        if (components > kMaxComponents) {
             return failed("its data have an attribute of too many numbers");
         }
         DracoMesh::Attribute values{id, components, attribute->normalized(), {}};
         values.values.reserve(components * result.vertex_count);
         for (draco::PointIndex p(0); p < mesh.num_points(); ++p) {
-            std::array<double, kMostComponents> numbers{};
+            std::array<double, kMaxComponents> numbers{};
             const draco::AttributeValueIndex place = attribute->mapped_index(p);
             if (place.value() >= attribute->size() ||
                 !attribute->ConvertValue(place, static_cast<std::int8_t>(components),

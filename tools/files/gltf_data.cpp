@@ -242,8 +242,8 @@ std::vector<Value> GltfData::read(std::uint64_t accessor, const GltfAccessor& ab
     const GltfJson& object = document_.at("accessors", "accessor", accessor);
     const std::optional<std::uint64_t> view = document_.find_index(object, "bufferView", where);
     // Without a view all are zero but those replaced; a short file could ask for any number.
-    constexpr std::uint64_t kMostZeros = std::uint64_t{1} << 20;
-    if (!view && about.count > kMostZeros) {
+    constexpr std::uint64_t kMaxZeros = std::uint64_t{1} << 20;
+    if (!view && about.count > kMaxZeros) {
         document_.fail(where + ": its data are missing");
     }
     std::vector<Value> values;

@@ -8,7 +8,7 @@
 #include <streambuf>
 #include <vector>
 
-#include <geodisk/uninitialized.hpp>
+#include <geodisk/detail/uninitialized.hpp>
 #include <nlohmann/json.hpp>
 #include <tiny_gltf.h>
 
@@ -177,8 +177,8 @@ class FileBuffer : public std::streambuf {
 
 /// Returns a number as float, with the largest one in place of infinity, which glTF has not.
 float finite_float(double value) {
-    constexpr double kMost = std::numeric_limits<float>::max();
-    return static_cast<float>(std::clamp(value, -kMost, kMost));
+    constexpr double kMax = std::numeric_limits<float>::max();
+    return static_cast<float>(std::clamp(value, -kMax, kMax));
 }
 
 void add_surface(Points& points, std::span<const SampleRow> rows, const SampleLayout& layout) {

@@ -11,7 +11,7 @@ namespace geodisk::tools {
 
 /// Most pixels of an image: more than any texture has, and few enough for a file of some kilobytes
 /// not to take all memory.
-inline constexpr std::uint64_t kMostPixels = std::uint64_t{1} << 26;
+inline constexpr std::uint64_t kMaxPixels = std::uint64_t{1} << 26;
 
 enum class PixelKind : std::uint8_t { grey, colour };
 

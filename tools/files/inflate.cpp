@@ -8,10 +8,9 @@ namespace geodisk::tools {
 
 std::optional<std::string> inflated(const Path& /*path*/, std::string_view compressed,
                                     std::size_t size) {
-    constexpr std::size_t kMostRatio =
-        1032; // Of DEFLATE; more is damage, which is not to allocate.
+    constexpr std::size_t kMaxRatio = 1032; // Of DEFLATE; more is damage, which is not to allocate.
     if (compressed.size() > std::numeric_limits<uInt>::max() ||
-        size > std::numeric_limits<uInt>::max() || size / kMostRatio > compressed.size()) {
+        size > std::numeric_limits<uInt>::max() || size / kMaxRatio > compressed.size()) {
         return std::nullopt;
     }
     std::string bytes(size, '\0');

@@ -11,7 +11,7 @@ namespace {
 
 /// Of the scans of a progressive image each can take as long as the first, so their number has to
 /// be bounded.
-constexpr int kMostScans = 100;
+constexpr int kMaxScans = 100;
 
 /// What libjpeg's callbacks share. libjpeg ends on errors by a jump, over which nothing may live
 /// that has a destructor.
@@ -45,7 +45,7 @@ struct JpegReader {
     }
 
     static void count_scans(j_common_ptr jpeg) {
-        if (reinterpret_cast<j_decompress_ptr>(jpeg)->input_scan_number > kMostScans) {
+        if (reinterpret_cast<j_decompress_ptr>(jpeg)->input_scan_number > kMaxScans) {
             fail_with(jpeg, "it has too many scans");
         }
     }
@@ -62,7 +62,7 @@ bool decode(JpegReader& reader, const std::string& bytes, PixelKind kind, ImageP
     jpeg.progress = &reader.progress;
     jpeg_mem_src(&jpeg, reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size());
     jpeg_read_header(&jpeg, TRUE);
-    if (std::uint64_t{jpeg.image_width} * jpeg.image_height > kMostPixels) {
+    if (std::uint64_t{jpeg.image_width} * jpeg.image_height > kMaxPixels) {
         JpegReader::fail_with(reinterpret_cast<j_common_ptr>(&jpeg),
                               "it has more than 2^26 pixels");
     }

@@ -73,7 +73,7 @@ std::set<std::string> names_taken() {
     names.insert(kNumberedColumnNames.begin(), kNumberedColumnNames.end());
     names.insert(kFrameColumnNames.begin(), kFrameColumnNames.end());
     for (const std::string_view name :
-         {kGivenColumn, kClassColumn, kLevelColumn, kFeatureColumn, kCoverColumn}) {
+         {kExistingColumn, kClassColumn, kLevelColumn, kFeatureColumn, kCoverColumn}) {
         names.emplace(name);
     }
     for (const std::string& name : part_column_names()) {
@@ -355,10 +355,10 @@ MeshField make_uvs() {
 }
 
 void scale_colours(MeshField& colours) {
-    constexpr double kMostByte = 255;
+    constexpr double kMaxByte = 255;
     if (std::ranges::any_of(colours.values, [](double x) { return x > 1; })) {
         for (double& value : colours.values) {
-            value /= kMostByte;
+            value /= kMaxByte;
         }
     }
 }

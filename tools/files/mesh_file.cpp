@@ -106,7 +106,7 @@ bool has_area(const MeshFile& mesh, const std::uint32_t* corner) {
     if (largest == 0) {
         return false;
     }
-    std::array<double, kMostCoordinates> longer{}, shorter{}; // Two sides.
+    std::array<double, kMaxCoordinates> longer{}, shorter{}; // Two sides.
     double longer2 = 0, shorter2 = 0, product = 0;
     for (std::size_t axis = 0; axis < mesh.dimension; ++axis) {
         const double a = 1 / largest * coordinate(0, axis);
@@ -163,8 +163,8 @@ void check_size(const Path& path, const PolygonMesh& polygons) {
     if (triangles == 0) {
         fail_input(path, "has no faces of 3 or more corners");
     }
-    constexpr std::uint32_t kMost = std::numeric_limits<std::uint32_t>::max();
-    if (triangles > kMost || polygons.face_ends.size() > kMost) {
+    constexpr std::uint32_t kMax = std::numeric_limits<std::uint32_t>::max();
+    if (triangles > kMax || polygons.face_ends.size() > kMax) {
         fail_input(path, "has more faces than can be numbered");
     }
 }

@@ -5,8 +5,8 @@
 namespace geodisk::tools {
 namespace {
 
-constexpr std::uint64_t kMostBytesPerElement = 256;
-constexpr std::uint64_t kMostShrinking = 4096; ///< Far more than any compressed file reaches.
+constexpr std::uint64_t kMaxBytesPerElement = 256;
+constexpr std::uint64_t kMaxShrinking = 4096; ///< Far more than any compressed file reaches.
 
 /// False for a filter that is unknown or not made for such elements.
 bool unfilter(std::string& bytes, const MeshoptStream& stream) {
@@ -32,7 +32,7 @@ bool decode(std::string& bytes, const MeshoptStream& stream) {
     const auto* const source = reinterpret_cast<const unsigned char*>(stream.bytes.data());
     const std::size_t size = stream.bytes.size();
     if (stream.mode == "ATTRIBUTES") {
-        return stream.stride % 4 == 0 && stream.stride <= kMostBytesPerElement &&
+        return stream.stride % 4 == 0 && stream.stride <= kMaxBytesPerElement &&
                meshopt_decodeVertexBuffer(bytes.data(), stream.count, stream.stride, source,
                                           size) == 0 &&
                unfilter(bytes, stream);
@@ -53,7 +53,7 @@ bool decode(std::string& bytes, const MeshoptStream& stream) {
 
 std::optional<std::string> meshopt_decoded(const MeshoptStream& stream) {
     if (stream.stride == 0 ||
-        stream.count > (stream.bytes.size() + 1) * kMostShrinking / stream.stride) {
+        stream.count > (stream.bytes.size() + 1) * kMaxShrinking / stream.stride) {
         return std::nullopt;
     }
     std::string bytes(stream.count * stream.stride, '\0');

@@ -85,14 +85,14 @@ std::optional<std::string_view> next_quoted(std::string_view& rest) {
 /// Names may hold blanks and stand behind options: all ends of the text, each word, and what is in
 /// quotation marks.
 void add_words(std::string_view text, Names& names) {
-    constexpr std::size_t kMostWords = 64;
+    constexpr std::size_t kMaxWords = 64;
     text = trimmed(text);
     for (std::string_view rest = text; const auto quoted = next_quoted(rest);) {
         names.emplace_back(*quoted);
     }
     std::vector<std::string_view> words;
     split_tokens(text, words);
-    words.resize(std::min(words.size(), kMostWords));
+    words.resize(std::min(words.size(), kMaxWords));
     for (const std::string_view word : words) {
         names.emplace_back(word);
         names.emplace_back(text.substr(static_cast<std::size_t>(word.data() - text.data())));

@@ -1,6 +1,6 @@
 #include <algorithm>
 
-#include <geodisk/uninitialized.hpp>
+#include <geodisk/detail/uninitialized.hpp>
 
 #include "files/block_writer.hpp"
 #include "files/byte_order.hpp"

@@ -158,8 +158,8 @@ class NumpyReader {
 
     void check_points(const NumpyArray& points) const {
         const auto& shape = points.shape();
-        constexpr std::size_t kMost = kNumberedColumnNames.size();
-        if (!points.has_numbers() || shape.size() != 2 || shape[1] == 0 || shape[1] > kMost) {
+        constexpr std::size_t kMax = kNumberedColumnNames.size();
+        if (!points.has_numbers() || shape.size() != 2 || shape[1] == 0 || shape[1] > kMax) {
             fail_input(path_, "its points are " + points.description() +
                                   "; save them as float64 of shape (n, 3)");
         }

@@ -134,7 +134,7 @@ class OffReader {
     void take_dimension() {
         need_tokens("the number of coordinates");
         const auto dimension = parse_integer<std::uint32_t>(tokens_[0]);
-        if (!dimension || *dimension < kFewestCoordinates || *dimension > kMostCoordinates) {
+        if (!dimension || *dimension < kFewestCoordinates || *dimension > kMaxCoordinates) {
             fail(in_quotes(tokens_[0]) + " is no number of coordinates; vertices have 3 to 8");
         }
         mesh_.dimension = *dimension;

@@ -104,9 +104,9 @@ class PcdReader {
         } else if (key == "TYPE") {
             field.type = value[0];
         } else {
-            constexpr std::size_t kMost = 1 << 16;
+            constexpr std::size_t kMax = 1 << 16;
             const std::size_t count = number(value);
-            if (count == 0 || count > kMost) {
+            if (count == 0 || count > kMax) {
                 fail("its header has the " + std::string(key) + ' ' + in_quotes(value));
             }
             (key == "SIZE" ? field.size : field.count) = count;
@@ -179,8 +179,8 @@ class PcdReader {
     }
 
     double binary_value(const Field& field, const char* bytes) const {
-        constexpr std::size_t kMost = sizeof(double);
-        switch (field.size > kMost ? 0 : field.type * 16 + static_cast<int>(field.size)) {
+        constexpr std::size_t kMax = sizeof(double);
+        switch (field.size > kMax ? 0 : field.type * 16 + static_cast<int>(field.size)) {
         case 'F' * 16 + 4:
             return number_of_bytes<float>(bytes);
         case 'F' * 16 + 8:

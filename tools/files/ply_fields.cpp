@@ -15,8 +15,8 @@ bool is_whole(PlyType type) {
     return type != PlyType::float32 && type != PlyType::float64;
 }
 
-constexpr double kMostByte = std::numeric_limits<std::uint8_t>::max(),
-                 kMostShort = std::numeric_limits<std::uint16_t>::max();
+constexpr double kMaxByte = std::numeric_limits<std::uint8_t>::max(),
+                 kMaxShort = std::numeric_limits<std::uint16_t>::max();
 
 /// Returns the columns of these names, or none if one is not there.
 std::vector<std::size_t> find_columns(const PlyElement& element, Names names) {
@@ -54,7 +54,7 @@ PlyColours::PlyColours(const PlyElement& element)
                                     {"r", "g", "b"}})) {
     if (!columns_.empty()) {
         const PlyType type = element.properties[columns_[0]].type;
-        scale_ = type == PlyType::uint16 ? kMostShort : kMostByte;
+        scale_ = type == PlyType::uint16 ? kMaxShort : kMaxByte;
         is_scaled_ = is_whole(type);
     }
 }

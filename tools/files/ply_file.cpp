@@ -172,8 +172,8 @@ void PlyFile::parse_format(const std::vector<std::string_view>& tokens) {
 }
 
 void PlyFile::count_declaration() {
-    constexpr std::size_t kMost = 10'000; // Files have some ten.
-    if (++declarations_ > kMost) {
+    constexpr std::size_t kMax = 10'000; // Files have some ten.
+    if (++declarations_ > kMax) {
         fail_header("more than 10,000 elements and properties");
     }
 }

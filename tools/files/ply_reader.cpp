@@ -20,7 +20,7 @@ namespace {
 /// The properties x0, x1 and so on.
 std::vector<std::size_t> numbered_columns(const Path& path, const PlyElement& element) {
     std::vector<std::size_t> columns;
-    for (std::uint32_t i = 0; i <= kMostCoordinates; ++i) {
+    for (std::uint32_t i = 0; i <= kMaxCoordinates; ++i) {
         const char name[] = {'x', static_cast<char>('0' + i), '\0'};
         const std::optional<std::size_t> column = element.find_scalar(name);
         if (column && columns.size() < i) {
@@ -31,7 +31,7 @@ std::vector<std::size_t> numbered_columns(const Path& path, const PlyElement& el
             columns.push_back(*column);
         }
     }
-    if (columns.size() < kFewestCoordinates || columns.size() > kMostCoordinates) {
+    if (columns.size() < kFewestCoordinates || columns.size() > kMaxCoordinates) {
         fail_input(path, "element vertex has properties x0 to x" +
                              std::to_string(columns.size() - 1) +
                              "; a vertex has 3 to 8 coordinates");
@@ -91,7 +91,7 @@ struct PropertyColumn {
 };
 
 std::string names_of_scalars(const PlyFile& file) {
-    constexpr std::size_t kMost = 10;
+    constexpr std::size_t kMax = 10;
     std::vector<std::string> names;
     for (const char* const of : {"face", "vertex"}) {
         for (const PlyElement& element : file.elements()) {
@@ -102,7 +102,7 @@ std::string names_of_scalars(const PlyFile& file) {
             }
         }
     }
-    const std::size_t more = names.size() - std::min(names.size(), kMost);
+    const std::size_t more = names.size() - std::min(names.size(), kMax);
     names.resize(names.size() - more);
     if (more > 0) {
         names.push_back(std::to_string(more) + " more");

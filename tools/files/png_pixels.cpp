@@ -68,7 +68,7 @@ bool decode(PngReader& reader, png_structp png, png_infop info, ImagePixels& pix
     png_read_info(png, info);
     pixels.width = png_get_image_width(png, info);
     pixels.height = png_get_image_height(png, info);
-    if (std::uint64_t{pixels.width} * pixels.height > kMostPixels) {
+    if (std::uint64_t{pixels.width} * pixels.height > kMaxPixels) {
         PngReader::fail(png, "it has more than 2^26 pixels");
     }
     ask_for_rgb16(png, info);

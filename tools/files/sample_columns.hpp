@@ -33,7 +33,7 @@ inline constexpr std::array<std::string_view, 8> kNumberedColumnNames{"x0", "x1"
                                                                       "x4", "x5", "x6", "x7"};
 
 /// The column that marks samples that were given, with 1.
-inline constexpr std::string_view kGivenColumn = "given";
+inline constexpr std::string_view kExistingColumn = "existing";
 
 /// The column with the classes of samples.
 inline constexpr std::string_view kClassColumn = "class";
@@ -55,12 +55,12 @@ inline constexpr std::array<std::string_view, 4> kFrameColumnNames{"qx", "qy", "
 
 /// Returns the largest number that a column may have.
 constexpr std::uint32_t largest_in_column(std::string_view name) {
-    return name == kGivenColumn ? 1 : 0xffffffff;
+    return name == kExistingColumn ? 1 : 0xffffffff;
 }
 
 /// Returns the key of the header that says what is in a column; "" if there is none.
 constexpr std::string_view key_of_column(std::string_view name) {
-    return name == kGivenColumn     ? "existing"
+    return name == kExistingColumn  ? "existing"
            : name == kClassColumn   ? "classes"
            : name == kFeatureColumn ? "features"
            : name == kLevelColumn   ? kLevelDistances

@@ -80,7 +80,7 @@ std::array<double, 3> origin_for_float(std::span<const SampleRow> rows, std::uin
 
 void check_float_range(const SampleTarget& target, std::span<const SampleRow> rows,
                        const std::array<double, 3>& origin) {
-    constexpr double kMost = std::numeric_limits<float>::max();
+    constexpr double kMax = std::numeric_limits<float>::max();
     double largest = 0, largest_radius = 0;
     for (const SampleRow& row : rows) {
         for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -89,7 +89,7 @@ void check_float_range(const SampleTarget& target, std::span<const SampleRow> ro
         largest_radius = std::max(largest_radius, row.radius);
     }
     const auto fits = [](double value) {
-        return value == 0 || (value >= kSmallestFloat && value <= kMost);
+        return value == 0 || (value >= kSmallestFloat && value <= kMax);
     };
     if (!fits(largest) || !fits(largest_radius)) {
         fail_usage(target.path.string() + ": " + extension_of(target.format) +

@@ -65,7 +65,7 @@ SampleRow make_row(const ColumnPlaces& places, const ValueAt& value_at, const Fa
     return row;
 }
 
-/// Keeps the columns that part_columns() makes, of given samples and of levels, where a file has
+/// Keeps the columns that part_columns() makes, of existing samples and of levels, where a file has
 /// them and they hold whole numbers.
 class ExtraReader {
   public:
@@ -78,7 +78,7 @@ class ExtraReader {
             }
         }
         std::vector<std::string> names = part_column_names();
-        names.emplace_back(kGivenColumn);
+        names.emplace_back(kExistingColumn);
         names.emplace_back(kClassColumn);
         names.emplace_back(kFeatureColumn);
         names.emplace_back(kLevelColumn);

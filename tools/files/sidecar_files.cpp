@@ -59,7 +59,7 @@ Coordinates read_coordinates(const Path& path) {
     Coordinates result;
     for_each_line(path, [&](std::size_t line, const std::vector<std::string_view>& tokens) {
         if (result.dimension == 0) {
-            if (tokens.size() < kFewestCoordinates || tokens.size() > kMostCoordinates) {
+            if (tokens.size() < kFewestCoordinates || tokens.size() > kMaxCoordinates) {
                 fail_line(path, line,
                           "has " + std::to_string(tokens.size()) +
                               " numbers; a vertex has 3 to 8 coordinates");

@@ -32,7 +32,7 @@ bool is_open_file(const std::filesystem::path& path) {
 } // namespace
 
 std::optional<std::filesystem::path> followed(const Path& path) {
-    constexpr int kMostLinks = 40; // As Linux has it.
+    constexpr int kMaxLinks = 40; // As Linux has it.
     std::filesystem::path end = path;
     std::error_code ignored;
     for (int links = 0; std::filesystem::is_symlink(end, ignored); ++links) {
@@ -40,7 +40,7 @@ std::optional<std::filesystem::path> followed(const Path& path) {
             return end;
         }
         const std::filesystem::path next = std::filesystem::read_symlink(end, ignored);
-        if (links == kMostLinks || next.empty()) {
+        if (links == kMaxLinks || next.empty()) {
             return std::nullopt;
         }
         end = end.parent_path() / next; // `next` alone where it is absolute.

@@ -23,8 +23,8 @@ int open_stream(const std::filesystem::path& path) {
     return _wopen(path.c_str(), _O_WRONLY | _O_BINARY | _O_NOINHERIT);
 }
 std::ptrdiff_t write_some(int descriptor, std::string_view bytes) {
-    constexpr std::size_t kMost = 1 << 20; // Less than an int.
-    return _write(descriptor, bytes.data(), static_cast<unsigned>(std::min(bytes.size(), kMost)));
+    constexpr std::size_t kMax = 1 << 20; // Less than an int.
+    return _write(descriptor, bytes.data(), static_cast<unsigned>(std::min(bytes.size(), kMax)));
 }
 int close_stream(int descriptor) {
     return _close(descriptor);

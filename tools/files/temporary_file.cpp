@@ -114,10 +114,10 @@ std::FILE* open_new(const std::filesystem::path& path) {
 } // namespace
 
 TemporaryFile make_temporary(const std::filesystem::path& target) {
-    constexpr int kMostWriters = 1000; // Of one target at a time.
+    constexpr int kMaxWriters = 1000; // Of one target at a time.
     const std::filesystem::path name = name_for(target);
     TemporaryFile made;
-    for (int number = 0; made.file == nullptr && number < kMostWriters; ++number) {
+    for (int number = 0; made.file == nullptr && number < kMaxWriters; ++number) {
         made.path = name;
         made.path += std::to_string(number);
         made.file = open_new(made.path);

@@ -59,11 +59,11 @@ const OrderedJson& value_of(const Path& path, const OrderedJson& document, const
 
 /// Takes no number that a conversion would change, nor anything else.
 std::uint32_t number_of(const Path& path, const OrderedJson& document, const char* key) {
-    constexpr std::uint64_t kMost = std::numeric_limits<std::uint32_t>::max();
+    constexpr std::uint64_t kMax = std::numeric_limits<std::uint32_t>::max();
     const OrderedJson& value = value_of(path, document, key);
     const auto* const number = value.get_ptr<const OrderedJson::number_unsigned_t*>();
-    if (number == nullptr || *number > kMost) {
-        fail_value(path, key, value, "a whole number of 0 to " + exact_text(kMost));
+    if (number == nullptr || *number > kMax) {
+        fail_value(path, key, value, "a whole number of 0 to " + exact_text(kMax));
     }
     return static_cast<std::uint32_t>(*number);
 }

@@ -16,8 +16,8 @@ constexpr std::uint64_t kBytesPerRecord = 40;
 
 } // namespace
 
-std::uint64_t most_records(std::uint64_t bytes) {
-    const std::uint64_t most = CellParams().most_records;
+std::uint64_t max_records(std::uint64_t bytes) {
+    const std::uint64_t most = CellParams().max_records;
     return bytes == 0 ? most : std::min(most, bytes / kBytesPerRecord);
 }
 
@@ -43,7 +43,7 @@ CellResult run_cells(std::span<const SampleRow> rows, bool has_dual, const MeshI
     }
     CellParams params;
     params.has_dual = has_dual;
-    params.most_records = most_records(bytes);
+    params.max_records = max_records(bytes);
     auto found = find_cells(device.runner(), mesh.prepared, samples, params,
                             search_progress(progress, "samples"));
     progress.clear();

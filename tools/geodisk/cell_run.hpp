@@ -25,7 +25,7 @@ struct CellResult {
 
 /// Returns how many records of paths the host may keep with --memory `bytes`, 0 where it is not
 /// given.
-std::uint64_t most_records(std::uint64_t bytes);
+std::uint64_t max_records(std::uint64_t bytes);
 /// Throws UserError for an error of a search for cells, which was bounded by --memory `bytes`.
 void check_cells(const Error& error, std::uint64_t bytes);
 

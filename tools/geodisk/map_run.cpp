@@ -91,9 +91,8 @@ MapResult run_map(std::span<const SampleRow> rows, TextureSize size, const std::
         samples.push_back(sample_of(row));
     }
     progress.begin_stage("finding cells");
-    auto nearest =
-        NearestSamples::create(device.runner(), mesh.prepared, samples, most_records(bytes),
-                               search_progress(progress, "samples"));
+    auto nearest = NearestSamples::create(device.runner(), mesh.prepared, samples,
+                                          max_records(bytes), search_progress(progress, "samples"));
     progress.clear();
     check_interrupted();
     if (!nearest) {

@@ -54,7 +54,7 @@ NeighbourResult search_neighbours(const NeighbourJob& job, const MeshInput& mesh
     query.points = job.points;
     query.joined = mesh.file.joined;
     query.nearest = job.nearest;
-    query.most_pairs = job.most_pairs == 0 ? query.most_pairs : job.most_pairs;
+    query.max_pairs = job.max_pairs == 0 ? query.max_pairs : job.max_pairs;
     auto found =
         find_neighbours(device.runner(), mesh.prepared, query, search_progress(progress, "pairs"));
     progress.clear();

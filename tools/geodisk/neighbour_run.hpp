@@ -42,7 +42,7 @@ struct NeighbourJob {
     double within = 0;
     std::vector<double> radii; ///< Of each source, or empty.
     std::uint32_t nearest = 0;
-    std::uint64_t most_pairs = 0; ///< 0 for the library's.
+    std::uint64_t max_pairs = 0; ///< 0 for the library's.
 };
 
 struct NeighbourResult {

@@ -14,9 +14,9 @@ namespace geodisk::tools {
 namespace {
 
 /// What a browser opens within seconds, as pages of about 200 MB.
-constexpr std::size_t kMostTriangles = std::size_t{1} << 22;
+constexpr std::size_t kMaxTriangles = std::size_t{1} << 22;
 /// The same of windows, as 64 MB.
-constexpr std::size_t kMostWindows = std::size_t{1} << 22;
+constexpr std::size_t kMaxWindows = std::size_t{1} << 22;
 
 void append(std::vector<report::PageArray>& to, std::vector<report::PageArray> arrays) {
     to.insert(to.end(), std::make_move_iterator(arrays.begin()),
@@ -31,9 +31,9 @@ void add_disks(const MeshInput& mesh, std::span<const SurfaceDisk> disks, Progre
         progress.update(part, grouped(disks.size()) + " disks");
     };
     auto table = picture::try_window_table(mesh.prepared, disks, 2 * median_radius(disks), tell,
-                                           kMostWindows);
+                                           kMaxWindows);
     if (!table) {
-        content.left_out.push_back("The disks, as they light more than " + grouped(kMostWindows) +
+        content.left_out.push_back("The disks, as they light more than " + grouped(kMaxWindows) +
                                    " places of the surface, too many for a page. Samples are "
                                    "shown as points.");
         return;
@@ -56,8 +56,8 @@ PageContent make_page_content(const MeshInput& mesh, const SampleDisks& samples,
                                       "coordinates, so that there is nothing to look at.");
         return content;
     }
-    if (mesh.file.triangle_count() > kMostTriangles) {
-        content.left_out.push_back("The surface, as it has more than " + grouped(kMostTriangles) +
+    if (mesh.file.triangle_count() > kMaxTriangles) {
+        content.left_out.push_back("The surface, as it has more than " + grouped(kMaxTriangles) +
                                    " triangles, too many for a page.");
         return content;
     }

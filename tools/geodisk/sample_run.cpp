@@ -13,7 +13,7 @@
 #include "files/sample_columns.hpp"
 #include "geodisk/checks/run_warnings.hpp"
 #include "geodisk/checks/spacing.hpp"
-#include "geodisk/inputs/given_input.hpp"
+#include "geodisk/inputs/existing_input.hpp"
 #include "geodisk/outputs/outputs.hpp"
 #include "geodisk/records.hpp"
 #include "geodisk/update_run.hpp"
@@ -78,28 +78,28 @@ std::vector<SampleRow> to_rows(const MeshInput& mesh, double min_distance,
     return rows;
 }
 
-/// Adds what is to be told of the samples that were given, the first of `result`.
-void note_given(const SampleJob& job, const MeshInput& mesh, SampleResult& result,
-                ProgressLine& progress) {
-    const auto rows = std::span(result.rows).first(result.given);
+/// Reports the existing samples, the first of `result`.
+void note_existing(const SampleJob& job, const MeshInput& mesh, SampleResult& result,
+                   ProgressLine& progress) {
+    const auto rows = std::span(result.rows).first(result.existing);
     std::vector<double> radii;
     for (const SampleRow& row : rows) {
         radii.push_back(mesh.radii ? row.radius : result.params.min_distance / 2);
     }
     PairDistances distances{radii};
     if (job.classes.count > 1) {
-        distances = {radii, std::span(result.classes).first(result.given), job.classes,
+        distances = {radii, std::span(result.classes).first(result.existing), job.classes,
                      result.params.min_distance};
     }
     const std::vector<std::uint32_t> all(rows.size(), 1);
-    result.among_given = check_spacing(mesh, rows, distances, all, progress).among_given;
-    const SpacingResult& found = result.among_given;
+    result.among_existing = check_spacing(mesh, rows, distances, all, progress).among_existing;
+    const SpacingResult& found = result.among_existing;
     if (found.violations.empty()) {
         return;
     }
     const ClosePair& closest = *found.closest;
     result.warnings.push_back(
-        {"given_too_close", found.violations.size(), "",
+        {"existing_too_close", found.violations.size(), "",
          found.pairs_text() +
              " of existing samples closer than the minimum distance; they are kept. The closest "
              "are samples " +
@@ -112,11 +112,11 @@ void note_given(const SampleJob& job, const MeshInput& mesh, SampleResult& resul
 std::vector<ExtraColumn> extra_columns(const SampleJob& job, const MeshInput& mesh,
                                        const SampleResult& result) {
     std::vector<ExtraColumn> columns = part_columns(mesh.file, job.columns, result.rows);
-    if (result.given > 0 && takes_column(job.out, kGivenColumn)) {
-        ExtraColumn given{std::string(kGivenColumn),
-                          std::vector<std::uint32_t>(result.rows.size())};
-        std::fill_n(given.values.begin(), result.given, 1);
-        columns.push_back(std::move(given));
+    if (result.existing > 0 && takes_column(job.out, kExistingColumn)) {
+        ExtraColumn existing{std::string(kExistingColumn),
+                             std::vector<std::uint32_t>(result.rows.size())};
+        std::fill_n(existing.values.begin(), result.existing, 1);
+        columns.push_back(std::move(existing));
     }
     if (job.features && takes_column(job.out, kFeatureColumn)) {
         columns.push_back({std::string(kFeatureColumn), result.features});
@@ -171,7 +171,7 @@ SampleParams params_on(const MeshInput& mesh, const SampleJob& job) {
             ? distance_on_mesh(*job.min_distance, mesh.prepared.statistics()) / mesh.distance_part
             : mesh.distance_for_count(params, job.wanted_count.samples) *
                   job.method.distance_factor();
-    params.throws = job.method.throws_for(expected_count(area, params.min_distance));
+    params.darts = job.method.darts_for(expected_count(area, params.min_distance));
     return params;
 }
 
@@ -204,10 +204,10 @@ SampleResult sample_mesh(const SampleJob& job, const MeshInput& mesh, RunDevice&
     check_split(job, mesh, device);
     check_record(job.out.record, mesh);
     check_parts(job.mesh.mesh, mesh.file, job.columns);
-    GivenInput given = load_given(job, mesh, progress);
+    ExistingInput given = load_existing(job, mesh, progress);
     SampleParams params = params_on(mesh, job);
-    params.given = given.samples;
-    params.given_classes = given.classes;
+    params.existing = given.samples;
+    params.existing_classes = given.classes;
     params.avoid = given.avoided;
     std::optional<UpdateRun> update;
     if (!job.from.empty()) {
@@ -233,8 +233,8 @@ SampleResult sample_mesh(const SampleJob& job, const MeshInput& mesh, RunDevice&
     }
     job.method.check_count(set.samples.size(), params.min_distance * mesh.distance_part,
                            done.run.candidates);
-    params.given = {};
-    params.given_classes = {};
+    params.existing = {};
+    params.existing_classes = {};
     params.avoid = {};
     SampleResult result;
     result.frame = frame_to_tell(job, mesh, params, update);
@@ -242,7 +242,7 @@ SampleResult sample_mesh(const SampleJob& job, const MeshInput& mesh, RunDevice&
     result.done = std::move(done);
     result.rows = to_rows(mesh, params.min_distance, set.samples);
     set_normals(job.out.record, mesh, result.rows);
-    result.given = given.samples.size();
+    result.existing = given.samples.size();
     result.features.assign(set.samples.size(), 0);
     std::ranges::transform(found.features, result.features.begin(),
                            [](FeatureKind kind) { return static_cast<std::uint32_t>(kind); });
@@ -276,8 +276,8 @@ SampleResult sample_mesh(const SampleJob& job, const MeshInput& mesh, RunDevice&
                                        " degrees or is a border, so there are no features",
                                    job.mesh.mesh});
     }
-    if (result.given > 0) {
-        note_given(job, mesh, result, progress);
+    if (result.existing > 0) {
+        note_existing(job, mesh, result, progress);
     }
     if (job.method.is_farthest) {
         put_farthest_first(job, mesh, device, progress, result);
@@ -303,10 +303,10 @@ DryRun try_sampling(const SampleJob& job, const MeshInput& mesh, RunDevice& devi
     check_split(job, mesh, device);
     check_record(job.out.record, mesh);
     check_parts(job.mesh.mesh, mesh.file, job.columns);
-    const GivenInput given = load_given(job, mesh, progress);
+    const ExistingInput given = load_existing(job, mesh, progress);
     SampleParams params = params_on(mesh, job);
-    params.given = given.samples;
-    params.given_classes = given.classes;
+    params.existing = given.samples;
+    params.existing_classes = given.classes;
     params.avoid = given.avoided;
     const MeshView view = mesh.sampled_view();
     SampleRequest request = request_of(job, mesh, params, view);

@@ -19,8 +19,8 @@ std::vector<NamedFile> files_read(const SampleJob& job);
 /// Throws UserError(usage) if the format of the output cannot hold the samples.
 void check_target(const SampleJob& job, const MeshInput& mesh);
 
-/// The parameters that the job asks for on a mesh, which must outlive them. Without given samples
-/// and points to avoid.
+/// The parameters that the job asks for on a mesh, which must outlive them. Without existing
+/// samples and points to avoid.
 SampleParams params_on(const MeshInput& mesh, const SampleJob& job);
 
 /// The device that the job asks for, which can draw where there is to be a picture.

@@ -19,7 +19,7 @@ namespace {
 
 constexpr double kProbesPerSample = 10;
 constexpr double kFewestProbes = 20000;
-constexpr double kMostProbes = 1e7;
+constexpr double kMaxProbes = 1e7;
 
 /// Returns the packing density; nothing where radii vary otherwise than by class.
 std::optional<double> rho_of(const MeshInput& mesh, std::span<const SurfaceDisk> disks,
@@ -30,7 +30,7 @@ std::optional<double> rho_of(const MeshInput& mesh, std::span<const SurfaceDisk>
     }
     std::vector<float> factors;
     for (const double distance : classes.distances) {
-        factors.push_back(std::max(static_cast<float>(distance / min_distance), kLeastClassFactor));
+        factors.push_back(std::max(static_cast<float>(distance / min_distance), kMinClassFactor));
     }
     SampleParams params;
     params.face_mask = mesh.face_mask;
@@ -94,13 +94,13 @@ void add_probes_option(Command command, std::string& probes) {
 std::uint32_t probes_for(const std::string& probes, std::size_t samples) {
     if (!probes.empty()) {
         const double count = parse_count("--probes", probes);
-        if (count > kMostProbes) {
+        if (count > kMaxProbes) {
             fail_usage("--probes takes at most 1e7");
         }
         return static_cast<std::uint32_t>(count);
     }
     return static_cast<std::uint32_t>(
-        std::clamp(kProbesPerSample * static_cast<double>(samples), kFewestProbes, kMostProbes));
+        std::clamp(kProbesPerSample * static_cast<double>(samples), kFewestProbes, kMaxProbes));
 }
 
 SetAnalysis analyze_disks(const MeshInput& mesh, const SampleDisks& samples,

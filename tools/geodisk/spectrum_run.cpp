@@ -18,7 +18,7 @@ using analysis::ManifoldHarmonics;
 
 constexpr std::size_t kHarmonics = 1000;
 /// Of the vertices: shorter waves than of so many harmonics have hardly three vertices each.
-constexpr double kMostOfVertices = 0.1;
+constexpr double kMaxOfVertices = 0.1;
 
 void check_on_surface(std::span<const analysis::PlacedSamples> sets, const Laplacian& laplacian) {
     for (const analysis::PlacedSamples& samples : sets) {
@@ -44,7 +44,7 @@ std::size_t count_for(const std::string& text, const std::string& mesh_path,
                    counted(laplacian.size(), "vertex", "vertices") + ", so only " +
                    counted(harmonics.count(), "harmonic", "harmonics"));
     }
-    if (static_cast<double>(count) > kMostOfVertices * laplacian.size()) {
+    if (static_cast<double>(count) > kMaxOfVertices * laplacian.size()) {
         warnings.push_back({"coarse_mesh", count, "",
                             grouped(count) + " harmonics of " +
                                 counted(laplacian.size(), "vertex", "vertices") +

@@ -78,7 +78,7 @@ void check_edit(const SampleJob& job, const MeshInput& before, const MeshInput& 
     }
     if (before.radii && mesh.radii &&
         (before.radii->largest_density() != mesh.radii->largest_density() ||
-         before.radii->least_density() != mesh.radii->least_density())) {
+         before.radii->min_density() != mesh.radii->min_density())) {
         fail("has another largest or least density than " + job.from +
              ", by which all radii go, so all of them change");
     }
@@ -99,10 +99,10 @@ JobFrame frame_of_samples(const SampleFile& file, const std::string& path, const
 void check_kind(const SampleFile& file, const std::string& path) {
     const SampleHeader& header = file.header;
     const std::pair<std::string_view, const char*> kinds[] = {
-        {"throws", "--method darts"}, {"classes", "--classes"},
-        {"features", "--features"},   {kLevelDistances, "--order progressive"},
-        {"maximal", "--maximal"},     {"exact", "--count --exact"},
-        {"avoid", "--avoid"},         {"metric", "--metric"}};
+        {"darts", "--method darts"}, {"classes", "--classes"},
+        {"features", "--features"},  {kLevelDistances, "--order progressive"},
+        {"maximal", "--maximal"},    {"exact", "--count --exact"},
+        {"avoid", "--avoid"},        {"metric", "--metric"}};
     for (const auto& [key, option] : kinds) {
         if (header.find(key) != nullptr) {
             fail_input(path, std::string("has samples of ") + option +
@@ -212,7 +212,7 @@ UpdateRun::UpdateRun(const SampleJob& job, const MeshInput& mesh, ProgressLine& 
         return;
     }
     // Rows may be in another order.
-    const auto marks = file.extra_values(kGivenColumn);
+    const auto marks = file.extra_values(kExistingColumn);
     const auto add = [&](bool is_given) {
         for (std::size_t i = 0; i < file.rows.size(); ++i) {
             if ((!marks.empty() && marks[i] == 1) == is_given) {
@@ -221,9 +221,9 @@ UpdateRun::UpdateRun(const SampleJob& job, const MeshInput& mesh, ProgressLine& 
         }
     };
     add(true);
-    const std::size_t given = samples_.size();
+    const std::size_t existing = samples_.size();
     add(false);
-    params_.given = std::span(samples_).first(given);
+    params_.existing = std::span(samples_).first(existing);
 }
 
 void UpdateRun::decide_all(const std::string& reason) {
@@ -245,7 +245,7 @@ Result<SampleSet> UpdateRun::sample(Runner& runner, const RequestStep& step,
     }
     SampleSet set;
     set.samples.assign(updater->samples().begin(), updater->samples().end());
-    set.given = updater->given();
+    set.existing = updater->existing();
     set.report = report->run;
     return set;
 }

@@ -47,7 +47,7 @@ class UpdateRun : public SurfaceSampler {
     MeshInput before_;
     SampleParams params_; ///< On the mesh before.
     JobFrame frame_;
-    std::vector<Sample> samples_; ///< Before; the given ones first.
+    std::vector<Sample> samples_; ///< Before; the existing ones first.
     std::optional<MeshWarning> warning_;
     std::vector<ProcessReport> processes_;
 };

@@ -70,12 +70,12 @@ std::uint64_t job_digest(const JobFrame& frame, const SampleParams& params) {
     for (const double number : {params.min_distance, params.pool_ratio}) {
         options.add_all(std::span(&number, 1));
     }
-    for (const std::uint64_t number : {std::uint64_t{params.seed}, std::uint64_t{params.throws},
+    for (const std::uint64_t number : {std::uint64_t{params.seed}, std::uint64_t{params.darts},
                                        std::uint64_t{params.stop_count}}) {
         options.add(number);
     }
     options.add_all(params.face_keys);
-    options.add_all(params.given);
+    options.add_all(params.existing);
     options.add_all(params.avoid);
     return options.value();
 }

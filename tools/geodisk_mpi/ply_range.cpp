@@ -19,11 +19,11 @@
 namespace geodisk::tools {
 namespace {
 
-constexpr std::size_t kMostHeader = 1u << 16;
+constexpr std::size_t kMaxHeader = 1u << 16;
 constexpr std::size_t kReadAtOnce = 1u << 22;
 // As PreparedMesh::prepare() can number them.
-constexpr std::uint64_t kMostFaces = (std::uint64_t{1} << 30) / 3;
-constexpr std::uint64_t kMostVertices = std::uint64_t{1} << 30;
+constexpr std::uint64_t kMaxFaces = (std::uint64_t{1} << 30) / 3;
+constexpr std::uint64_t kMaxVertices = std::uint64_t{1} << 30;
 
 /// Thrown where the file has to be read as a whole.
 struct NeedsWhole {
@@ -104,7 +104,7 @@ PlyFile read_header(const Path& path) {
     if (!std::filesystem::is_regular_file(path, error) || !file) {
         throw NeedsWhole{"it is no file that can be read in parts"};
     }
-    std::string head(kMostHeader, '\0');
+    std::string head(kMaxHeader, '\0');
     file.read(head.data(), static_cast<std::streamsize>(head.size()));
     head.resize(static_cast<std::size_t>(file.gcount()));
     try {
@@ -238,7 +238,7 @@ PlyLayout layout_of(const Path& path, std::uint64_t file_size, const RangeWants&
     if (offset != file_size) {
         throw NeedsWhole{"it is not as long as if all its faces were triangles"};
     }
-    if (layout.faces.count > kMostFaces || layout.vertices.count > kMostVertices) {
+    if (layout.faces.count > kMaxFaces || layout.vertices.count > kMaxVertices) {
         throw NeedsWhole{"it has more faces or vertices than can be numbered"};
     }
     find_wanted(wants, layout);
@@ -306,7 +306,7 @@ MeshRange read_range(const Path& path, const PlyLayout& layout, const RangeWants
                     const char* corner = record + count.offset + size_of(count.type);
                     for (int k = 0; k < 3; ++k, corner += corner_size) {
                         const double value = value_of(layout.corner_type, corner, is_little);
-                        if (!(value >= 0 && value < static_cast<double>(kMostVertices)) ||
+                        if (!(value >= 0 && value < static_cast<double>(kMaxVertices)) ||
                             static_cast<std::uint32_t>(value) != value) {
                             throw NeedsWhole{"a face names a vertex that there is not"};
                         }

@@ -95,7 +95,7 @@ std::uint32_t parts_of_process(std::uint64_t faces, std::uint32_t processes, std
     }
     const std::uint64_t own = faces / processes;
     const std::uint64_t wanted = asked != 0 ? asked : (own + kFacesOfPart - 1) / kFacesOfPart;
-    const std::uint64_t most = std::min<std::uint64_t>(own, MpiExchange::kMostLanes);
+    const std::uint64_t most = std::min<std::uint64_t>(own, MpiExchange::kMaxLanes);
     return static_cast<std::uint32_t>(std::max<std::uint64_t>(1, std::min(wanted, most)));
 }
 

@@ -63,7 +63,7 @@ MeshInput outline_of(const RangedSurface& surface, const SampleJob& job, double 
     mesh.known = {surface.effective_area(), surface.borders(), surface.masked_faces()};
     if (const RadiusField* const radii = surface.radii()) {
         mesh.radii = *radii;
-        mesh.distance_part = job.density.is_density() ? radii->least_factor() : 1;
+        mesh.distance_part = job.density.is_density() ? radii->min_factor() : 1;
     }
     mesh.file.positions.assign(3, 0); // There are coordinates.
     const auto warn = [&](const char* kind, std::uint64_t count, const char* one,

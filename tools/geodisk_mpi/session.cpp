@@ -66,17 +66,17 @@ Result<Record> all_hear(Exchange& exchange, const Record& of_first) {
 struct RangedJob {
     double min_distance, pool_ratio;
     std::uint64_t seed;
-    std::uint32_t throws, stop_count;
+    std::uint32_t darts, stop_count;
 
     explicit RangedJob(const SampleParams& params)
         : min_distance(params.min_distance), pool_ratio(params.pool_ratio), seed(params.seed),
-          throws(params.throws), stop_count(params.stop_count) {}
+          darts(params.darts), stop_count(params.stop_count) {}
     SampleParams params() const {
         SampleParams params;
         params.min_distance = min_distance;
         params.pool_ratio = pool_ratio;
         params.seed = seed;
-        params.throws = throws;
+        params.darts = darts;
         params.stop_count = stop_count;
         return params;
     }

@@ -28,7 +28,7 @@ struct PartSearch {
     std::vector<Sample> samples;
     std::vector<std::uint32_t> rows; ///< Row in the whole of each sample.
     std::vector<std::uint8_t> sources;
-    std::vector<std::uint32_t> given;
+    std::vector<std::uint32_t> existing;
     bool has_distances = false;
     std::vector<double> radii;
     std::vector<std::uint32_t> classes;
@@ -41,7 +41,7 @@ struct PartSearch {
             search.distances = PairDistances{radii, classes, table, min_distance};
         }
         search.cut = cut;
-        search.given = given;
+        search.existing = existing;
         search.sources = sources;
         return search;
     }
@@ -59,7 +59,7 @@ void for_fields(Part& part, const One& one, const All& all) {
     all(part.samples);
     all(part.rows);
     all(part.sources);
-    all(part.given);
+    all(part.existing);
     all(part.radii);
     all(part.classes);
     all(part.table.distances);
@@ -125,7 +125,7 @@ Result<Bytes> part_message(const PairSearch& whole, std::span<const std::uint32_
         sample.face = local[sample.face];
         part.samples.push_back(sample);
         part.rows.push_back(row);
-        copy_row(whole.given, row, part.given);
+        copy_row(whole.existing, row, part.existing);
         copy_row(distances.radii, row, part.radii);
         copy_row(distances.classes, row, part.classes);
     }

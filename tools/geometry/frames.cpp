@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include <geodisk/philox.hpp>
+#include <geodisk/detail/philox.hpp>
 
 namespace geodisk::tools {
 

@@ -114,7 +114,7 @@ LiftedPositions lifted_positions(const std::string& path, const MeshFile& mesh,
     for (const Lift& lift : lifts) {
         result.dimension += lift.attribute.empty() ? 3u : 1u;
     }
-    if (result.dimension > kMostCoordinates) {
+    if (result.dimension > kMaxCoordinates) {
         fail_usage("--lift makes " + std::to_string(result.dimension) + " coordinates of " +
                    std::to_string(mesh.dimension) + "; at most 8 are possible");
     }

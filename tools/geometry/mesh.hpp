@@ -17,7 +17,7 @@ namespace geodisk::tools {
 
 /// Fewest and most coordinates a vertex may have in a file.
 inline constexpr std::uint32_t kFewestCoordinates = 3;
-inline constexpr std::uint32_t kMostCoordinates = 8;
+inline constexpr std::uint32_t kMaxCoordinates = 8;
 
 /// Texture coordinates of a vertex.
 struct VertexUv {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <vector>
 
-#include <geodisk/vertex_sets.hpp>
+#include <geodisk/detail/vertex_sets.hpp>
 
 namespace geodisk::tools {
 namespace {

@@ -1,4 +1,4 @@
-// The points of a surface that are nearest to given ones.
+// The points of a surface that are nearest to existing ones.
 #pragma once
 
 #include <array>
@@ -19,7 +19,7 @@ struct SurfacePoint {
 };
 
 /// A point or a difference of points, in up to as many dimensions as meshes have.
-using Vector = std::array<double, kMostCoordinates>;
+using Vector = std::array<double, kMaxCoordinates>;
 
 /// Returns the weights of the point of a triangle that is nearest to a point. `ab`, `ac` and `to`
 /// lead from the first corner to the others and to the point. They sum to 1 up to rounding.

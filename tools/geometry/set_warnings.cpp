@@ -12,7 +12,7 @@ namespace {
 /// Part of a count that may be missed without a word, as CountSearch has it.
 constexpr double kTolerance = 0.05;
 /// Smallest share of the area without samples that is worth a warning.
-constexpr double kLeastShare = 0.01;
+constexpr double kMinShare = 0.01;
 
 std::string percent(double share) {
     return rounded(100 * share, 2) + " % of the area";
@@ -50,7 +50,7 @@ void check_count(const SampledSet& set, std::vector<MeshWarning>& warnings) {
 
 /// Why there is no new sample.
 std::string no_room_text(const SampledSet& set) {
-    if (set.given == 0) {
+    if (set.existing == 0) {
         return "no sample fits outside the points to avoid; lower their radii";
     }
     return std::string("no new sample fits beside the existing ones") +
@@ -63,19 +63,19 @@ std::string no_room_text(const SampledSet& set) {
 std::vector<MeshWarning> set_warnings(const SampledSet& set) {
     std::vector<MeshWarning> warnings;
     check_count(set, warnings);
-    if (set.samples == set.given && (set.given > 0 || set.avoids)) {
+    if (set.samples == set.existing && (set.existing > 0 || set.avoids)) {
         warnings.push_back({"no_new_samples", 1, "", no_room_text(set), ""});
         return warnings;
     }
     const BareParts& bare = set.bare;
-    if (bare.area_share >= kLeastShare) {
+    if (bare.area_share >= kMinShare) {
         warnings.push_back({"bare_parts", bare.count, "",
                             counted(bare.count, "part", "parts") + " of the mesh, " +
                                 percent(bare.area_share) + (bare.count == 1 ? ", has" : ", have") +
                                 " no sample; ask for more samples or a smaller distance",
                             ""});
     }
-    const bool is_full = set.wanted_count == 0 && set.stop_count == 0 && !set.has_throws;
+    const bool is_full = set.wanted_count == 0 && set.stop_count == 0 && !set.has_darts;
     if (is_full && set.samples > 0 && set.samples + bare.count <= bare.parts) {
         warnings.push_back(
             {"single_samples", set.samples, "",

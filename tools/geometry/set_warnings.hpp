@@ -13,13 +13,13 @@ namespace geodisk::tools {
 /// A set of samples on a mesh or in a box, and what was asked for.
 struct SampledSet {
     std::uint64_t samples = 0;
-    std::uint64_t given = 0;      ///< Those of the samples that were given.
+    std::uint64_t existing = 0;   ///< Those of the samples that existed before.
     bool avoids = false;          ///< There are points to avoid.
     double min_distance = 0;      ///< As it is told.
     double wanted_count = 0;      ///< Samples that the distance was chosen for, or 0.
     std::uint64_t cut = 0;        ///< Samples of the run that an exact count left out.
     std::uint32_t stop_count = 0; ///< Samples to stop at, or 0.
-    bool has_throws = false;      ///< The number of darts was given.
+    bool has_darts = false;       ///< The number of darts was given.
     std::string domain = "mesh";  ///< What has the room for samples.
     BareParts bare{};
 };

@@ -14,7 +14,7 @@ namespace {
 /// Smallest angle of a triangle in radians, 0 without area.
 double smallest_angle(const MeshFile& mesh, const std::uint32_t* corner) {
     double a2 = 0, b2 = 0, c2 = 0; // Squares of its sides, in units of the longest coordinate.
-    std::array<double, kMostCoordinates> ab{}, ac{};
+    std::array<double, kMaxCoordinates> ab{}, ac{};
     double largest = 0;
     const auto coordinate = [&](int k, std::size_t axis) {
         return mesh.positions[std::size_t{corner[k]} * mesh.dimension + axis];

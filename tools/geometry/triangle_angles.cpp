@@ -9,7 +9,7 @@
 namespace geodisk::tools {
 namespace {
 
-constexpr double kLeastGood = 30, kLargestGood = 120;
+constexpr double kMinGood = 30, kLargestGood = 120;
 
 /// Returns the angle between the sides a and b of a triangle, in degrees.
 double angle_between(double a, double b, double opposite) {
@@ -43,7 +43,7 @@ TriangleAngles triangle_angles(std::span<const double> points, std::uint32_t dim
             {angle_between(ab, ca, bc), angle_between(ab, bc, ca), angle_between(bc, ca, ab)});
         angles.least = std::min(angles.least, low);
         angles.largest = std::max(angles.largest, high);
-        good += low >= kLeastGood && high <= kLargestGood ? 1 : 0;
+        good += low >= kMinGood && high <= kLargestGood ? 1 : 0;
     }
     angles.part_inside = static_cast<double>(good) / static_cast<double>(triangles.size());
     return angles;

@@ -19,7 +19,7 @@ namespace geodisk::paper {
 namespace {
 
 /// Samples per second of the paper on a GTX 580, by dimension.
-constexpr const char* kPrintedSpeeds[kMostBoxDimensions + 1] = {"", "", "13", "1.5", "", "", ""};
+constexpr const char* kPrintedSpeeds[kMaxBoxDimensions + 1] = {"", "", "13", "1.5", "", "", ""};
 
 struct Options {
     CommonOptions common;
@@ -96,7 +96,7 @@ void add_dimension(const Options& options, const Context& context, std::uint32_t
 
 void run(const Options& options) {
     Outputs outputs(options.common.out, "boxes", /* has_plots */ false);
-    const std::vector<double> dimensions = options.dimensions.ratios(1, kMostBoxDimensions);
+    const std::vector<double> dimensions = options.dimensions.ratios(1, kMaxBoxDimensions);
     tools::parse_count("--count", options.count); // Fails before a device is needed.
     const Context context = open_context(options.device);
     Table table({"n", "distance", "samples", "device M/s", "sequential M/s", "around: samples",
@@ -113,7 +113,7 @@ void run(const Options& options) {
                           tools::one_line(context.report().name) + ", medians of " +
                           std::to_string(options.common.repeats) + " runs",
                       "Sequential returns the device's samples, on one core in double precision."
-                      "\nAround throws " +
+                      "\nAround darts " +
                           options.trials +
                           " darts around samples (Bridson 2007), on one core as well."
                           "\nThe paper's device is a GTX 580 of 2010.");

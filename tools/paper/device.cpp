@@ -69,8 +69,8 @@ DeviceRun Device::measure(const PaperMesh& mesh, SampleParams params, int repeat
         mean.rho += rhos.back() / repeats;
         seconds.push_back(set.report.seconds.sample);
     }
-    mean.least_rho = *std::min_element(rhos.begin(), rhos.end());
-    mean.most_rho = *std::max_element(rhos.begin(), rhos.end());
+    mean.min_rho = *std::min_element(rhos.begin(), rhos.end());
+    mean.max_rho = *std::max_element(rhos.begin(), rhos.end());
     mean.seconds = bench::median(seconds);
     return mean;
 }

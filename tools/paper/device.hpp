@@ -25,7 +25,7 @@ struct DeviceRun {
     double samples = 0; ///< Mean over the repetitions.
     double candidates = 0;
     double rho = 0; ///< Mean packing density.
-    double least_rho = 0, most_rho = 0;
+    double min_rho = 0, max_rho = 0;
     double seconds = 0; ///< Median, from the candidates to the finished set.
 };
 

@@ -33,15 +33,15 @@ RadiusField ramp(const PaperMesh& mesh, double least) {
     std::size_t longest = 0;
     double low = 0, extent = 0;
     for (std::size_t axis = 0; axis < dimension; ++axis) {
-        double least_at = std::numeric_limits<double>::infinity(), most_at = -least_at;
+        double min_at = std::numeric_limits<double>::infinity(), max_at = -min_at;
         for (std::size_t i = axis; i < positions.size(); i += dimension) {
-            least_at = std::min(least_at, positions[i]);
-            most_at = std::max(most_at, positions[i]);
+            min_at = std::min(min_at, positions[i]);
+            max_at = std::max(max_at, positions[i]);
         }
-        if (most_at - least_at > extent) {
+        if (max_at - min_at > extent) {
             longest = axis;
-            low = least_at;
-            extent = most_at - least_at;
+            low = min_at;
+            extent = max_at - min_at;
         }
     }
     std::vector<double> factors;
@@ -54,7 +54,7 @@ RadiusField ramp(const PaperMesh& mesh, double least) {
 void run(const Options& options) {
     Outputs outputs(options.common.out, "fig11", /* has_plots */ false);
     const double count = tools::parse_count("--count", options.count);
-    const double least = tools::parse_ratio("--least", options.least, RadiusField::kLeastFactor, 1);
+    const double least = tools::parse_ratio("--least", options.least, RadiusField::kMinFactor, 1);
     PictureParams panel = square_panel(options.size);
     const std::vector<PaperMesh> meshes = load_meshes(options.meshes);
     Device device(options.device, /* graphics */ true);

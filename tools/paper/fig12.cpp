@@ -53,10 +53,10 @@ bench::LinePlot spectrum_plot(const char* title, const char* y_label, const char
 void run(const Options& options) {
     const CommonOptions& common = options.common;
     Outputs outputs(common.out, "fig12");
-    constexpr double kLeast = 1e-4, kMost = 0.2;
-    const double square = tools::parse_ratio("--square", options.square, kLeast, kMost);
-    const double cube = tools::parse_ratio("--cube", options.cube, 0.002, kMost);
-    const double radius = tools::parse_ratio("--spectrum", options.spectrum, 0.001, kMost);
+    constexpr double kMin = 1e-4, kMax = 0.2;
+    const double square = tools::parse_ratio("--square", options.square, kMin, kMax);
+    const double cube = tools::parse_ratio("--cube", options.cube, 0.002, kMax);
+    const double radius = tools::parse_ratio("--spectrum", options.spectrum, 0.001, kMax);
     PictureParams panel = square_panel(options.size);
     Device device(options.device, /* graphics */ true);
     const Painter painter(device.context());

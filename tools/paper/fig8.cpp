@@ -46,11 +46,11 @@ void run(const Options& options) {
         const auto triangles = static_cast<double>(mesh.prepared.statistics().triangles);
         table.add({mesh.name, tools::fixed(triangles, 0), tools::rounded(mesh.area(), 6),
                    tools::rounded(params.min_distance / 2, 6), tools::fixed(result.samples, 1),
-                   tools::fixed(result.rho, 4), tools::fixed(result.least_rho, 4),
-                   tools::fixed(result.most_rho, 4), tools::fixed(result.seconds, 4)});
+                   tools::fixed(result.rho, 4), tools::fixed(result.min_rho, 4),
+                   tools::fixed(result.max_rho, 4), tools::fixed(result.seconds, 4)});
         plot.lines[0].points.push_back({triangles, result.rho});
-        plot.lines[1].points.push_back({triangles, result.least_rho});
-        plot.lines[2].points.push_back({triangles, result.most_rho});
+        plot.lines[1].points.push_back({triangles, result.min_rho});
+        plot.lines[2].points.push_back({triangles, result.max_rho});
     }
     outputs.add_table(
         table,

@@ -58,8 +58,8 @@ void add_device(tools::Command command, std::string& device) {
 }
 
 std::uint32_t PanelSize::pixels() const {
-    constexpr double kFewest = 16, kMost = 4096;
-    return static_cast<std::uint32_t>(tools::parse_ratio("--size", text, kFewest, kMost));
+    constexpr double kFewest = 16, kMax = 4096;
+    return static_cast<std::uint32_t>(tools::parse_ratio("--size", text, kFewest, kMax));
 }
 
 void add_panel_size(tools::Command command, PanelSize& size) {

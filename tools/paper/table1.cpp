@@ -91,7 +91,7 @@ struct Setup {
 
     /// At least as many as a device takes.
     std::uint32_t slots() const {
-        return static_cast<std::uint32_t>(std::clamp(count / ratio, double{kLeastSlots}, 4e9));
+        return static_cast<std::uint32_t>(std::clamp(count / ratio, double{kMinSlots}, 4e9));
     }
 };
 

@@ -21,7 +21,7 @@ using glm::vec3;
 constexpr double kEm = 24, kSmallestEm = 11;
 constexpr double kUsualSide = 1440;
 /// Of the picture's height, what the strip takes at most, and where words are left out.
-constexpr double kMostHeight = 0.25, kMostShortHeight = 0.5;
+constexpr double kMaxHeight = 0.25, kMaxShortHeight = 0.5;
 /// All in ems.
 constexpr double kLegendMargin = 1, kGap = 2, kAbove = 0.2, kBarHeight = 0.7, kBelowBar = 0.15;
 constexpr double kRow = 2.8, kTextRow = 1.6; // Of rows with bars, and with text alone.
@@ -128,9 +128,9 @@ struct Legend::Strip {
 Legend::Legend(const LegendFacts& facts, std::uint32_t width, std::uint32_t height) {
     const double side = std::sqrt(static_cast<double>(width) * height);
     const double em = std::max(kSmallestEm, kEm * side / kUsualSide);
-    if (!lay_out(facts, em, false, width, kMostHeight * height) &&
-        !lay_out(facts, em, true, width, kMostHeight * height) &&
-        !lay_out(facts, kSmallestEm, true, width, kMostShortHeight * height)) {
+    if (!lay_out(facts, em, false, width, kMaxHeight * height) &&
+        !lay_out(facts, em, true, width, kMaxHeight * height) &&
+        !lay_out(facts, kSmallestEm, true, width, kMaxShortHeight * height)) {
         fail_usage("--legend does not fit into a view of " + std::to_string(width) + " x " +
                    std::to_string(height) + " pixels; raise --size or leave out --legend");
     }

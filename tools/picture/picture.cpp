@@ -23,7 +23,7 @@ namespace {
 
 /// Along each side of a pixel, drawn one by one and averaged.
 constexpr std::uint32_t kOversampling = 3;
-constexpr std::uint32_t kTile = Renderer::kMostPixels / kOversampling;
+constexpr std::uint32_t kTile = Renderer::kMaxPixels / kOversampling;
 /// Pixels of each side of the drawings that views are judged by.
 constexpr std::uint32_t kTrial = 96;
 /// Points are no smaller than this, in pixels, if their disks are not.
@@ -113,7 +113,7 @@ Trial try_view(Renderer& renderer, const Scene& scene, View view, Up up) {
     Trial trial;
     for (std::size_t at = 0; at < drawn.size(); at += 4) {
         if (drawn[at + 3] != 0) {
-            trial.seen += static_cast<double>(light_of_srgb()[drawn[at]]) * kMostTilt;
+            trial.seen += static_cast<double>(light_of_srgb()[drawn[at]]) * kMaxTilt;
             trial.covered += 1;
         }
     }

@@ -48,7 +48,7 @@ struct Background {
 Background parse_background(const std::string& option, const std::string& text);
 
 struct PictureParams {
-    static constexpr std::uint32_t kMostPixels = 16384; ///< Along each side.
+    static constexpr std::uint32_t kMaxPixels = 16384; ///< Along each side.
     static constexpr std::uint32_t kFewestPixels = 16;
 
     std::uint32_t width = 1920, height = 1080;

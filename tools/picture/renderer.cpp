@@ -79,10 +79,10 @@ std::vector<std::uint32_t> chunk_bounds(const WindowTable& table, VkDeviceSize m
 void check_cells(const WindowTable& table) {
     for (std::size_t cell = 0; cell + 1 < table.starts.size(); ++cell) {
         const std::uint32_t windows = table.starts[cell + 1] - table.starts[cell];
-        if (windows > Renderer::kMostInCell) {
+        if (windows > Renderer::kMaxInCell) {
             throw UserError(ExitCode::out_of_memory,
                             "one place of the surface is lit by " + grouped(windows) +
-                                " windows; a picture takes " + grouped(Renderer::kMostInCell) +
+                                " windows; a picture takes " + grouped(Renderer::kMaxInCell) +
                                 ": a shorter reach gives fewer");
         }
     }
@@ -150,14 +150,14 @@ void Renderer::make_chunks(const Scene& scene, const WindowTable& table) {
 }
 
 void Renderer::make_targets() {
-    const VkExtent2D size{kMostPixels, kMostPixels};
+    const VkExtent2D size{kMaxPixels, kMaxPixels};
     color_ = Image(gpu_, kColor, size,
                    VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
                    VK_IMAGE_ASPECT_COLOR_BIT);
     depth_ = Image(gpu_, gpu_.depth_format(), size, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT,
                    VK_IMAGE_ASPECT_DEPTH_BIT);
-    read_back_ = Buffer(gpu_, kPixelBytes * kMostPixels * kMostPixels,
-                        VK_BUFFER_USAGE_TRANSFER_DST_BIT, true);
+    read_back_ =
+        Buffer(gpu_, kPixelBytes * kMaxPixels * kMaxPixels, VK_BUFFER_USAGE_TRANSFER_DST_BIT, true);
 
     VkAttachmentDescription attachments[2]{};
     attachments[0].format = kColor;
@@ -207,8 +207,8 @@ void Renderer::make_targets() {
     frame.renderPass = pass;
     frame.attachmentCount = 2;
     frame.pAttachments = views;
-    frame.width = kMostPixels;
-    frame.height = kMostPixels;
+    frame.width = kMaxPixels;
+    frame.height = kMaxPixels;
     frame.layers = 1;
     VkFramebuffer framebuffer = VK_NULL_HANDLE;
     check(gpu_.vk().vkCreateFramebuffer(gpu_.device(), &frame, nullptr, &framebuffer),

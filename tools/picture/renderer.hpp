@@ -37,9 +37,9 @@ struct Content {
 /// Holds a scene on the device. All members throw UserError.
 class Renderer {
   public:
-    static constexpr std::uint32_t kMostPixels = 1536; ///< Along each side.
+    static constexpr std::uint32_t kMaxPixels = 1536; ///< Along each side.
     /// Windows that one place may be lit by: lavapipe ends loops of 65,535 without a word.
-    static constexpr std::uint32_t kMostInCell = 60000;
+    static constexpr std::uint32_t kMaxInCell = 60000;
 
     /// `gpu` must outlive the object, `content` need not.
     Renderer(const Gpu& gpu, const Content& content);

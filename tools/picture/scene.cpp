@@ -13,7 +13,7 @@ namespace {
 /// How far the eye of a projection lies from the origin, where points are at most 1 from it.
 constexpr double kEye = 1.5;
 /// At a vertex of more faces nothing is smoothed: it is a tip, and each face would ask all others.
-constexpr std::size_t kMostSmoothed = 64;
+constexpr std::size_t kMaxSmoothed = 64;
 
 /// Moves the middle of the bounding box to the origin, and scales to at most 1 from there. Returns
 /// the factor.
@@ -123,7 +123,7 @@ struct VertexCorners {
 glm::dvec3 corner_normal(std::size_t corner, std::span<const std::uint32_t> around,
                          const Normals& normals) {
     const glm::dvec3 own = normals.faces[corner / 3];
-    if (around.size() > kMostSmoothed) {
+    if (around.size() > kMaxSmoothed) {
         return own;
     }
     const double least = std::cos(glm::radians(kCrease));

@@ -30,7 +30,7 @@ constexpr double kEnd = 0.01;
 constexpr double kLevel = 0.9;
 /// What a surface stands on is at least this part of its area, and so many times what it would
 /// stand on if another axis were up.
-constexpr double kLeastBase = 0.01;
+constexpr double kMinBase = 0.01;
 constexpr double kClearBase = 3;
 
 constexpr std::pair<const char*, View> kNamed[] = {{"front", {0, 0}},  {"back", {180, 0}},
@@ -169,10 +169,10 @@ Up parse_up(const std::string& option, const std::string& text) {
 Up likely_up(const Scene& scene) {
     const double along_y = base_along(scene, 1);
     const double along_z = base_along(scene, 2);
-    if (along_y > kLeastBase && along_y > kClearBase * along_z) {
+    if (along_y > kMinBase && along_y > kClearBase * along_z) {
         return Up::y;
     }
-    if (along_z > kLeastBase && along_z > kClearBase * along_y) {
+    if (along_z > kMinBase && along_z > kClearBase * along_y) {
         return Up::z;
     }
     const double flat = kFlat * std::min(extent_along(scene, 0), extent_along(scene, 1));

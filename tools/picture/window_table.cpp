@@ -16,7 +16,7 @@
 namespace geodisk::tools::picture {
 namespace {
 
-constexpr double kMostCells = 0x1p24;
+constexpr double kMaxCells = 0x1p24;
 /// Sources that a thread takes at a time.
 constexpr std::size_t kBatch = 64;
 
@@ -186,7 +186,7 @@ WindowTable make_window_table(const PreparedMesh& mesh, std::span<const SurfaceD
 std::optional<WindowTable> try_window_table(const PreparedMesh& mesh,
                                             std::span<const SurfaceDisk> disks, double spacing,
                                             const PartDone& tell, std::size_t most) {
-    const ref::Surface<double> surface(mesh, ref::suitable_unit(mesh, spacing, kMostCells));
+    const ref::Surface<double> surface(mesh, ref::suitable_unit(mesh, spacing, kMaxCells));
     WindowTable table;
     table.unit = surface.frame.unit;
     table.faces = lay_out(surface);

@@ -25,15 +25,14 @@ struct WindowTable {
     std::vector<WindowRec> windows;    ///< In each cell by sample, ascending.
 };
 
-inline constexpr std::size_t kMostWindows = std::size_t{1} << 25; ///< A gigabyte.
+inline constexpr std::size_t kMaxWindows = std::size_t{1} << 25; ///< A gigabyte.
 
 /// `spacing` is the length, in mesh units, that the cells are to suit: about the reach of most.
 /// Works on as many threads as there are cores; `tell` is called on the caller's and may throw.
 /// Throws UserError: `out_of_memory` for more windows than `most`, `bad_input` for a disk that does
 /// not end.
 WindowTable make_window_table(const PreparedMesh& mesh, std::span<const SurfaceDisk> disks,
-                              double spacing, const PartDone& tell,
-                              std::size_t most = kMostWindows);
+                              double spacing, const PartDone& tell, std::size_t most = kMaxWindows);
 
 /// The same, but nothing for more windows than `most`.
 std::optional<WindowTable> try_window_table(const PreparedMesh& mesh,

@@ -102,8 +102,8 @@ std::uint64_t parse_bytes(const std::string& option, const std::string& text) {
         }
     }
     const std::optional<double> value = parse_real(number);
-    constexpr double kMost = 0x1p50; // A pebibyte: more than any device, and exact as a double.
-    if (!value || !(*value * factor >= 1 && *value * factor <= kMost)) {
+    constexpr double kMax = 0x1p50; // A pebibyte: more than any device, and exact as a double.
+    if (!value || !(*value * factor >= 1 && *value * factor <= kMax)) {
         fail(option, text, "is not a size in bytes; give a number like 256M, with K, M or G");
     }
     return static_cast<std::uint64_t>(*value * factor);

@@ -64,10 +64,9 @@ std::size_t character_size(std::string_view text) {
         return size == 1 ? 1 : 0;
     }
     const char32_t character = decoded(bytes);
-    constexpr char32_t kLeast[] = {0x80, 0x800, 0x10000}; // Of 2, 3 and 4 bytes.
+    constexpr char32_t kMin[] = {0x80, 0x800, 0x10000}; // Of 2, 3 and 4 bytes.
     const bool is_surrogate = character >= 0xd800 && character <= 0xdfff;
-    const bool is_character =
-        character >= kLeast[size - 2] && character <= 0x10ffff && !is_surrogate;
+    const bool is_character = character >= kMin[size - 2] && character <= 0x10ffff && !is_surrogate;
     return is_character ? size : 0;
 }
 

@@ -14,7 +14,7 @@ namespace {
 
 // A handler can read no container that is being changed, but it can read these.
 using Name = std::filesystem::path::value_type;
-std::array<std::atomic<Name*>, kMostNoted> noted{};
+std::array<std::atomic<Name*>, kMaxNoted> noted{};
 std::atomic<bool> is_ending = false;
 
 } // namespace

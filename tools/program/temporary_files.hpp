@@ -7,9 +7,9 @@
 namespace geodisk::tools {
 
 /// Files that are noted at a time.
-inline constexpr std::size_t kMostNoted = 64;
+inline constexpr std::size_t kMaxNoted = 64;
 
-/// Notes a file while it lives, from any thread. More than kMostNoted are not noted.
+/// Notes a file while it lives, from any thread. More than kMaxNoted are not noted.
 class NotedTemporary {
   public:
     NotedTemporary() noexcept = default;

@@ -22,7 +22,7 @@ void TimeEstimate::note(double seconds, double part) {
         start_seconds_ = seconds;
         start_part_ = part;
     } else if (seconds - start_seconds_ >= kTrial && part > start_part_ &&
-               part - start_part_ >= least_part_) {
+               part - start_part_ >= min_part_) {
         left_ = (1 - part) * (seconds - start_seconds_) / (part - start_part_);
     }
 }

@@ -12,8 +12,8 @@ inline constexpr double kLongRun = 20;
 /// Follows one run.
 class TimeEstimate {
   public:
-    /// `least_part`: less of the work than that says little of the rest.
-    explicit TimeEstimate(double least_part = 0) : least_part_(least_part) {}
+    /// `min_part`: less of the work than that says little of the rest.
+    explicit TimeEstimate(double min_part = 0) : min_part_(min_part) {}
 
     /// Notes that the work has not begun after so many seconds, as kernels are compiled. What is
     /// told below is from then on.
@@ -32,7 +32,7 @@ class TimeEstimate {
     bool is_long_already();
 
   private:
-    double least_part_;
+    double min_part_;
     double waited_ = 0, start_seconds_ = 0, start_part_ = 0, seconds_ = 0;
     bool is_told_ = false, is_told_already_ = false;
     std::optional<double> first_, left_; ///< Seconds when work began; and that are left.

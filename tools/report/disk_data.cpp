@@ -96,9 +96,9 @@ DiskData disk_data(const WindowTable& table) {
 
     const Windows windows(table);
     // Of a range at least, as numbers that are all alike have none.
-    constexpr double kLeastRange = 1e-6;
-    const double reach = std::max({kLeastRange, farthest(windows.x), farthest(windows.y)});
-    const double longest = std::max(kLeastRange, farthest(windows.sigmas));
+    constexpr double kMinRange = 1e-6;
+    const double reach = std::max({kMinRange, farthest(windows.x), farthest(windows.y)});
+    const double longest = std::max(kMinRange, farthest(windows.sigmas));
     data.arrays.push_back(rounded_numbers("window_x", windows.x, -reach, reach));
     data.arrays.push_back(rounded_numbers("window_y", windows.y, -reach, reach));
     data.arrays.push_back(rounded_numbers("window_sigmas", windows.sigmas, 0, longest));

@@ -11,7 +11,7 @@
 namespace geodisk {
 
 /// Maximum of dimensions of a box.
-inline constexpr std::uint32_t kMostBoxDimensions = 6;
+inline constexpr std::uint32_t kMaxBoxDimensions = 6;
 
 /// Guard of boxes: conflicts are tested against `min_distance * (1 + kBoxGuard)`, which covers the
 /// rounding of distances in float.
@@ -26,7 +26,7 @@ struct BoxParams {
     double min_distance = 0; ///< D > 0: no two samples are closer, in the units of the sides.
     std::uint64_t seed = 0;
     double pool_ratio = kDefaultPoolRatio; ///< Candidates per expected sample, 1 to 10,000.
-    std::uint32_t throws = 0;              ///< As SampleParams::throws.
+    std::uint32_t darts = 0;               ///< As SampleParams::darts.
     std::uint32_t stop_count = 0;          ///< As SampleParams::stop_count.
 };
 
@@ -40,7 +40,7 @@ GEODISK_API double expected_count(const BoxParams& box) noexcept;
 /// pool_size(). Returns 0 for a box without sides, or with a side that is not positive and finite.
 GEODISK_API double distance_for_count(const BoxParams& box, double count) noexcept;
 
-/// Returns the candidates of a job: `throws`, or about pool_ratio times the expected count, at
+/// Returns the candidates of a job: `darts`, or about pool_ratio times the expected count, at
 /// least
 /// 64. Their density is the same in every box, so a larger box has the candidates of a smaller one
 /// with the same lower corner; boxes with much border have 2, 4, ... times as many.

@@ -20,7 +20,7 @@ struct CellParams {
     bool has_dual = true;
     /// Maximum number of records of paths, 36 bytes each on the host. Some 10 to 1,000 per sample
     /// are usual.
-    std::uint64_t most_records = std::uint64_t{1} << 27;
+    std::uint64_t max_records = std::uint64_t{1} << 27;
 };
 
 /// The shape of a dual graph beside that of the mesh.
@@ -61,7 +61,7 @@ struct SurfaceCells {
 ///
 /// Errors: `invalid_argument` for no sample; for a sample, naming it, in a face that does not exist
 /// or repeats a vertex or with weights that are negative or do not sum to 1. `job_too_large` for
-/// more than `most_records`, naming how many to expect. Others as Runner::sample_and_wait().
+/// more than `max_records`, naming how many to expect. Others as Runner::sample_and_wait().
 GEODISK_API Result<SurfaceCells> find_cells(Runner& runner, const PreparedMesh& mesh,
                                             std::span<const Sample> samples,
                                             const CellParams& params = {},

@@ -48,10 +48,10 @@ class CountSearch {
 
     double wanted_;
     double aim_;                       ///< Count to steer for, `wanted_` or a little more.
-    std::optional<double> most_;       ///< Maximum count of an exact search, which this is then.
+    std::optional<double> max_;        ///< Maximum count of an exact search, which this is then.
     std::optional<Try> above_, below_; ///< Latest tries with too many and too few samples.
     double first_distance_ = 0;        ///< Of the first try, which `wanted_` is expected at.
-    double least_miss_ = 0;            ///< Smallest difference from `wanted_` so far.
+    double min_miss_ = 0;              ///< Smallest difference from `wanted_` so far.
     double best_distance_ = 0;         ///< Largest distance with enough samples; 0 for none.
     bool is_nearest_ = false;
     bool was_above_ = false; ///< The latest try had too many samples.

@@ -38,14 +38,14 @@ struct SurfacePart {
 class GEODISK_API Domain {
   public:
     /// Makes the domain of a surface by geodesic distance. The mesh, and the radii and keys of
-    /// `params`, must outlive the domain and its runs. Given samples are copied.
+    /// `params`, must outlive the domain and its runs. Existing samples are copied.
     ///
     /// Errors: those of pool_size(); `invalid_argument` for more than 2^30 grid cells, naming the
     /// face.
     static Result<Domain> surface(const PreparedMesh& mesh, const SampleParams& params) noexcept;
 
     /// Makes the domain of a surface in a frame: its own, or that of a mesh that it is a part of.
-    /// Nothing about the whole is derived from `mesh` then. Darts (`throws`) are counted on `mesh`
+    /// Nothing about the whole is derived from `mesh` then. `darts` are counted on `mesh`
     /// alone.
     ///
     /// Errors: those above; `invalid_argument` for a frame of another distance, pool ratio or kind
@@ -58,11 +58,11 @@ class GEODISK_API Domain {
     /// to must outlive the domain and its runs. Each surface gets the samples that it gets alone,
     /// except that the largest guard (RunReport::guard) of one holds for all. Faces and vertices
     /// are numbered through all surfaces. Samples come in the order of the job, which keeps the
-    /// order of each surface; given ones first, surface by surface. If more than 32 surfaces have
-    /// the same seed, the orders of each are increased by a number of its own.
+    /// order of each surface; existing ones first, surface by surface. If more than 32 surfaces
+    /// have the same seed, the orders of each are increased by a number of its own.
     ///
     /// Errors: those of surface(), naming the part; `invalid_argument` for no part, a null mesh, a
-    /// scale that is not positive and finite, throws or a stop count, radii for some parts only, or
+    /// scale that is not positive and finite, darts or a stop count, radii for some parts only, or
     /// more faces and vertices than 32 bits count.
     static Result<Domain> surfaces(std::span<const SurfacePart> parts) noexcept;
 

@@ -44,15 +44,15 @@ class Features {
 
 /// Makes the domain of samples on features, to run before the surface: its candidates are the
 /// corners, in their order, then darts at random places of the curves, many for each sample that
-/// fits. They keep the distances of the surface, also from the given samples of `params`. Give the
-/// samples of the run as SampleParams::given to the run of the surface, with the same distance,
-/// radii, mask and points to avoid.
+/// fits. They keep the distances of the surface, also from the existing samples of `params`. Give
+/// the samples of the run as SampleParams::existing to the run of the surface, with the same
+/// distance, radii, mask and points to avoid.
 ///
 /// Corners closer to each other than the distance are dropped, but for the first ones. The pool
 /// ratio has no effect. `mesh` and `params` as for Domain::surface().
 ///
 /// Errors: those of Domain::surface(); `invalid_argument` for features of another mesh, or none on
-/// faces that take samples; for darts (`throws`), classes, and radii from a density.
+/// faces that take samples; for `darts`, classes, and radii from a density.
 GEODISK_API Result<Domain> feature_domain(const PreparedMesh& mesh, const SampleParams& params,
                                           const Features& features) noexcept;
 

@@ -93,7 +93,7 @@ class GEODISK_API FrameNeighbours {
     /// what they have, and the old one is freed once no frame uses it. Allocates only then.
     ///
     /// Errors: those of Job::advance(); `job_too_large` for more pairs than
-    /// NeighbourQuery::most_pairs or than the device binds at once; `invalid_argument` if a command
+    /// NeighbourQuery::max_pairs or than the device binds at once; `invalid_argument` if a command
     /// buffer with uploads was not submitted; `out_of_device_memory`. After an error, the lists of
     /// the sources that are ready remain valid.
     Result<bool> record(VkCommandBuffer commands) noexcept;

@@ -236,7 +236,7 @@ typedef struct geodisk_mesh_params {
     /* Not 0: join vertices at the same place, and those at most weld_distance apart. */
     int32_t weld;
     double weld_distance;
-    uint32_t most_threads;      /* Maximum of threads that prepare the mesh; 0 for 16. */
+    uint32_t max_threads;      /* Maximum of threads that prepare the mesh; 0 for 16. */
     /* 0: join border edges that lie exactly on other border edges, for example along seams of
      * texture coordinates. Not 0: connect only faces that share vertices. */
     int32_t keep_seams;
@@ -323,7 +323,7 @@ typedef struct geodisk_surface_params {
     double min_distance; /* D > 0: no two samples are closer along the surface. */
     uint64_t seed;
     double pool_ratio;   /* Candidates per expected sample, 1 to 10,000; 0 for 20. */
-    uint32_t throws;     /* Not 0: throw this many darts instead of a pool by pool_ratio. */
+    uint32_t darts;     /* Not 0: throw this many darts instead of a pool by pool_ratio. */
     uint32_t stop_count; /* Not 0: stop after this many samples. */
     const geodisk_radii *radii; /* Radii of the same mesh; NULL for min_distance / 2 everywhere. */
     /* One key per face, all different, by which its candidates are drawn: a triangle with the same
@@ -336,10 +336,10 @@ typedef struct geodisk_surface_params {
     /* Samples that are given, which are copied; NULL for none. They are the first samples of the
      * run, in this order, and new ones keep the minimum distance from them. Distances among them
      * are not checked. They count towards stop_count. */
-    const geodisk_surface_point *given;
-    size_t given_count;
+    const geodisk_surface_point *existing;
+    size_t existing_count;
     /* Points to avoid, which are copied, and a positive radius for each; NULL for none. No sample
-     * but given ones is within the geodesic radius of its point. For GEODISK_GEODESIC only. */
+     * but existing ones is within the geodesic radius of its point. For GEODISK_GEODESIC only. */
     const geodisk_surface_point *avoid;
     const double *avoid_radii;
     size_t avoid_count;
@@ -350,9 +350,9 @@ typedef struct geodisk_surface_params {
      * radii and for one surface. */
     const float *class_factors;
     size_t class_count;
-    const uint8_t *given_classes; /* Class of each given sample; NULL if all have class 0. */
+    const uint8_t *existing_classes; /* Class of each existing sample; NULL if all have class 0. */
     /* Not 0: go on after the pool until no further sample fits anywhere, in several rounds. Only
-     * geodisk_sample and geodisk_run do. For GEODISK_GEODESIC, without throws, stop_count, and radii
+     * geodisk_sample and geodisk_run do. For GEODISK_GEODESIC, without darts, stop_count, and radii
      * from a density. */
     int32_t is_maximal;
 } geodisk_surface_params;
@@ -364,9 +364,9 @@ GEODISK_C_API geodisk_status geodisk_domain_surface(const geodisk_mesh *mesh,
 
 /* Makes the domain of samples on features, to run before the surface: on corners first, then on
  * curves, which are edges whose faces meet at more than `degrees` (1 to 180), borders, and edges of
- * more than two faces. Distances are those of the surface, also from params->given. Pass the
- * samples of the run as `given` to geodisk_domain_surface, with the other parameters unchanged. A
- * sample on a corner has two weights of 0, on a curve one. `params` may have no throws and classes,
+ * more than two faces. Distances are those of the surface, also from params->existing. Pass the
+ * samples of the run as `existing` to geodisk_domain_surface, with the other parameters unchanged. A
+ * sample on a corner has two weights of 0, on a curve one. `params` may have no darts and classes,
  * and no radii from a density; its metric is GEODISK_GEODESIC. The mesh needs coordinates. If
  * `corners` is not NULL, writes the number of corners of the mesh; those closer to others than the
  * distance have no sample. Writes NULL to `domain` if there are no features. */
@@ -398,7 +398,7 @@ GEODISK_C_API geodisk_status geodisk_domain_surface_in_frame(const geodisk_mesh 
 typedef struct geodisk_surface_part {
     size_t struct_size;
     const geodisk_mesh *mesh;
-    const geodisk_surface_params *params; /* Of this surface; without throws and stop_count. */
+    const geodisk_surface_params *params; /* Of this surface; without darts and stop_count. */
     double scale;                         /* Length of a unit of the mesh; 0 for 1. */
 } geodisk_surface_part;
 
@@ -417,7 +417,7 @@ typedef struct geodisk_box_params {
     double min_distance;   /* This and the following as in geodisk_surface_params. */
     uint64_t seed;
     double pool_ratio;
-    uint32_t throws;
+    uint32_t darts;
     uint32_t stop_count;
 } geodisk_box_params;
 
@@ -446,8 +446,8 @@ GEODISK_C_API geodisk_status geodisk_level_count(const geodisk_mesh *mesh,
                                                  double factor, uint32_t *levels,
                                                  geodisk_error *error);
 /* Writes the distance and the seed of a level; level 0 is the first of `levels`, at most 32. Sample
- * level by level with these and otherwise the same parameters: the first level with their `given`,
- * each later one with the samples of all levels before it as `given`. The samples up to the end of
+ * level by level with these and otherwise the same parameters: the first level with their `existing`,
+ * each later one with the samples of all levels before it as `existing`. The samples up to the end of
  * a level are a Poisson-disk set of its distance. Not for darts. */
 GEODISK_C_API geodisk_status geodisk_level_params(const geodisk_surface_params *params,
                                                   double factor, uint32_t levels, uint32_t level,
@@ -605,7 +605,7 @@ typedef struct geodisk_report {
     size_t struct_size;
     uint64_t samples;
     uint32_t candidates; /* Candidates decided. */
-    uint32_t iterations; /* Batches of disks. */
+    uint32_t batches;    /* Batches of disks. */
     uint32_t dispatches; /* Dispatches recorded. */
     uint32_t disks;      /* Geodesic disks computed. */
     uint64_t windows;    /* Windows and vertex events of all disks. */
@@ -618,7 +618,7 @@ typedef struct geodisk_report {
     double sample_seconds;
     double readback_seconds;
     uint32_t missing;   /* How many samples of stop_count are missing. */
-    uint32_t given;     /* How many samples were given: the first ones. */
+    uint32_t existing;  /* How many samples are existing ones: the first. */
     /* Of a maximal set (geodisk_surface_params.is_maximal), else 0: */
     uint32_t maximal_rounds; /* Rounds in which darts were thrown into gaps. */
     int32_t is_certified;    /* 1 if every point is nearer to a sample than largest_gap. */
@@ -671,7 +671,7 @@ typedef struct geodisk_neighbour_params {
     size_t point_count;
     uint32_t nearest;     /* Not 0: keep only so many of each source, the nearest ones; vertices that
                            * are joined count once. */
-    uint64_t most_pairs;  /* Most pairs to find in all; 0 for 2^30. */
+    uint64_t max_pairs;  /* Most pairs to find in all; 0 for 2^30. */
     /* Lowest vertex that each vertex is joined with, if the caller has joined vertices; NULL for
      * those that geodisk_mesh_create joined. */
     const uint32_t *joined;
@@ -732,7 +732,7 @@ typedef struct geodisk_cell_params {
     const geodisk_surface_point *samples; /* At least one. */
     size_t sample_count;
     int32_t areas_only;    /* Not 0: find no edges and triangles. */
-    uint64_t most_records; /* Maximum number of records of paths, 36 bytes each; 0 for 2^27. */
+    uint64_t max_records; /* Maximum number of records of paths, 36 bytes each; 0 for 2^27. */
 } geodisk_cell_params;
 
 /* The geodesic Voronoi cells of samples: what is nearer to each one than to all others. */
@@ -806,8 +806,8 @@ GEODISK_C_API geodisk_status geodisk_farthest_order(geodisk_sampler *sampler,
  * call at a time. */
 typedef struct geodisk_updater geodisk_updater;
 
-/* Makes the updater of a surface and its samples: all of a run, the given ones first. Everything is
- * copied. The metric is GEODISK_GEODESIC, and `params` has no throws, stop_count, classes and
+/* Makes the updater of a surface and its samples: all of a run, the existing ones first. Everything is
+ * copied. The metric is GEODISK_GEODESIC, and `params` has no darts, stop_count, classes and
  * is_maximal; the mesh has coordinates. `frame` is the one in which the samples were decided; NULL if
  * they are from a run over this mesh without another frame. Fails for a sample that is no candidate of
  * these parameters, with its index in `error->element`. */
@@ -839,18 +839,19 @@ typedef struct geodisk_update_info {
     uint32_t rounds;   /* Times a region was decided. Each one is wider than the last. */
     uint32_t faces;    /* Faces of the last region. */
     uint32_t uploaded; /* Faces that were on the device for it. */
-    uint32_t removed;  /* Samples that are no longer there, given ones aside. */
+    uint32_t removed;  /* Samples that are no longer there, existing ones aside. */
     uint32_t added;    /* Samples that are new. */
     uint32_t disks;    /* Geodesic disks computed. */
 } geodisk_update_info;
 
-/* Brings the samples up to date with the edited surface. `changed` lists the faces of which anything
- * differs: the position of a corner, its vertices, radii, key or mask; all others must be as before.
- * Faces keep their indices: to remove one, let it name a vertex twice. New ones come last, and count
- * as changed. Given samples and points to avoid are compared with those before. The seed, minimum distance and pool
- * ratio must not change. A mesh of which only radii, mask or given samples change need not be made
- * again. `info` may be NULL; `progress` may be NULL, and `user` is passed to it. After a failure the
- * samples are as before, and the next update includes this edit. */
+/* Brings the samples up to date with the edited surface. `changed` lists the faces of which
+ * anything differs: the position of a corner, its vertices, radii, key or mask; all others must be
+ * as before. Faces keep their indices: to remove one, let it name a vertex twice. New ones come
+ * last, and count as changed. Existing samples and points to avoid are compared with those before.
+ * The seed, minimum distance and pool ratio must not change. A mesh of which only radii, mask or
+ * existing samples change need not be made again. `info` may be NULL; `progress` may be NULL, and
+ * `user` is passed to it. After a failure the samples are as before, and the next update includes
+ * this edit. */
 GEODISK_C_API geodisk_status geodisk_update(geodisk_updater *updater, geodisk_sampler *sampler,
                                             const geodisk_mesh *mesh,
                                             const geodisk_surface_params *params,
@@ -858,7 +859,7 @@ GEODISK_C_API geodisk_status geodisk_update(geodisk_updater *updater, geodisk_sa
                                             geodisk_progress_fn progress, void *user,
                                             geodisk_update_info *info, geodisk_error *error);
 
-/* Makes a copy of the samples as they are, given ones first, then in dart order. */
+/* Makes a copy of the samples as they are, existing ones first, then in dart order. */
 GEODISK_C_API geodisk_status geodisk_updater_samples(geodisk_updater *updater,
                                                      geodisk_samples **samples,
                                                      geodisk_error *error);
@@ -1019,14 +1020,14 @@ GEODISK_C_API geodisk_status geodisk_job_set_end_order(geodisk_job *job, uint64_
 
 struct geodisk_sample_record;
 
-/* Gives the job `count` settled samples, which it copies, instead of the given samples of its
+/* Gives the job `count` existing samples, which it copies, instead of the existing samples of its
  * domain. They precede all candidates, reject those closer than the minimum distance, and are the
  * first samples of the result, in this order.
  * Distances among them are not checked. In a box they must be samples of the same box and seed.
  * GEODISK_START_OVER comes next; buffers that are large enough may be bound again. The samples are
  * then part of the uploads, for GEODISK_SAMPLES_BUFFER. geodisk_job_bind fails for faces or weights
  * out of range. Applies to all seeds, until geodisk_job_renew. */
-GEODISK_C_API geodisk_status geodisk_job_set_settled(geodisk_job *job,
+GEODISK_C_API geodisk_status geodisk_job_set_existing(geodisk_job *job,
                                                      const struct geodisk_sample_record *samples,
                                                      size_t count, geodisk_error *error);
 

@@ -6,11 +6,11 @@
 #include <span>
 #include <vector>
 
+#include "geodisk/detail/uninitialized.hpp"
 #include "geodisk/export.hpp"
 #include "geodisk/mesh_view.hpp"
 #include "geodisk/status.hpp"
 #include "geodisk/threads.hpp"
-#include "geodisk/uninitialized.hpp"
 
 namespace geodisk {
 

@@ -31,13 +31,13 @@ struct NearestSample {
 class GEODISK_API NearestSamples {
   public:
     /// Computes the disks on the device. `mesh` must outlive the result, and may not move. Takes 36
-    /// bytes on the host for each record of a path, see CellParams::most_records. Progress counts
+    /// bytes on the host for each record of a path, see CellParams::max_records. Progress counts
     /// samples as candidates; returns `cancelled` if it asks to stop.
     ///
     /// Errors: those of find_cells().
     static Result<NearestSamples> create(Runner& runner, const PreparedMesh& mesh,
                                          std::span<const Sample> samples,
-                                         std::uint64_t most_records = std::uint64_t{1} << 27,
+                                         std::uint64_t max_records = std::uint64_t{1} << 27,
                                          const ProgressCallback& progress = {}) noexcept;
     NearestSamples(NearestSamples&&) noexcept;
     NearestSamples& operator=(NearestSamples&&) noexcept;

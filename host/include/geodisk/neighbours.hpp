@@ -43,7 +43,7 @@ struct NeighbourQuery {
     /// joined count once. Ties go to the lower index.
     std::uint32_t nearest = 0;
     /// Maximum number of pairs in all. The call fails as soon as it expects more.
-    std::uint64_t most_pairs = std::uint64_t{1} << 30;
+    std::uint64_t max_pairs = std::uint64_t{1} << 30;
 
     /// Returns false if the search goes as far as needed.
     bool has_distances() const { return within != 0 || nearest == 0 || !radii.empty(); }
@@ -72,7 +72,7 @@ struct Neighbours {
 /// Errors: `invalid_argument` for no source; for a source or point, naming it, in a face that does
 /// not exist or repeats a vertex or with weights that are negative or do not sum to 1; for a
 /// distance that is not positive and finite; for another number of radii; for an edge longer than
-/// 4,000 times the largest distance. `job_too_large` for more than `most_pairs`, naming how many to
+/// 4,000 times the largest distance. `job_too_large` for more than `max_pairs`, naming how many to
 /// expect. Others as Runner::sample_and_wait().
 GEODISK_API Result<Neighbours> find_neighbours(Runner& runner, const PreparedMesh& mesh,
                                                const NeighbourQuery& query,

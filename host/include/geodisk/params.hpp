@@ -20,17 +20,17 @@ inline constexpr double kBorderSamples = 0.174;
 /// Default of SampleParams::pool_ratio.
 inline constexpr double kDefaultPoolRatio = 20;
 /// Maximum of candidates of a job.
-inline constexpr std::uint32_t kMostCandidates = 0xffffffff;
+inline constexpr std::uint32_t kMaxCandidates = 0xffffffff;
 /// Candidates of a stage per expected sample, see Stages.
 inline constexpr double kStageRatio = 5;
 /// Maximum of stages of a pool.
-inline constexpr std::uint32_t kMostPoolStages = 15;
+inline constexpr std::uint32_t kMaxPoolStages = 15;
 /// Maximum of classes of samples.
-inline constexpr std::uint32_t kMostClasses = 8;
+inline constexpr std::uint32_t kMaxClasses = 8;
 /// Minimum of SampleParams::class_factors.
-inline constexpr float kLeastClassFactor = 0.01f;
+inline constexpr float kMinClassFactor = 0.01f;
 /// Maximum of candidates that one face may expect in one stage.
-inline constexpr double kMostPerFace = 0x1p24;
+inline constexpr double kMaxPerFace = 0x1p24;
 
 /// A sampling job. Lengths are in mesh units.
 struct SampleParams {
@@ -39,7 +39,7 @@ struct SampleParams {
     double pool_ratio = kDefaultPoolRatio; ///< Candidates per expected sample, 1 to 10,000.
     /// Number of darts to throw (paper section 4.1), instead of a pool by `pool_ratio`; 0 for a
     /// pool.
-    std::uint32_t throws = 0;
+    std::uint32_t darts = 0;
     /// Stop after this many samples, if not 0. They are the first samples of the run without it.
     /// There are fewer if no more fit or the candidates end.
     std::uint32_t stop_count = 0;
@@ -57,24 +57,24 @@ struct SampleParams {
     /// Samples to keep. They come first in the result, in this order, and new samples keep the
     /// minimum distance from them. Distances among them are not checked. They count towards
     /// `stop_count`. Weights are rounded to multiples of 2^-24.
-    std::span<const Sample> given{};
-    /// Disks that new samples must avoid. Given samples may lie inside. No new sample is within the
-    /// geodesic radius of the center. The radius may be larger or smaller than `min_distance`; much
-    /// larger disks take long. Not for distances through space. A recorded job has the centers
+    std::span<const Sample> existing{};
+    /// Disks that new samples must avoid. Existing samples may lie inside. No new sample is within
+    /// the geodesic radius of the center. The radius may be larger or smaller than `min_distance`;
+    /// much larger disks take long. Not for distances through space. A recorded job has the centers
     /// before the first sample in its samples buffer, as records with `gpu::kKeepsOut` in their
     /// face.
     std::span<const KeepOut> avoid{};
     /// Distances of K classes of samples, 2 to 8, as parts of `min_distance`: a symmetric table,
-    /// row by row, of factors from kLeastClassFactor to 1. Samples of the classes a and b are at
+    /// row by row, of factors from kMinClassFactor to 1. Samples of the classes a and b are at
     /// least class_factors[K * a + b] * min_distance apart. Each class has the candidates of a run
     /// with its own distance. Empty if samples have no classes. Only for one surface with geodesic
     /// distances, whose radii do not vary. Must outlive the run.
     std::span<const float> class_factors{};
-    /// Class of each given sample; empty if all have class 0. Must outlive the run.
-    std::span<const std::uint8_t> given_classes{};
+    /// Class of each existing sample; empty if all have class 0. Must outlive the run.
+    std::span<const std::uint8_t> existing_classes{};
     /// Goes on after the pool until no further sample fits anywhere: the set is maximal. Only
     /// Runner does, in several rounds; see RunReport::maximal and host/docs/maximal.md. The samples
-    /// begin with those of the pool. Not with `throws`, `stop_count`, a density, classes, several
+    /// begin with those of the pool. Not with `darts`, `stop_count`, a density, classes, several
     /// surfaces or distances through space.
     bool maximal = false;
 };
@@ -83,25 +83,25 @@ struct SampleParams {
 /// a Poisson process of its own, drawn face by face. All candidates of a stage precede those of the
 /// next (host/docs/determinism.md).
 struct Stages {
-    double samples = 0;       ///< Expected samples of the job.
-    double ratio = 0;         ///< Candidates of a pool per expected sample.
-    std::uint32_t throws = 0; ///< Number of darts instead of a pool, if not 0. Stages go on until
-                              ///< there are as many.
+    double samples = 0;      ///< Expected samples of the job.
+    double ratio = 0;        ///< Candidates of a pool per expected sample.
+    std::uint32_t darts = 0; ///< Number of darts instead of a pool, if not 0. Stages go on until
+                             ///< there are as many.
     /// For several surfaces, each with its own stages: the maximum of stages of one surface, and
     /// the candidates that all first stages expect together. 0 for one surface.
-    std::uint32_t most_stages = 0;
-    double most_expected = 0;
+    std::uint32_t max_stages = 0;
+    double max_expected = 0;
     /// For several surfaces: a bound on the variance of the candidates of all first stages. Those
     /// with the same seed draw alike, so that their deviations add up.
-    double most_variance = 0;
+    double max_variance = 0;
     /// For several surfaces: how many have the same seed, at most.
-    std::uint32_t most_alike = 0;
+    std::uint32_t max_alike = 0;
     /// For a part of a surface in the frame of the whole: the expected samples of the whole, which
     /// tell how darts grow. 0 for `samples`.
     double of_whole = 0;
 
     /// Returns the number of stages of a pool: its ratio over kStageRatio, rounded up, at most
-    /// kMostPoolStages.
+    /// kMaxPoolStages.
     GEODISK_API std::uint32_t pool_stages() const noexcept;
     /// Returns the candidates of a stage per expected sample. All stages of a pool are alike. The
     /// first stage of darts has kStageRatio, halved until it expects at most 2^23 in all. Each
@@ -109,10 +109,10 @@ struct Stages {
     /// stage expects fewer than 64 in all.
     GEODISK_API double per_sample(std::uint32_t stage) const noexcept;
 
-    /// Returns true if just `throws` candidates take part, however many the stages have.
-    bool is_counted() const noexcept { return throws != 0; }
+    /// Returns true if just `darts` candidates take part, however many the stages have.
+    bool is_counted() const noexcept { return darts != 0; }
     /// Returns how many stages may be drawn at once: all of a pool, one of darts.
-    std::uint32_t most_at_once() const noexcept { return is_counted() ? 1 : pool_stages(); }
+    std::uint32_t max_at_once() const noexcept { return is_counted() ? 1 : pool_stages(); }
     /// Returns how many stages are left after the first `done` with `drawn` candidates. For darts
     /// 1, and 0 once there are enough.
     GEODISK_API std::uint32_t left(std::uint32_t done, std::uint64_t drawn) const noexcept;
@@ -122,18 +122,18 @@ struct Stages {
 
     /// Returns the candidates that a stage expects; for several surfaces an upper bound.
     double expected(std::uint32_t stage) const noexcept {
-        return most_expected > 0 ? most_expected : per_sample(stage) * samples;
+        return max_expected > 0 ? max_expected : per_sample(stage) * samples;
     }
     /// Returns the maximum of candidates that so many stages expect, drawn at once.
     GEODISK_API double expected_at_once(std::uint32_t stages) const noexcept;
     /// Returns a bound on the variance of the candidates of so many stages, drawn at once.
     double variance_at_once(std::uint32_t stages) const noexcept {
-        return most_variance > 0 ? stages * most_variance : expected_at_once(stages);
+        return max_variance > 0 ? stages * max_variance : expected_at_once(stages);
     }
     /// Returns the candidates that a pool expects.
     double pool() const noexcept { return ratio * samples; }
     /// Returns the candidates of the job: its darts, or else its pool.
-    double candidates() const noexcept { return is_counted() ? throws : pool(); }
+    double candidates() const noexcept { return is_counted() ? darts : pool(); }
 };
 
 /// Returns the area that a run fills: the mesh's, or RadiusField::effective_area() if radii vary.
@@ -159,18 +159,18 @@ GEODISK_API double distance_for_count(double area, double borders, double count)
 /// Returns the packing density r * sqrt(2 sqrt(3) N / A) of a result (paper section 5.2).
 GEODISK_API double packing_density(double area, double min_distance, double count) noexcept;
 
-/// Returns the candidates of a job: `throws`, or the pool_ratio times the expected count, at least
+/// Returns the candidates of a job: `darts`, or the pool_ratio times the expected count, at least
 /// 64.
 ///
 /// Errors: `invalid_argument` for a parameter out of range; for radii, face keys or a face mask of
-/// another number of faces; for a mask that leaves no area for samples; for a given sample, naming
-/// it, in a face that does not exist or repeats a vertex, or with weights that are negative or do
-/// not sum to 1, likewise for a disk to avoid, or with a radius that is not positive and finite;
-/// for a table of classes that is not symmetric or has factors out of range, a class that there is
-/// not, or classes with radii that vary; for more given samples than `stop_count`; for a pool of
-/// more than 2^32 candidates, naming their number; for an edge longer than 4,000 distances, where
-/// rounding would matter too much; for a face, `Error::element`, that expects more than
-/// kMostPerFace candidates in a stage.
+/// another number of faces; for a mask that leaves no area for samples; for an existing sample,
+/// naming it, in a face that does not exist or repeats a vertex, or with weights that are negative
+/// or do not sum to 1, likewise for a disk to avoid, or with a radius that is not positive and
+/// finite; for a table of classes that is not symmetric or has factors out of range, a class that
+/// there is not, or classes with radii that vary; for more existing samples than `stop_count`; for
+/// a pool of more than 2^32 candidates, naming their number; for an edge longer than 4,000
+/// distances, where rounding would matter too much; for a face, `Error::element`, that expects more
+/// than kMaxPerFace candidates in a stage.
 GEODISK_API Result<std::uint32_t> pool_size(const PreparedMesh& mesh,
                                             const SampleParams& params) noexcept;
 

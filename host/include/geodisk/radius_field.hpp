@@ -22,14 +22,14 @@ struct VertexRadii;
 class RadiusField {
   public:
     /// Minimum of g. Radii may differ by a factor of 1,000, densities by 1,000,000.
-    static constexpr double kLeastFactor = 0.001;
+    static constexpr double kMinFactor = 0.001;
 
     /// Makes a field from one g per vertex of the mesh, in its order. Candidates are as dense as
     /// 1 / g^2. Ignores values of unused vertices. Keeps values as floats. Takes time linear in the
     /// mesh.
     ///
     /// Errors: `invalid_argument` unless there is one value per vertex, and for a value outside
-    /// kLeastFactor to 1, with the vertex in `Error::element`; `out_of_host_memory`.
+    /// kMinFactor to 1, with the vertex in `Error::element`; `out_of_host_memory`.
     GEODISK_API static Result<RadiusField> prepare(const PreparedMesh& mesh,
                                                    std::span<const double> factors) noexcept;
 
@@ -67,7 +67,7 @@ class RadiusField {
     GEODISK_API double factor_at(std::uint32_t face, const float (&weights)[3]) const noexcept;
 
     /// Returns the minimum of g. min_distance times this is the minimum distance of all samples.
-    double least_factor() const noexcept { return static_cast<double>(least_factor_); }
+    double min_factor() const noexcept { return static_cast<double>(min_factor_); }
 
     /// Returns the area of a surface that takes as many samples with the largest radius everywhere:
     /// the integral of 1 / g^2, or of the density in units of that at r_max.
@@ -103,7 +103,7 @@ class RadiusField {
 
     /// Returns the density at which radii are largest, of a field from a density. An edit that
     /// changes it changes all radii. 0 for factors.
-    double least_density() const noexcept { return least_density_; }
+    double min_density() const noexcept { return min_density_; }
 
   private:
     friend struct RadiusPieces; // Makes radii of surfaces of which no process holds the whole.
@@ -116,9 +116,9 @@ class RadiusField {
     std::vector<float> packing_;
     std::vector<float> densities_;
     float largest_density_ = 0;
-    float least_factor_ = 1;
+    float min_factor_ = 1;
     double effective_area_ = 0;
-    double least_density_ = 0;
+    double min_density_ = 0;
 };
 
 } // namespace geodisk

@@ -64,12 +64,12 @@ enum class RequestField : std::uint8_t {
     min_distance,
     count,
     is_exact,
-    throws,
+    darts,
     stop_count,
     maximal,
     radii,
     class_factors,
-    given,
+    existing,
     features,
     progressive,
     farthest,
@@ -98,14 +98,14 @@ GEODISK_API const RequestRule* broken_rule(const SampleRequest& request) noexcep
 /// Samples that a request asked for.
 struct RequestedSet {
     /// The samples, and the report of the run that made them: with the work of all its levels, and
-    /// with the seconds of all runs. `given` are those of the request.
+    /// with the seconds of all runs. `existing` are those of the request.
     SampleSet set;
     double min_distance = 0;         ///< As asked for, or as found for the count.
     std::uint32_t tries = 0;         ///< Distances tried.
     std::uint64_t cut = 0;           ///< Last samples of the run that a count left out.
     Levels levels{0};                ///< Count 0 without levels.
     std::vector<std::size_t> ends{}; ///< Number of samples at the end of each level, or of the run.
-    /// Where each sample lies, for a request of features. Given samples count as on faces.
+    /// Where each sample lies, for a request of features. Existing samples count as on faces.
     std::vector<FeatureKind> features{};
     std::size_t corners = 0;   ///< Corners on faces that take samples.
     double feature_length = 0; ///< Length of all curves, in mesh units.

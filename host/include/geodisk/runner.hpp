@@ -64,7 +64,7 @@ struct RunReport {
     std::uint32_t candidates = 0;    ///< Candidates decided: all, or up to the last sample of a
                                      ///< count.
     std::uint32_t chunks = 0;        ///< Parts in which they were drawn, one or more stages each.
-    std::uint32_t iterations = 0;    ///< Batches of disks.
+    std::uint32_t batches = 0;       ///< Batches of disks.
     std::uint32_t dispatches = 0;    ///< Dispatches recorded, including empty ones and clears.
     std::uint32_t disks = 0;         ///< Geodesic disks computed, more than samples. Each chunk
                                      ///< computes those of earlier samples again.
@@ -75,10 +75,10 @@ struct RunReport {
                                      ///< for straight distances. Other figures of windows, chains
                                      ///< and vertices are 0 then.
     std::uint64_t tested = 0;        ///< Candidate distances computed in all disks.
-    std::uint32_t most_waiting = 0;  ///< Maximum of windows, or vertex events, waiting in a disk.
+    std::uint32_t max_waiting = 0;   ///< Maximum of windows, or vertex events, waiting in a disk.
     std::uint32_t longest_chain = 0; ///< Maximum of edges crossed by a window of a sample's disk.
-    std::uint32_t most_vertices = 0; ///< Maximum of vertices reached by a disk.
-    std::uint32_t most_conflicts = 0; ///< Maximum of conflicts listed by a disk.
+    std::uint32_t max_vertices = 0;  ///< Maximum of vertices reached by a disk.
+    std::uint32_t max_conflicts = 0; ///< Maximum of conflicts listed by a disk.
     /// Trips of the main loop of detect in all lanes; a trip takes one window or corner. And their
     /// number if every lane took as many as the busiest lane of its subgroup, which all wait for.
     /// 0 without SamplerOptions::count_trips.
@@ -102,7 +102,7 @@ struct SampleSet {
     std::vector<Sample> samples; ///< Samples of a surface.
     std::vector<double> points;  ///< Domain::dimension() coordinates per sample of a box.
     RunReport report;
-    std::size_t given = 0; ///< Number of samples that were given (SampleParams::given): the first.
+    std::size_t existing = 0; ///< Number of existing samples (SampleParams::existing): the first.
     std::vector<std::uint8_t> classes; ///< Class of each sample (SampleParams::class_factors).
 };
 

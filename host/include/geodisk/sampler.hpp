@@ -68,7 +68,7 @@ struct Tuning {
     std::uint32_t local_size = 0;
     /// Invocations per work group of kernels over slots and lanes, likewise.
     std::uint32_t slot_local_size = 0;
-    /// Lanes whose rows alternate in the pool, a power of two up to kMostPoolBlock. 1 keeps the
+    /// Lanes whose rows alternate in the pool, a power of two up to kMaxPoolBlock. 1 keeps the
     /// rows of a lane together; the size of a subgroup lets its lanes read side by side.
     std::uint32_t pool_block = 0;
     /// Target number of batches (paper section 5.3, N/T). More batches compute fewer disks in vain;
@@ -79,7 +79,7 @@ struct Tuning {
     std::uint32_t group_lanes = 0;
 };
 /// Maximum of Tuning::pool_block.
-inline constexpr std::uint32_t kMostPoolBlock = 128;
+inline constexpr std::uint32_t kMaxPoolBlock = 128;
 
 /// Returns `tuning` with every field that is set in `wanted` replaced.
 GEODISK_API Tuning overridden(Tuning tuning, const Tuning& wanted) noexcept;
@@ -109,7 +109,7 @@ struct SamplerOptions {
     /// Threads that compile pipelines; by default only the calling thread. With more of them,
     /// DeviceRefs::host_allocator is called on several threads at once, and
     /// DeviceRefs::pipeline_cache must not be externally synchronized.
-    ThreadOptions threads{.most_threads = 1};
+    ThreadOptions threads{.max_threads = 1};
 };
 
 /// Buffers of a job, in the order of the bindings in shaders/shared/bindings.h.
@@ -188,7 +188,7 @@ enum class DisksBy : std::uint32_t {
 /// How a job is divided into work. Only `error_bound` can change the samples, and only if a
 /// distance lies within the guard of the minimum.
 struct RunPlan {
-    std::uint32_t slots = 0;           ///< Candidates active at a time, at least kLeastSlots.
+    std::uint32_t slots = 0;           ///< Candidates active at a time, at least kMinSlots.
     std::uint32_t lanes = 0;           ///< Invocations that compute their disks, one after another;
                                        ///< or work groups, as `disks_by` says.
     std::uint32_t window_capacity = 0; ///< Maximum of waiting windows in a lane, and of vertex
@@ -242,7 +242,7 @@ struct RunPlan {
 inline constexpr std::uint32_t kAllDispatches = ~std::uint32_t{0};
 
 /// Minimum of slots. So many candidates never share one priority.
-inline constexpr std::uint32_t kLeastSlots = 8;
+inline constexpr std::uint32_t kMinSlots = 8;
 
 /// Pipeline stages and accesses of the first commands that touch the workspace, to which earlier
 /// writes must be made visible, or of the last ones, which readers must wait for.
@@ -427,23 +427,23 @@ class GEODISK_API Job {
     /// domain, and create a Placement again. No command buffer of the job may be pending. Errors:
     /// those of make_job(); after an error it can only be renewed again.
     Result<Done> renew(const Domain& domain, const RunPlan& plan) noexcept;
-    /// Restarts with another seed; uploaded data and settled samples stay.
+    /// Restarts with another seed; uploaded data and existing samples stay.
     void set_seed(std::uint64_t seed) noexcept;
     /// Decides only the candidates of lower order: the number of their stage times 2^28, plus their
     /// priority. advance() then says Next::paused; set a higher order, or kAllOrders, to go on. Any
     /// sequence of orders gives the same samples. Holds for what is recorded next, until the run
     /// restarts. Candidates that earlier rounds decide stay decided.
     void set_end_order(std::uint64_t order) noexcept;
-    /// Restarts with samples that are settled, instead of SampleParams::given: they come before all
-    /// candidates, reject those closer than the minimum distance, and are the first samples of the
-    /// run, in this order. Distances among them are not checked. Write them to the start of the
+    /// Restarts with samples that are settled, instead of SampleParams::existing: they come before
+    /// all candidates, reject those closer than the minimum distance, and are the first samples of
+    /// the run, in this order. Distances among them are not checked. Write them to the start of the
     /// samples buffer before record_begin(); geodisk leaves them there. They count towards
     /// SampleParams::stop_count, and hold for other seeds, until renew(). In a box they must be
     /// samples of the same box and seed.
     /// Errors: `invalid_argument`, naming the sample, for a face that does not exist, or weights
     /// that are not multiples of 2^-24 with a sum of at most 1; for more samples than
     /// RunPlan::sample_capacity; for a class that there is not.
-    Result<Done> set_settled(std::span<const gpu::SampleRec> samples) noexcept;
+    Result<Done> set_existing(std::span<const gpu::SampleRec> samples) noexcept;
     /// Returns the next step, from a copy of the control record that the host has read. Copies from
     /// before the last record_begin(), record_count() or record_rewind() are ignored with
     /// Next::go_on, so several frames may be in flight; the same copy may be given twice. Sets the

@@ -10,7 +10,7 @@ namespace geodisk {
 struct ThreadOptions {
     /// Maximum of threads, at least 1, including the calling thread. Uses no more than the machine
     /// has.
-    std::uint32_t most_threads = 16;
+    std::uint32_t max_threads = 16;
 
     /// Runs the work on the caller's own threads, if set; geodisk then starts none. Is called on
     /// the calling thread. Must call `work(context, block)` for each block below `blocks`, on any

@@ -22,7 +22,7 @@ struct UpdateReport {
     std::uint32_t rounds = 0;
     std::uint32_t faces = 0;    ///< Faces of the last region.
     std::uint32_t uploaded = 0; ///< Faces of the part that was on the device for it.
-    std::uint32_t removed = 0;  ///< Number of samples removed, without given ones.
+    std::uint32_t removed = 0;  ///< Number of samples removed, without existing ones.
     std::uint32_t added = 0;    ///< Number of new samples.
     RunReport run;              ///< Work on the device, in all rounds.
 };
@@ -48,16 +48,16 @@ GEODISK_API Result<JobFrame> frame_for_edit(const JobFrame& frame, const Prepare
 /// frame()). See host/docs/update.md. Not thread-safe.
 class GEODISK_API Updater {
   public:
-    /// Makes the updater of a surface and its samples, as Runner returned them: the given ones of
-    /// `params` first. Copies what it needs. Takes time linear in the mesh. `frame` is the one in
-    /// which the samples were decided: frame_of() this surface, unless Domain::surface() was given
-    /// another frame, or another updater made the samples.
+    /// Makes the updater of a surface and its samples, as Runner returned them: the existing ones
+    /// of `params` first. Copies what it needs. Takes time linear in the mesh. `frame` is the one
+    /// in which the samples were decided: frame_of() this surface, unless Domain::surface() was
+    /// given another frame, or another updater made the samples.
     ///
     /// Errors: `invalid_argument` for parameters that cannot be updated: darts, a stop count,
     /// classes or a maximal set; for a frame of another job; for a minimum
-    /// distance that exceeds the surface; for a sample that is not given and no candidate of this
-    /// mesh, seed, distance and pool ratio, with its index in Error::element; `mesh_rejected` as
-    /// PreparedMesh::prepare().
+    /// distance that exceeds the surface; for a sample that is neither an existing one nor a
+    /// candidate of this mesh, seed, distance and pool ratio, with its index in Error::element;
+    /// `mesh_rejected` as PreparedMesh::prepare().
     static Result<Updater> create(const MeshView& mesh, const SampleParams& params,
                                   const JobFrame& frame, std::span<const Sample> samples,
                                   const ThreadOptions& threads = {}) noexcept;
@@ -78,7 +78,7 @@ class GEODISK_API Updater {
     /// any change: corner positions, vertices, radii, key or mask. Other faces must be as before
     /// and are not read. Faces keep their numbers: to remove one, let it name a vertex twice.
     /// Number new faces after the last, and list them as changed.
-    /// Given samples and points to avoid are compared with those before.
+    /// Existing samples and points to avoid are compared with those before.
     ///
     /// Errors: `invalid_argument` for another seed, distance or pool ratio, parameters that cannot
     /// be updated, fewer faces than before, and a changed face that does not exist; those of
@@ -88,10 +88,10 @@ class GEODISK_API Updater {
                                 std::span<const std::uint32_t> changed,
                                 const ProgressCallback& progress = {}) noexcept;
 
-    /// Returns the samples in dart order, the given ones first.
+    /// Returns the samples in dart order, the existing ones first.
     std::span<const Sample> samples() const noexcept;
-    /// Returns the number of given samples.
-    std::size_t given() const noexcept;
+    /// Returns the number of existing samples.
+    std::size_t existing() const noexcept;
     /// Returns the frame of the samples. Its longest edge is rounded up as far as this changes no
     /// decision.
     const JobFrame& frame() const noexcept;

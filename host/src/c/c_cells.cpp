@@ -22,7 +22,7 @@ Result<CellParams> params_of(const geodisk_cell_params& params) {
     }
     CellParams cells;
     cells.has_dual = params.areas_only == 0;
-    cells.most_records = params.most_records == 0 ? cells.most_records : params.most_records;
+    cells.max_records = params.max_records == 0 ? cells.max_records : params.max_records;
     return cells;
 }
 

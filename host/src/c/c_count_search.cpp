@@ -19,7 +19,7 @@ geodisk_status geodisk_count_search_create(double wanted, geodisk_count_search**
         if (search == nullptr) {
             return wrong("search is NULL");
         }
-        if (!(wanted >= 1) || !(wanted <= kMostCandidates)) {
+        if (!(wanted >= 1) || !(wanted <= kMaxCandidates)) {
             return wrong("wanted is not from 1 to 4294967295");
         }
         *search = new geodisk_count_search{CountSearch(wanted)};
@@ -33,7 +33,7 @@ geodisk_status geodisk_count_search_create_exact(uint64_t count, geodisk_count_s
         if (search == nullptr) {
             return wrong("search is NULL");
         }
-        if (count == 0 || count > kMostCandidates) {
+        if (count == 0 || count > kMaxCandidates) {
             return wrong("count is not from 1 to 4294967295");
         }
         *search = new geodisk_count_search{CountSearch::exact(count)};

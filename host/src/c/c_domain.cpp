@@ -29,7 +29,7 @@ Result<Done> fill(const geodisk_mesh* mesh, const geodisk_surface_params& given,
     if (given.pool_ratio != 0) {
         part.params.pool_ratio = given.pool_ratio;
     }
-    part.params.throws = given.throws;
+    part.params.darts = given.darts;
     part.params.stop_count = given.stop_count;
     if (given.radii != nullptr) {
         part.radii = given.radii->shared;
@@ -46,13 +46,13 @@ Result<Done> fill(const geodisk_mesh* mesh, const geodisk_surface_params& given,
         part.face_mask.assign(given.face_mask, given.face_mask + part.mesh->prepared.face_count());
         part.params.face_mask = part.face_mask;
     }
-    if (given.given == nullptr && given.given_count != 0) {
-        return wrong("params->given is NULL");
+    if (given.existing == nullptr && given.existing_count != 0) {
+        return wrong("params->existing is NULL");
     }
-    for (std::size_t i = 0; i < given.given_count; ++i) {
-        part.given.push_back(sample_of(given.given[i]));
+    for (std::size_t i = 0; i < given.existing_count; ++i) {
+        part.existing.push_back(sample_of(given.existing[i]));
     }
-    part.params.given = part.given;
+    part.params.existing = part.existing;
     if ((given.avoid == nullptr || given.avoid_radii == nullptr) && given.avoid_count != 0) {
         return wrong("params->avoid or params->avoid_radii is NULL");
     }
@@ -64,16 +64,17 @@ Result<Done> fill(const geodisk_mesh* mesh, const geodisk_surface_params& given,
         return wrong("params->class_factors is NULL");
     }
     if (given.class_factors != nullptr) {
-        if (given.class_count < 2 || given.class_count > kMostClasses) {
+        if (given.class_count < 2 || given.class_count > kMaxClasses) {
             return wrong("params->class_count is not from 2 to 8");
         }
         part.class_factors.assign(given.class_factors,
                                   given.class_factors + given.class_count * given.class_count);
         part.params.class_factors = part.class_factors;
     }
-    if (given.given_classes != nullptr) {
-        part.given_classes.assign(given.given_classes, given.given_classes + given.given_count);
-        part.params.given_classes = part.given_classes;
+    if (given.existing_classes != nullptr) {
+        part.existing_classes.assign(given.existing_classes,
+                                     given.existing_classes + given.existing_count);
+        part.params.existing_classes = part.existing_classes;
     }
     part.params.maximal = given.is_maximal != 0;
     return Done{};
@@ -119,7 +120,7 @@ Result<BoxParams> box_of(const geodisk_box_params* params) {
     if (given->extents == nullptr) {
         return wrong("params->extents is NULL");
     }
-    if (given->dimension < 1 || given->dimension > kMostBoxDimensions) {
+    if (given->dimension < 1 || given->dimension > kMaxBoxDimensions) {
         return wrong("params->dimension is not from 1 to 6");
     }
     BoxParams box;
@@ -130,13 +131,13 @@ Result<BoxParams> box_of(const geodisk_box_params* params) {
     if (given->pool_ratio != 0) {
         box.pool_ratio = given->pool_ratio;
     }
-    box.throws = given->throws;
+    box.darts = given->darts;
     box.stop_count = given->stop_count;
     return box;
 }
 
 Result<Done> check_count(double count) {
-    if (!(count >= 1) || !(count <= kMostCandidates)) {
+    if (!(count >= 1) || !(count <= kMaxCandidates)) {
         return wrong("count is not from 1 to 4294967295");
     }
     return Done{};
@@ -378,7 +379,7 @@ geodisk_status geodisk_box_distance_for_count(const geodisk_box_params* params, 
         }
         const double found = distance_for_count(*box, count);
         box->min_distance = found; // Every other field was checked, so the distance is valid.
-        box->throws = 1;
+        box->darts = 1;
         if (const auto size = pool_size(*box); !size) {
             return size.error();
         }
@@ -424,7 +425,7 @@ geodisk_status geodisk_level_params(const geodisk_surface_params* params, double
         SampleParams last;
         last.min_distance = given->min_distance;
         last.seed = given->seed;
-        last.throws = given->throws;
+        last.darts = given->darts;
         const auto own = params_of_level(last, {levels, factor_of(factor)}, level, {});
         if (!own) {
             return own.error();

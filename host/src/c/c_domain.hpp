@@ -18,11 +18,11 @@ struct Part {
     std::shared_ptr<const Mesh> mesh;
     std::shared_ptr<const Radii> radii;
     std::vector<std::uint32_t> face_keys;
-    std::vector<Sample> given;
+    std::vector<Sample> existing;
     std::vector<std::uint8_t> face_mask;
     std::vector<KeepOut> avoid;
     std::vector<float> class_factors;
-    std::vector<std::uint8_t> given_classes;
+    std::vector<std::uint8_t> existing_classes;
     SampleParams params;
 };
 

@@ -170,8 +170,8 @@ geodisk_status geodisk_job_set_end_order(geodisk_job* job, uint64_t order, geodi
     });
 }
 
-geodisk_status geodisk_job_set_settled(geodisk_job* job, const geodisk_sample_record* samples,
-                                       size_t count, geodisk_error* error) {
+geodisk_status geodisk_job_set_existing(geodisk_job* job, const geodisk_sample_record* samples,
+                                        size_t count, geodisk_error* error) {
     return with_job(job, error, [&](geodisk_job& own) -> Result<Done> {
         if (samples == nullptr && count != 0) {
             return wrong("samples is NULL");

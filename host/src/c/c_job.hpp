@@ -36,7 +36,7 @@ struct geodisk_job {
     std::uint32_t regrowths = 0;
     std::optional<std::uint64_t> seed; ///< Seed that replaces the domain's.
     std::uint64_t end_order = geodisk::kAllOrders;
-    /// Settled samples that replace those of the domain.
+    /// Existing samples that replace those of the domain.
     std::optional<std::vector<geodisk::gpu::SampleRec>> settled;
 
     geodisk::RunPlan plan; ///< Plan to continue with, once there are buffers for it.
@@ -62,7 +62,7 @@ struct geodisk_job {
 
 namespace geodisk::c {
 
-/// Plans a run of a domain with room for so many more settled samples. An error changes nothing.
+/// Plans a run of a domain with room for so many more existing samples. An error changes nothing.
 Result<Done> plan_domain(geodisk_job& job, std::shared_ptr<const DomainState> state,
                          std::size_t settled);
 Result<std::unique_ptr<geodisk_job>> make_job(const geodisk_device& device,
@@ -71,7 +71,7 @@ Result<std::unique_ptr<geodisk_job>> make_job(const geodisk_device& device,
 /// Asks for all buffers and restarts.
 void start_over(geodisk_job& job);
 Result<Done> bind(geodisk_job& job, const geodisk_buffer_range* ranges);
-/// Bytes to upload into a buffer: those of the domain, and the settled samples.
+/// Bytes to upload into a buffer: those of the domain, and the existing samples.
 std::size_t upload_bytes(const geodisk_job& job, BufferRole role);
 Result<Done> write_upload(const geodisk_job& job, BufferRole role, std::span<std::byte> out);
 /// As geodisk_job_record; returns true if everything is recorded.

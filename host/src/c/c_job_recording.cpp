@@ -90,7 +90,7 @@ Result<Done> bind_all(geodisk_job& job, const Workspace& workspace) {
     job.is_begun = false;
     job.uploaded = {};
     if (job.settled) {
-        if (const auto set = job.recorded->set_settled(*job.settled); !set) {
+        if (const auto set = job.recorded->set_existing(*job.settled); !set) {
             return set.error();
         }
     }

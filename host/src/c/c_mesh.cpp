@@ -141,8 +141,8 @@ Result<Mesh> make_mesh(const geodisk_mesh_params& params) {
         return indices.error();
     }
     ThreadOptions threads;
-    if (params.most_threads != 0) {
-        threads.most_threads = params.most_threads;
+    if (params.max_threads != 0) {
+        threads.max_threads = params.max_threads;
     }
     return params.positions != nullptr ? make_by_positions(params, *indices, threads)
                                        : make_by_lengths(params, *indices, threads);
@@ -204,7 +204,7 @@ geodisk_status create_radii(bool is_density, const geodisk_mesh* mesh, const voi
         }
         const auto used =
             is_density ? values_on(*mesh->shared, *given, 0, std::numeric_limits<double>::max())
-                       : values_on(*mesh->shared, *given, RadiusField::kLeastFactor, 1);
+                       : values_on(*mesh->shared, *given, RadiusField::kMinFactor, 1);
         if (!used) {
             return used.error();
         }
@@ -322,7 +322,7 @@ geodisk_status geodisk_density_create(const geodisk_mesh* mesh, const void* dens
 }
 
 double geodisk_radii_least_factor(const geodisk_radii* radii) {
-    return radii == nullptr ? 1 : radii->shared->field.least_factor();
+    return radii == nullptr ? 1 : radii->shared->field.min_factor();
 }
 
 void geodisk_radii_release(geodisk_radii* radii) {

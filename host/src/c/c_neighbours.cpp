@@ -105,7 +105,7 @@ Result<std::shared_ptr<NeighbourSearch>> search_for(const geodisk_mesh& mesh,
     query.points = search->points;
     query.joined = search->joined;
     query.nearest = params.nearest;
-    query.most_pairs = params.most_pairs == 0 ? query.most_pairs : params.most_pairs;
+    query.max_pairs = params.max_pairs == 0 ? query.max_pairs : params.max_pairs;
     return search;
 }
 

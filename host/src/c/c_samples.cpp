@@ -259,7 +259,7 @@ geodisk_report report_of(const geodisk_samples& samples) {
     geodisk_report report{};
     report.samples = count_of(samples);
     report.candidates = run.candidates;
-    report.iterations = run.iterations;
+    report.batches = run.batches;
     report.dispatches = run.dispatches;
     report.disks = run.disks;
     report.windows = run.windows;
@@ -280,7 +280,7 @@ geodisk_report report_of(const geodisk_samples& samples) {
                                  : samples.found.tries > 0 ? samples.of->parts[0].params.stop_count
                                                            : 0;
     report.missing = static_cast<std::uint32_t>(wanted - std::min(wanted, report.samples));
-    report.given = static_cast<std::uint32_t>(samples.set.given);
+    report.existing = static_cast<std::uint32_t>(samples.set.existing);
     report.maximal_rounds = run.maximal.rounds;
     report.is_certified = run.maximal.certified ? 1 : 0;
     report.maximal_cells = run.maximal.cells;

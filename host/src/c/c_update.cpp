@@ -199,7 +199,7 @@ geodisk_status geodisk_updater_samples(geodisk_updater* updater, geodisk_samples
             SampleSet set;
             const auto found = updater->updater.samples();
             set.samples.assign(found.begin(), found.end());
-            set.given = updater->updater.given();
+            set.existing = updater->updater.existing();
             set.report = updater->run;
             *samples = new geodisk_samples{updater->of, std::move(set)};
             return Done{};

@@ -21,22 +21,22 @@ constexpr double kTail = 64;
 constexpr double kTailOfAlike = 11;
 // Candidates per range of orders when samples are sorted.
 constexpr std::uint32_t kCandidatesPerBucket = 16;
-constexpr std::uint32_t kLeastBuckets = 256;
-constexpr std::uint32_t kMostBuckets = 1u << 22;
+constexpr std::uint32_t kMinBuckets = 256;
+constexpr std::uint32_t kMaxBuckets = 1u << 22;
 
 } // namespace
 
 std::uint32_t capacity_for(const Stages& stages, std::uint32_t at_once) noexcept {
     const double expected = stages.expected_at_once(at_once);
     const double deviation = std::sqrt(stages.variance_at_once(at_once));
-    const double tail = std::max(kTail, kTailOfAlike * stages.most_alike);
+    const double tail = std::max(kTail, kTailOfAlike * stages.max_alike);
     const double most = std::ceil(expected + kDeviations * deviation + tail);
-    return static_cast<std::uint32_t>(std::min<double>(most, kMostCandidates));
+    return static_cast<std::uint32_t>(std::min<double>(most, kMaxCandidates));
 }
 
-std::uint32_t stages_at_once(const Stages& stages, std::uint64_t most_candidates) noexcept {
-    std::uint32_t at_once = stages.most_at_once();
-    while (at_once > 1 && capacity_for(stages, at_once) > most_candidates) {
+std::uint32_t stages_at_once(const Stages& stages, std::uint64_t max_candidates) noexcept {
+    std::uint32_t at_once = stages.max_at_once();
+    while (at_once > 1 && capacity_for(stages, at_once) > max_candidates) {
         --at_once;
     }
     return at_once;
@@ -47,7 +47,7 @@ std::uint64_t state_words(std::uint32_t candidates) noexcept {
 }
 
 std::uint32_t bucket_count(std::uint32_t capacity) noexcept {
-    return std::clamp(std::bit_ceil(capacity / kCandidatesPerBucket), kLeastBuckets, kMostBuckets);
+    return std::clamp(std::bit_ceil(capacity / kCandidatesPerBucket), kMinBuckets, kMaxBuckets);
 }
 
 std::array<VkDeviceSize, 3> sample_bytes(std::uint32_t capacity, std::uint32_t buckets) noexcept {
@@ -63,8 +63,8 @@ std::uint32_t cpu_lanes(const DeviceReport& report) {
     return cpu_threads() * std::max(1u, report.limits.subgroup_size);
 }
 
-double samples_to_expect(double full, std::uint32_t throws, std::uint32_t stop_count) noexcept {
-    for (const std::uint32_t bound : {throws, stop_count}) {
+double samples_to_expect(double full, std::uint32_t darts, std::uint32_t stop_count) noexcept {
+    for (const std::uint32_t bound : {darts, stop_count}) {
         full = bound != 0 ? std::min<double>(full, bound) : full;
     }
     return full;

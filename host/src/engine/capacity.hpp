@@ -15,7 +15,7 @@ namespace geodisk {
 std::uint32_t capacity_for(const Stages& stages, std::uint32_t at_once) noexcept;
 
 /// Returns the number of stages that fit this many candidates; at least one.
-std::uint32_t stages_at_once(const Stages& stages, std::uint64_t most_candidates) noexcept;
+std::uint32_t stages_at_once(const Stages& stages, std::uint64_t max_candidates) noexcept;
 
 /// Returns the words of states in the orders buffer, behind the orders; see lib/states.glsl.
 std::uint64_t state_words(std::uint32_t candidates) noexcept;
@@ -33,7 +33,7 @@ std::uint32_t cpu_threads() noexcept;
 std::uint32_t cpu_lanes(const DeviceReport& report);
 
 /// Returns `full`, limited by the number of darts and the stop count unless they are 0.
-double samples_to_expect(double full, std::uint32_t throws, std::uint32_t stop_count) noexcept;
+double samples_to_expect(double full, std::uint32_t darts, std::uint32_t stop_count) noexcept;
 
 /// Returns the smallest power of two of at least x, up to 2^25.
 std::uint32_t pow2_at_least(double x);

@@ -68,7 +68,7 @@ Result<Done> check_layout(const IndexView& triangles) {
 }
 
 Result<Done> check_shape(const MeshView& mesh) {
-    if (mesh.dimension < 2 || mesh.dimension > kMostDimensions) {
+    if (mesh.dimension < 2 || mesh.dimension > kMaxDimensions) {
         return invalid("the dimension must be 2 to 8");
     }
     if ((mesh.positions.is_packed() && mesh.positions.count() % mesh.dimension != 0) ||
@@ -264,8 +264,8 @@ Result<Done> check_area(double area, double extent) {
 }
 
 Result<Done> check_threads(const ThreadOptions& threads) {
-    if (threads.most_threads == 0) {
-        return invalid("most_threads must be at least 1");
+    if (threads.max_threads == 0) {
+        return invalid("max_threads must be at least 1");
     }
     return Done{};
 }

@@ -8,7 +8,7 @@
 
 namespace geodisk {
 
-inline constexpr std::uint32_t kMostDimensions = 8;
+inline constexpr std::uint32_t kMaxDimensions = 8;
 
 /// Checks sizes, the indices of all faces, and the coordinates of all vertices they use.
 Result<Done> check_mesh(const MeshView& mesh);

@@ -3,9 +3,9 @@
 
 #include <cstdint>
 
+#include <geodisk/detail/vertex_sets.hpp>
 #include <geodisk/mesh.hpp>
 #include <geodisk/sample.hpp>
-#include <geodisk/vertex_sets.hpp>
 
 namespace geodisk {
 

@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "geodisk/detail/vertex_sets.hpp"
 #include "geodisk/mesh.hpp"
-#include "geodisk/vertex_sets.hpp"
 
 namespace geodisk {
 

@@ -2,7 +2,7 @@
 //
 // The radius at a point is r_max / sqrt(s). The packing s is also linear in each face. Where s
 // equals the density, candidates as dense as s give samples as dense as s. Elsewhere s is larger,
-// because radii are limited to r_max and vary by at most kMostInFace within a face. There,
+// because radii are limited to r_max and vary by at most kMaxInFace within a face. There,
 // candidates are thinned to the share that gives the density.
 #include "geodisk/radius_field.hpp"
 
@@ -24,11 +24,11 @@ namespace {
 
 /// Maximum ratio of packings over the surface, so that radii differ by a factor of at most 32; and
 /// in a face, because large disks among small ones take long to compute.
-constexpr double kMostPacking = 1024;
-constexpr float kMostInFace = 16;
+constexpr double kMaxPacking = 1024;
+constexpr float kMaxInFace = 16;
 /// Smallest density that does not count as zero, in units of the smallest packing. Avoids denormal
 /// products.
-constexpr double kLeastDensity = 0x1p-40;
+constexpr double kMinDensity = 0x1p-40;
 /// Number of strips along each side of a face, for the integral over a share from 0 to 1.
 constexpr double kStrips = 16;
 
@@ -92,12 +92,12 @@ double quotient(double a, double b) {
 } // namespace
 
 DensityUnit DensityUnit::of(double most, double least) {
-    return {most, std::max(std::min(1.0, least / most), 1 / kMostPacking)};
+    return {most, std::max(std::min(1.0, least / most), 1 / kMaxPacking)};
 }
 
 float DensityUnit::scaled(double density) const {
     const double value = density / most / unit;
-    return value < kLeastDensity ? 0.0f : static_cast<float>(value);
+    return value < kMinDensity ? 0.0f : static_cast<float>(value);
 }
 
 float packing_of_vertex(float density) {
@@ -105,7 +105,7 @@ float packing_of_vertex(float density) {
 }
 
 float packing_in_face(float most) {
-    return most / kMostInFace;
+    return most / kMaxInFace;
 }
 
 double mean_candidates(const float* density, const float* packing) {
@@ -153,7 +153,7 @@ Result<RadiusField> RadiusField::from_density(const PreparedMesh& mesh,
         std::vector<float> packing = packing_for(mesh, scaled);
         RadiusField field =
             on_mesh(mesh, VertexRadii::of_density(std::move(scaled), std::move(packing)));
-        field.least_density_ = unit.least_density();
+        field.min_density_ = unit.min_density();
         if (!(field.effective_area_ > 0)) {
             return Error{Status::invalid_argument,
                          "the density is 0 on all faces that have an area, so no samples fit"};

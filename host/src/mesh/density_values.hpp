@@ -11,7 +11,7 @@ struct DensityUnit {
     /// Returns the unit for a density of which this is the maximum, and the minimum above 0.
     static DensityUnit of(double most, double least);
 
-    double least_density() const { return most * unit; }
+    double min_density() const { return most * unit; }
     /// Returns a density in this unit; 0 for one that is too small to count.
     float scaled(double density) const;
 };

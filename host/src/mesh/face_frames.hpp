@@ -3,8 +3,8 @@
 
 #include <span>
 
+#include "geodisk/detail/uninitialized.hpp"
 #include "geodisk/mesh.hpp"
-#include "geodisk/uninitialized.hpp"
 #include "mesh/connectivity.hpp"
 
 namespace geodisk {

@@ -18,8 +18,8 @@ namespace {
 // cells are twice as wide, so eight cells at most hold these vertices, and one of them an eighth.
 constexpr double kChain = 256;
 constexpr double kRounding = 1.01;
-constexpr std::uint8_t kMostInCell = 31; ///< Less than kChain / 8.
-constexpr double kMostCells = 0x1p40;    ///< Along an axis; more would round by too much.
+constexpr std::uint8_t kMaxInCell = 31; ///< Less than kChain / 8.
+constexpr double kMaxCells = 0x1p40;    ///< Along an axis; more would round by too much.
 constexpr std::size_t kSlotsPerVertex = 4;
 
 bool has_short_side(const MeshView& mesh, double length) {
@@ -52,14 +52,14 @@ class CellCounts {
         std::uint64_t hash = 0;
         for (std::uint32_t axis = 0; axis < axes_; ++axis) {
             const double cell = std::floor(mesh_.coordinate(v, axis) / side_);
-            if (!(std::abs(cell) <= kMostCells)) {
+            if (!(std::abs(cell) <= kMaxCells)) {
                 return false;
             }
             hash ^= static_cast<std::uint64_t>(static_cast<std::int64_t>(cell));
             hash *= 0x9e3779b97f4a7c15;
             hash ^= hash >> 32;
         }
-        return ++counts_[hash & (counts_.size() - 1)] <= kMostInCell;
+        return ++counts_[hash & (counts_.size() - 1)] <= kMaxInCell;
     }
 
   private:

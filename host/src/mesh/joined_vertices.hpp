@@ -1,7 +1,7 @@
 // A mesh whose vertices are joined in sets.
 #pragma once
 
-#include "geodisk/vertex_sets.hpp"
+#include "geodisk/detail/vertex_sets.hpp"
 #include "geodisk/weld.hpp"
 
 namespace geodisk {

@@ -123,7 +123,7 @@ RadiusField RadiusField::on_part(const PreparedMesh& part,
     some.spreads_ = corners_of(spreads_, faces);
     some.packing_ = corners_of(packing_, faces);
     some.largest_density_ = largest_density_;
-    some.least_density_ = least_density_;
+    some.min_density_ = min_density_;
     some.densities_.reserve(faces.size());
     for (std::uint32_t f = 0; f < faces.size(); ++f) {
         some.densities_.push_back(densities_[faces[f]]);

@@ -30,7 +30,7 @@ constexpr double kPartOfDiagonal = 1e-4;
 constexpr double kGapRounding = 1 + 1e-9;
 
 /// Minimum epsilon of weld() with some room, relative to the longest side of the mesh.
-constexpr double kLeastEpsilon = 0x1p-42;
+constexpr double kMinEpsilon = 0x1p-42;
 
 /// Scales coordinates by a power of two so that the longest side of the borders is about 1. Squares
 /// of distances then neither overflow nor vanish.
@@ -50,7 +50,7 @@ class ScaledMesh {
             squares = std::hypot(squares, high - low);
         }
         if (is_sized()) {
-            scale_ = std::ldexp(1.0, std::min(-std::ilogb(longest_side_), kMostExponent));
+            scale_ = std::ldexp(1.0, std::min(-std::ilogb(longest_side_), kMaxExponent));
         }
         diagonal_ = squares * scale_;
     }
@@ -74,7 +74,7 @@ class ScaledMesh {
     }
 
   private:
-    static constexpr int kMostExponent = 1000; // Maximum exponent of a finite scale.
+    static constexpr int kMaxExponent = 1000; // Maximum exponent of a finite scale.
 
     const MeshView& mesh_;
     double longest_side_ = 0, scale_ = 1, diagonal_ = 0;
@@ -130,8 +130,8 @@ std::uint32_t hash_of(int level, const std::array<double, 3>& cell) {
 class EdgeGrid {
   public:
     EdgeGrid(const ScaledMesh& mesh, std::vector<EdgeEnds> edges)
-        : mesh_(mesh), edges_(std::move(edges)), most_(kPartOfDiagonal * mesh.diagonal()),
-          short_edges_(mesh, most_), axes_(std::min(mesh.view().dimension, 3u)) {
+        : mesh_(mesh), edges_(std::move(edges)), max_(kPartOfDiagonal * mesh.diagonal()),
+          short_edges_(mesh, max_), axes_(std::min(mesh.view().dimension, 3u)) {
         entries_.reserve(edges_.size() + edges_.size() / 4);
         for (std::uint32_t i = 0; i < edges_.size(); ++i) {
             enter(i);
@@ -149,7 +149,7 @@ class EdgeGrid {
         std::vector<std::atomic<double>> nearest(edges_.size());
         for_blocks(threads, entries_.size(), [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i) {
-                const std::size_t last = std::min(entries_.size(), i + 1 + kMostCandidates);
+                const std::size_t last = std::min(entries_.size(), i + 1 + kMaxCandidates);
                 for (std::size_t k = i + 1; k < last && cell_at(k) == cell_at(i); ++k) {
                     const double gap = gap_between(edge_at(i), edge_at(k));
                     if (gap > 0) {
@@ -174,7 +174,7 @@ class EdgeGrid {
     static constexpr double kShiftOfCells = 0.382; ///< In cells.
     static constexpr double kFactorOfLevels = 1.1;
     /// Limits the time if very many edges share a cell.
-    static constexpr std::size_t kMostCandidates = 256;
+    static constexpr std::size_t kMaxCandidates = 256;
 
     static int level_of(double length) { return std::ilogb(kFactorOfLevels * length); }
     double length_of(std::uint32_t i) const { return mesh_.distance(edges_[i].from, edges_[i].to); }
@@ -192,7 +192,7 @@ class EdgeGrid {
         if (!(length > 0)) {
             return;
         }
-        const double gap = std::min(kPartOfEdge * length, most_);
+        const double gap = std::min(kPartOfEdge * length, max_);
         const int last = level_of(length + gap);
         for (int level = level_of(length - gap); level <= last; ++level) {
             const double side = std::ldexp(1 / kCellsPerEdge, level);
@@ -228,7 +228,7 @@ class EdgeGrid {
 
     /// Returns the gap between two edges; 0 if they coincide or are not close.
     double gap_between(std::uint32_t i, std::uint32_t k) const {
-        const double radius = std::min(kPartOfEdge * std::min(length_of(i), length_of(k)), most_);
+        const double radius = std::min(kPartOfEdge * std::min(length_of(i), length_of(k)), max_);
         const auto [a, b] = edges_[i];
         auto [c, d] = edges_[k];
         if (mesh_.distance(a, c) > radius) {
@@ -241,7 +241,7 @@ class EdgeGrid {
 
     const ScaledMesh& mesh_;
     std::vector<EdgeEnds> edges_;
-    double most_;
+    double max_;
     ShortEdges short_edges_;
     std::uint32_t axes_;
     /// The hash of a cell in the upper half, an edge in the lower. Sorted.
@@ -327,7 +327,7 @@ Result<NearSeams> find_near_seams(const MeshView& mesh, const ThreadOptions& thr
         seams.gap = gaps.largest;
         if (seams.edges > 0) {
             const double gap = kGapRounding * seams.gap;
-            const double least = kLeastEpsilon * longest_side_of(mesh);
+            const double least = kMinEpsilon * longest_side_of(mesh);
             if (auto chosen = choose_epsilon(mesh, std::max(gap, least), seams); !chosen) {
                 return chosen.error();
             }

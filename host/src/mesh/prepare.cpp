@@ -19,8 +19,8 @@ namespace {
 /// box.
 Result<double> measure_extent(const MeshView& mesh, std::span<const HalfEdge>,
                               std::span<const VertexFan> fans, MeshStatistics& statistics) {
-    std::array<double, kMostDimensions> low;
-    std::array<double, kMostDimensions> high;
+    std::array<double, kMaxDimensions> low;
+    std::array<double, kMaxDimensions> high;
     low.fill(HUGE_VAL);
     high.fill(-HUGE_VAL);
     for (std::uint32_t v = 0; v < fans.size(); ++v) {

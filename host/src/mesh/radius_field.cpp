@@ -28,11 +28,11 @@ Result<Done> check_factors(const PreparedMesh& mesh, std::span<const double> fac
         return Error{Status::invalid_argument, "all radius factors g are zero"};
     }
     for (std::size_t v = 0; v < factors.size(); ++v) {
-        if (is_used(mesh, v) && !(factors[v] >= RadiusField::kLeastFactor && factors[v] <= 1)) {
+        if (is_used(mesh, v) && !(factors[v] >= RadiusField::kMinFactor && factors[v] <= 1)) {
             return Error{Status::invalid_argument,
                          "the radius factor g of vertex " + std::to_string(v) + " (from 0) is " +
                              exact_text(factors[v]) + "; it must be from " +
-                             exact_text(RadiusField::kLeastFactor) + " to 1",
+                             exact_text(RadiusField::kMinFactor) + " to 1",
                          v};
         }
     }
@@ -68,9 +68,9 @@ RadiusField RadiusField::on_mesh(const PreparedMesh& mesh, const VertexRadii& ra
 }
 
 void RadiusField::find_least_factor() {
-    least_factor_ = 1;
+    min_factor_ = 1;
     for (const float g : factors_) {
-        least_factor_ = std::min(least_factor_, g);
+        min_factor_ = std::min(min_factor_, g);
     }
 }
 

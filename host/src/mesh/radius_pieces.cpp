@@ -108,9 +108,9 @@ RadiusField RadiusPieces::factors_on(std::span<const std::uint32_t> triangles,
 RadiusField RadiusPieces::outline(const RadiusTotals& totals) {
     RadiusField field;
     field.effective_area_ = totals.effective_area;
-    field.least_density_ = totals.least_density;
+    field.min_density_ = totals.min_density;
     field.largest_density_ = totals.largest_density;
-    field.least_factor_ = totals.least_factor;
+    field.min_factor_ = totals.min_factor;
     return field;
 }
 
@@ -124,7 +124,7 @@ RadiusField RadiusPieces::piece(const PreparedMesh& mesh, const VertexRadii& rad
     });
     field.effective_area_ = area;
     field.largest_density_ = outline.largest_density_;
-    field.least_density_ = outline.least_density_;
+    field.min_density_ = outline.min_density_;
     return field;
 }
 

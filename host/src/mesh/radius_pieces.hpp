@@ -34,8 +34,8 @@ struct FaceMean {
 
 /// What radii are over a whole surface.
 struct RadiusTotals {
-    double effective_area = 0, least_density = 0;
-    float largest_density = 0, least_factor = 1;
+    double effective_area = 0, min_density = 0;
+    float largest_density = 0, min_factor = 1;
 };
 
 struct RadiusPieces {

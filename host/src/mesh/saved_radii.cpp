@@ -27,7 +27,7 @@ struct RadiiHeader {
     std::uint32_t has_packing;
     float largest_density;
     double effective_area;
-    double least_density;
+    double min_density;
 };
 static_assert(sizeof(RadiiHeader) == 48);
 
@@ -77,7 +77,7 @@ Result<std::vector<std::byte>> RadiusField::save() const noexcept {
                            packing_.empty() ? 0u : 1u,
                            largest_density_,
                            effective_area_,
-                           least_density_};
+                           min_density_};
         std::memcpy(header.magic, kRadiiMagic, sizeof kRadiiMagic);
         std::vector<std::byte> bytes(sizeof header);
         std::memcpy(bytes.data(), &header, sizeof header);
@@ -110,7 +110,7 @@ Result<RadiusField> RadiusField::load(std::span<const std::byte> bytes) noexcept
         RadiusField field;
         field.largest_density_ = header.largest_density;
         field.effective_area_ = header.effective_area;
-        field.least_density_ = header.least_density;
+        field.min_density_ = header.min_density;
         const auto take = [&](std::vector<float>& values, std::uint64_t count) {
             values.resize(count);
             if (count > 0) {
@@ -122,13 +122,13 @@ Result<RadiusField> RadiusField::load(std::span<const std::byte> bytes) noexcept
         take(field.spreads_, 3 * header.faces);
         take(field.packing_, std::uint64_t{3} * header.has_packing * header.faces);
         take(field.densities_, header.faces);
-        const auto least = static_cast<float>(kLeastFactor);
+        const auto least = static_cast<float>(kMinFactor);
         const float most = 1 / (least * least);
         if (!are_within(field.factors_, least, 1) || !are_within(field.spreads_, 0, most) ||
             !are_within(field.packing_, 1, most) || !are_within(field.densities_, 0, most) ||
             !(field.largest_density_ >= 0 && field.largest_density_ <= most) ||
             !(field.effective_area_ >= 0 && std::isfinite(field.effective_area_)) ||
-            !(field.least_density_ >= 0) || !is_consistent(field)) {
+            !(field.min_density_ >= 0) || !is_consistent(field)) {
             return invalid("the saved radii are damaged");
         }
         field.find_least_factor();

@@ -53,7 +53,7 @@ class Slopes {
 
     /// Returns the smallest value at the apex over h with a gradient of at most `gradient`, if the
     /// gradient along h allows it.
-    double least_at_apex(std::uint32_t h, double gradient) {
+    double min_at_apex(std::uint32_t h, double gradient) {
         const HalfEdge& edge = mesh_.half_edges()[h];
         const double along = edge.length > 0 ? (end(h) - start(h)) / length(h) : 0;
         const double across = std::sqrt(std::max(0.0, gradient * gradient - along * along));
@@ -78,9 +78,9 @@ class Slopes {
             }
         }
         for (std::uint32_t h = first; h < first + 3; ++h) {
-            if (apex(h) < highest && apex(h) < least_at_apex(h, 1)) {
+            if (apex(h) < highest && apex(h) < min_at_apex(h, 1)) {
                 raise(previous_in_face(h),
-                      narrow ? highest : std::min(highest, least_at_apex(h, kTarget)));
+                      narrow ? highest : std::min(highest, min_at_apex(h, kTarget)));
             }
         }
     }

@@ -6,7 +6,7 @@
 #include <span>
 #include <utility>
 
-#include "geodisk/vertex_sets.hpp"
+#include "geodisk/detail/vertex_sets.hpp"
 #include "mesh/checks.hpp"
 #include "mesh/joined_vertices.hpp"
 #include "mesh/position_table.hpp"
@@ -36,7 +36,7 @@ class NearPairs {
             Member member{{}, v};
             for (std::uint32_t axis = 0; axis < axes_; ++axis) {
                 const double x = (mesh.coordinate(v, axis) - low[axis]) / (kSide * epsilon);
-                fits_ = fits_ && x <= kMostCells;
+                fits_ = fits_ && x <= kMaxCells;
                 member.cell[axis] = fits_ ? static_cast<std::int64_t>(x) : 0;
             }
             members_.push_back(member);
@@ -74,7 +74,7 @@ class NearPairs {
     // apart.
     static constexpr double kSide = 0.55;
     static constexpr std::int64_t kReach = 2;
-    static constexpr double kMostCells = 0x1p44;
+    static constexpr double kMaxCells = 0x1p44;
     /// Rows to one side of a cell, nearest first: most cells are joined by then.
     static constexpr std::pair<int, int> kRows[] = {{0, 0}, {0, 1},  {1, 0},  {1, -1}, {1, 1},
                                                     {0, 2}, {2, 0},  {1, -2}, {1, 2},  {2, -1},

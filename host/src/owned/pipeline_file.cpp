@@ -22,7 +22,7 @@ namespace {
 constexpr std::string_view kMagic = "geodisk pipelines 1\n";
 
 /// More than any driver makes of geodisk's kernels. Protects from reading a file of nonsense.
-constexpr std::streamoff kMostBytes = std::streamoff{256} << 20;
+constexpr std::streamoff kMaxBytes = std::streamoff{256} << 20;
 
 template <class T>
 void append(std::vector<std::byte>& bytes, const T& value) {
@@ -134,7 +134,7 @@ std::vector<std::byte> PipelineFile::load() const {
     in.seekg(0, std::ios::end);
     const std::streamoff bytes = in.tellg();
     const std::size_t before = identity_.size() + sizeof(std::uint64_t);
-    if (!in || bytes < static_cast<std::streamoff>(before) || bytes > kMostBytes) {
+    if (!in || bytes < static_cast<std::streamoff>(before) || bytes > kMaxBytes) {
         return {};
     }
     std::vector<std::byte> file(static_cast<std::size_t>(bytes));

@@ -67,7 +67,7 @@ Result<StagesReport> decide_stages(Exchange& exchange, Part& part, PartRun& run,
     StagesReport report;
     report.candidates = part.checkpoints.candidates;
     const Stages& stages = run.stages();
-    std::uint64_t accepted = part.all_given + part.checkpoints.samples;
+    std::uint64_t accepted = part.all_existing + part.checkpoints.samples;
     std::uint32_t first = part.checkpoints.first_stage;
     const auto is_enough = [&] { return part.stop_count != 0 && accepted >= part.stop_count; };
     const auto has_more = [&] {
@@ -75,7 +75,7 @@ Result<StagesReport> decide_stages(Exchange& exchange, Part& part, PartRun& run,
     };
     while (has_more()) {
         const std::uint32_t count =
-            std::min(part.most_stages, stages.left(first, report.candidates));
+            std::min(part.max_stages, stages.left(first, report.candidates));
         const auto drawn = draw(exchange, part, run, report.candidates, first, count);
         if (!drawn) {
             return drawn.error();

@@ -17,7 +17,7 @@ namespace geodisk {
 namespace {
 
 // Distances are tested against D * (1 + guard). Long paths widen the guard; hardly ever by so much.
-constexpr double kLeastMargin = 0x1p-6;
+constexpr double kMinMargin = 0x1p-6;
 
 Result<Done> check_params(const SampleParams& params) {
     const auto no = [](const char* what) {
@@ -30,25 +30,25 @@ Result<Done> check_params(const SampleParams& params) {
 }
 
 double margin_of(const JobFrame& frame) {
-    return std::max(kLeastMargin, 2 * ErrorModel(frame).guard_for(frame.error_bound));
+    return std::max(kMinMargin, 2 * ErrorModel(frame).guard_for(frame.error_bound));
 }
 
-std::uint32_t stages_at_once(const Stages& stages, double most_candidates) {
-    const double most = std::max(1.0, most_candidates / stages.expected(0));
-    return static_cast<std::uint32_t>(std::min<double>(stages.most_at_once(), most));
+std::uint32_t stages_at_once(const Stages& stages, double max_candidates) {
+    const double most = std::max(1.0, max_candidates / stages.expected(0));
+    return static_cast<std::uint32_t>(std::min<double>(stages.max_at_once(), most));
 }
 
 /// Faces of all parts that are known so far.
 class Division {
   public:
     Division(const PreparedMesh& mesh, const SampleParams& params, const JobFrame& frame,
-             std::span<const std::uint32_t> owners, std::uint32_t processes, double most_candidates,
+             std::span<const std::uint32_t> owners, std::uint32_t processes, double max_candidates,
              const Checkpoints* checkpoints)
         : mesh_(mesh), params_(params), owners_(owners),
           from_(checkpoints != nullptr ? checkpoints->from : nullptr) {
         const CheckpointTerms terms(checkpoints);
         for (std::uint32_t process = 0; process < processes; ++process) {
-            parts_.push_back(part_for(params, frame, most_candidates, terms));
+            parts_.push_back(part_for(params, frame, max_candidates, terms));
         }
         widest_ = parts_.front().reach;
         for (const KeepOut& avoided : params.avoid) {
@@ -86,10 +86,10 @@ class Division {
                 asked_[{owners_[face], process}].push_back(face);
             }
         }
-        for (Sample sample : params_.given) {
+        for (Sample sample : params_.existing) {
             if (to_faces[sample.face] <= part.reach) {
                 sample.face = local(part, sample.face);
-                part.given.push_back(sample);
+                part.existing.push_back(sample);
             }
         }
         if (from_ != nullptr) {
@@ -157,20 +157,20 @@ class Division {
 
 } // namespace
 
-Part part_for(const SampleParams& params, const JobFrame& frame, double most_candidates,
+Part part_for(const SampleParams& params, const JobFrame& frame, double max_candidates,
               const CheckpointTerms& checkpoints) {
     Part part;
     part.frame = frame;
     part.reach = params.min_distance * (1 + margin_of(frame));
     part.seed = params.seed;
     part.pool_ratio = params.pool_ratio;
-    part.throws = params.throws;
+    part.darts = params.darts;
     part.stop_count = params.stop_count;
-    part.all_given = static_cast<std::uint32_t>(params.given.size());
+    part.all_existing = static_cast<std::uint32_t>(params.existing.size());
     part.checkpoints = checkpoints;
-    part.most_stages = stages_at_once(stages_in(frame, params), most_candidates);
+    part.max_stages = stages_at_once(stages_in(frame, params), max_candidates);
     if (checkpoints.is_saved) {
-        part.most_stages = std::min(part.most_stages, checkpoints.stages);
+        part.max_stages = std::min(part.max_stages, checkpoints.stages);
     }
     part.has_keys = !params.face_keys.empty();
     return part;
@@ -178,7 +178,7 @@ Part part_for(const SampleParams& params, const JobFrame& frame, double most_can
 
 Result<std::vector<Bytes>> divide(const PreparedMesh& mesh, const SampleParams& params,
                                   std::span<const std::uint32_t> owners, std::uint32_t processes,
-                                  double most_candidates, const Checkpoints* checkpoints) {
+                                  double max_candidates, const Checkpoints* checkpoints) {
     return guarded([&]() -> Result<std::vector<Bytes>> {
         if (auto checked = check_params(params); !checked) {
             return checked.error();
@@ -187,7 +187,7 @@ Result<std::vector<Bytes>> divide(const PreparedMesh& mesh, const SampleParams& 
         if (!frame) {
             return frame.error();
         }
-        Division division(mesh, params, *frame, owners, processes, most_candidates, checkpoints);
+        Division division(mesh, params, *frame, owners, processes, max_candidates, checkpoints);
         for (std::uint32_t process = 0; process < processes; ++process) {
             division.choose(process);
         }

@@ -57,15 +57,15 @@ struct Part {
     std::vector<std::uint32_t> keys; ///< Key of each face, or empty: its number in the whole.
     bool has_keys = false;           ///< The caller has given keys.
     std::vector<std::uint8_t> mask;  ///< Empty, or as SampleParams::face_mask.
-    std::vector<Sample> given;
+    std::vector<Sample> existing;
     std::vector<KeepOut> avoid;
     std::vector<Neighbour> neighbours;
     std::uint64_t seed = 0;
-    double pool_ratio = 0;         ///< Pool ratio that was asked for.
-    std::uint32_t throws = 0;      ///< SampleParams::throws.
-    std::uint32_t stop_count = 0;  ///< SampleParams::stop_count.
-    std::uint32_t all_given = 0;   ///< Number of given samples of the whole.
-    std::uint32_t most_stages = 1; ///< Stages that are drawn at a time.
+    double pool_ratio = 0;          ///< Pool ratio that was asked for.
+    std::uint32_t darts = 0;        ///< SampleParams::darts.
+    std::uint32_t stop_count = 0;   ///< SampleParams::stop_count.
+    std::uint32_t all_existing = 0; ///< Number of existing samples of the whole.
+    std::uint32_t max_stages = 1;   ///< Stages that are drawn at a time.
     CheckpointTerms checkpoints;
     Darts settled; ///< Samples of the checkpoint that it goes on from, on own and near faces.
 
@@ -77,7 +77,7 @@ struct Part {
 
 /// Returns a part without any faces yet, for a job in such a frame. At most so many
 /// candidates are expected to be drawn at a time, of all processes, unless one stage has more.
-Part part_for(const SampleParams& params, const JobFrame& frame, double most_candidates,
+Part part_for(const SampleParams& params, const JobFrame& frame, double max_candidates,
               const CheckpointTerms& checkpoints);
 
 /// Returns the parts of all processes as messages, in their order. `owners` has the process of each
@@ -86,7 +86,7 @@ Part part_for(const SampleParams& params, const JobFrame& frame, double most_can
 /// frame_of().
 Result<std::vector<Bytes>> divide(const PreparedMesh& mesh, const SampleParams& params,
                                   std::span<const std::uint32_t> owners, std::uint32_t processes,
-                                  double most_candidates, const Checkpoints* checkpoints);
+                                  double max_candidates, const Checkpoints* checkpoints);
 
 /// Reads a part. Errors: those of PreparedMesh::load() and the like.
 Result<std::unique_ptr<Part>> part_of(std::span<const std::byte> bytes);

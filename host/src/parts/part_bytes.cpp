@@ -15,17 +15,17 @@ void for_fields(AnyPart& part, const One& one, const All& all) {
     one(part.reach);
     one(part.seed);
     one(part.pool_ratio);
-    one(part.throws);
+    one(part.darts);
     one(part.stop_count);
-    one(part.all_given);
-    one(part.most_stages);
+    one(part.all_existing);
+    one(part.max_stages);
     one(part.checkpoints);
     one(part.has_keys);
     all(part.faces);
     all(part.roles);
     all(part.keys);
     all(part.mask);
-    all(part.given);
+    all(part.existing);
     all(part.avoid);
     all(part.settled);
 }
@@ -40,14 +40,14 @@ SampleParams Part::params() const {
     params.radii = radii ? &*radii : nullptr;
     params.face_keys = has_keys ? keys : faces;
     params.face_mask = mask;
-    params.given = given;
+    params.existing = existing;
     params.avoid = avoid;
     return params;
 }
 
 CandidateDraw Part::draw() const {
     SampleParams of_whole = params();
-    of_whole.throws = throws;
+    of_whole.darts = darts;
     return {mesh, of_whole, frame};
 }
 

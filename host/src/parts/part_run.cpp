@@ -17,7 +17,7 @@ constexpr double kBorder = 6;
 
 PartRun::PartRun(const Part& part, Runner& runner, ProgressCallback progress)
     : part_(part), runner_(runner), progress_(std::move(progress)), order_{part.has_keys},
-      draw_(part.draw()), settled_(part.given) {
+      draw_(part.draw()), settled_(part.existing) {
     std::vector<std::uint8_t> is_near(part.faces.size());
     for (std::size_t face = 0; face < is_near.size(); ++face) {
         is_near[face] = part.roles[face] == FaceRole::near ? 1 : 0;
@@ -120,7 +120,7 @@ Result<Darts> PartRun::accepted_of(const Darts& candidates, std::span<const Samp
         list.push_back({local(dart), dart.point.weight1, dart.point.weight2});
     }
     SampleParams params = part_.params();
-    params.given = settled;
+    params.existing = settled;
     const auto domain = listed_domain(part_.mesh, params, part_.frame, list);
     if (!domain) {
         return domain.error();
@@ -131,7 +131,7 @@ Result<Darts> PartRun::accepted_of(const Darts& candidates, std::span<const Samp
     }
     report_.starts += set->report.starts;
     report_.add(set->report);
-    const auto places = places_of(std::span(set->samples).subspan(set->given), list);
+    const auto places = places_of(std::span(set->samples).subspan(set->existing), list);
     if (!places) {
         return places.error();
     }

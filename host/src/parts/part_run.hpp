@@ -49,7 +49,7 @@ class PartRun {
   private:
     std::uint32_t local(const DrawnCandidate& dart) const;
     bool is_own(const DrawnCandidate& dart) const;
-    /// Decides these candidates, in dart order, behind settled samples. Returns those that are
+    /// Decides these candidates, in dart order, behind existing samples. Returns those that are
     /// accepted.
     Result<Darts> accepted_of(const Darts& candidates, std::span<const Sample> settled);
     void settle(const DrawnCandidate& dart);
@@ -65,7 +65,7 @@ class PartRun {
     CandidateDraw draw_;
     Darts drawn_; ///< Candidates of own faces, in dart order. Those of near faces until decided.
     Darts settled_own_;           ///< Own samples of earlier stages.
-    std::vector<Sample> settled_; ///< Given samples, and own and near ones of earlier stages.
+    std::vector<Sample> settled_; ///< Existing samples, and own and near ones of earlier stages.
     /// Those of them that reach the border.
     std::vector<Sample> settled_near_;
     Darts own_; ///< Own samples as they were decided last, among these near ones.

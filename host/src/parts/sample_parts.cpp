@@ -7,7 +7,7 @@
 #include <type_traits>
 #include <utility>
 
-#include "engine/domain/given.hpp"
+#include "engine/domain/existing.hpp"
 #include "parts/decide_stages.hpp"
 #include "parts/mesh_turn.hpp"
 #include "parts/part.hpp"
@@ -45,7 +45,7 @@ Result<std::vector<Bytes>> parts_of(const WholeSurface& whole, std::uint32_t pro
             return frame.error();
         }
         const auto owners = whole.cut(whole.mesh, whole.params, processes);
-        return owners ? divide(whole.mesh, whole.params, *owners, processes, whole.most_candidates,
+        return owners ? divide(whole.mesh, whole.params, *owners, processes, whole.max_candidates,
                                whole.checkpoints)
                       : Result<std::vector<Bytes>>(owners.error());
     });
@@ -54,10 +54,10 @@ Result<std::vector<Bytes>> parts_of(const WholeSurface& whole, std::uint32_t pro
 /// Returns the samples of all processes as one run gives them.
 std::vector<Sample> merged(const SampleParams& params, const Darts& darts) {
     std::vector<Sample> samples;
-    samples.reserve(params.given.size() + darts.size());
-    for (const Sample& given : params.given) {
-        const auto [weight1, weight2] = rounded_weights(given.weights);
-        samples.push_back({given.face, {1.0f - weight1 - weight2, weight1, weight2}});
+    samples.reserve(params.existing.size() + darts.size());
+    for (const Sample& sample : params.existing) {
+        const auto [weight1, weight2] = rounded_weights(sample.weights);
+        samples.push_back({sample.face, {1.0f - weight1 - weight2, weight1, weight2}});
     }
     for (const DrawnCandidate& dart : darts) {
         samples.push_back(to_sample(dart.point));
@@ -105,11 +105,11 @@ PartsResult put_together(const Exchange& exchange, const SampleParams& params,
         add(result.processes[exchange.process_of(rank)], summary.process);
     }
     std::ranges::sort(darts, DartOrder{!params.face_keys.empty()});
-    const std::size_t given = params.given.size();
+    const std::size_t existing = params.existing.size();
     if (params.stop_count != 0) {
-        darts.resize(std::min<std::size_t>(darts.size(), params.stop_count - given));
+        darts.resize(std::min<std::size_t>(darts.size(), params.stop_count - existing));
     }
-    result.set.given = given;
+    result.set.existing = existing;
     result.set.samples = merged(params, darts);
     return result;
 }
@@ -262,7 +262,7 @@ Result<PartsResult> sample_parts(Exchange& exchange, Runner& runner, const Whole
 
 Result<PartsResult> sample_ranges(Exchange& exchange, Runner& runner, const RangedSurface& surface,
                                   const SampleParams& params, const Checkpoints* checkpoints,
-                                  const ProgressCallback& progress, double most_candidates) {
+                                  const ProgressCallback& progress, double max_candidates) {
     const auto frame = surface.frame(params);
     if (!frame) {
         return frame.error();
@@ -271,7 +271,7 @@ Result<PartsResult> sample_ranges(Exchange& exchange, Runner& runner, const Rang
     if (!terms) {
         return terms.error();
     }
-    const auto part = surface.part(exchange, params, *frame, most_candidates, *terms);
+    const auto part = surface.part(exchange, params, *frame, max_candidates, *terms);
     if (!part) {
         return part.error();
     }

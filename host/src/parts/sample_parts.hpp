@@ -22,14 +22,14 @@ using Cut = std::function<Result<std::vector<std::uint32_t>>(
     const PreparedMesh& mesh, const SampleParams& params, std::uint32_t processes)>;
 
 /// Candidates that all processes draw at a time, about; a stage at least.
-inline constexpr double kMostAtOnce = 0x1p26;
+inline constexpr double kMaxAtOnce = 0x1p26;
 
 /// A surface to sample, of the first process alone.
 struct WholeSurface {
     const PreparedMesh& mesh;
     const SampleParams& params;
     const Cut& cut;
-    double most_candidates = kMostAtOnce;
+    double max_candidates = kMaxAtOnce;
     const Checkpoints* checkpoints = nullptr; ///< Null for a job without any.
 };
 
@@ -54,6 +54,6 @@ GEODISK_API Result<PartsResult> sample_parts(Exchange& exchange, Runner& runner,
 GEODISK_API Result<PartsResult>
 sample_ranges(Exchange& exchange, Runner& runner, const RangedSurface& surface,
               const SampleParams& params, const Checkpoints* checkpoints = nullptr,
-              const ProgressCallback& progress = {}, double most_candidates = kMostAtOnce);
+              const ProgressCallback& progress = {}, double max_candidates = kMaxAtOnce);
 
 } // namespace geodisk

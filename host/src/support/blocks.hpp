@@ -47,7 +47,7 @@ void for_blocks(const ThreadOptions& options, std::size_t count, const Work& wor
             },
             &take);
     } else if (options.parallel_for == nullptr) {
-        const std::size_t most = std::min({blocks, std::size_t{options.most_threads},
+        const std::size_t most = std::min({blocks, std::size_t{options.max_threads},
                                            std::size_t{std::thread::hardware_concurrency()}});
         try {
             while (threads.size() + 1 < most) {

@@ -116,7 +116,7 @@ int main() {
     const auto again = take(runner.sample_and_wait(mesh, params), "sample again");
     require(same(set.samples, again.samples), "a second run returns the same samples");
     geodisk::RunnerOptions options;
-    options.plan.slots = geodisk::kLeastSlots;
+    options.plan.slots = geodisk::kMinSlots;
     options.sampler.rounding = geodisk::Rounding::emulated;
     auto other =
         take(geodisk::Runner::create(context.device(), context.queue(), options), "another Runner");

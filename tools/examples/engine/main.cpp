@@ -31,7 +31,7 @@ constexpr VkDeviceSize kGeometryBytes = VkDeviceSize{4} << 20;
 constexpr VkDeviceSize kDeviceBytes = VkDeviceSize{64} << 20;
 constexpr VkDeviceSize kHostBytes = VkDeviceSize{16} << 20;
 constexpr double kSamples = 3000;
-constexpr std::uint32_t kMostFrames = 10000;
+constexpr std::uint32_t kMaxFrames = 10000;
 
 struct Vertex {
     glm::vec3 position, normal;
@@ -130,7 +130,7 @@ bool run(bool validate, const char* path) {
             renderer.record_read(commands, image);
         }
         frames.submit();
-        if (frame == kMostFrames) {
+        if (frame == kMaxFrames) {
             throw std::runtime_error("the samples take too many frames");
         }
     }

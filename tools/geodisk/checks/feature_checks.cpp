@@ -74,10 +74,10 @@ std::vector<std::uint32_t> wrong_features(const std::string& samples_path,
         return wrong;
     }
     const FeaturePlaces places(features_in(samples_path, *text, mesh), mesh.prepared);
-    const auto given = samples.extra_values(kGivenColumn);
+    const auto existing = samples.extra_values(kExistingColumn);
     bool marks_follow = false;
     for (std::size_t i = samples.rows.size(); i-- > 0;) {
-        if (!given.empty() && given[i] != 0) {
+        if (!existing.empty() && existing[i] != 0) {
             continue;
         }
         const FeatureKind kind = places.of(samples.rows[i]);

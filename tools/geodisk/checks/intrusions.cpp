@@ -15,13 +15,13 @@ namespace geodisk::tools {
 namespace {
 
 constexpr double kSmallestIntrusion = 1e-9; // Of a radius, for the rounding of doubles.
-constexpr double kMaxCells = 0x1p26;
+constexpr double kMaxCellsOfDisks = 0x1p26;
 constexpr double kOutside = std::numeric_limits<double>::infinity();
 
 } // namespace
 
 std::vector<Intrusion> find_intrusions(const MeshInput& mesh, std::span<const SampleRow> rows,
-                                       std::span<const std::uint32_t> given,
+                                       std::span<const std::uint32_t> existing,
                                        std::span<const KeepOut> avoided, ProgressLine& progress) {
     if (avoided.empty() || rows.empty()) {
         return {};
@@ -44,7 +44,8 @@ std::vector<Intrusion> find_intrusions(const MeshInput& mesh, std::span<const Sa
     for (const auto& [center, radius] : avoided) {
         points.push_back({center.face, center.weights[1], center.weights[2]});
     }
-    const double unit = ref::suitable_unit(mesh.sampled(), radius_of(order.front()), kMaxCells);
+    const double unit =
+        ref::suitable_unit(mesh.sampled(), radius_of(order.front()), kMaxCellsOfDisks);
     const ref::Surface<double> surface(mesh.sampled(), unit);
     const ref::Bins<double> bins(surface, points);
     ref::Detector<double> detector(surface, bins, ref::double_tolerances(), 1);
@@ -64,7 +65,7 @@ std::vector<Intrusion> find_intrusions(const MeshInput& mesh, std::span<const Sa
         const double radius = radius_of(point);
         const auto is_wanted = [&](std::uint32_t place) {
             const std::uint32_t row = bins.order[place];
-            return row >= rows.size() || given.empty() || given[row] == 0;
+            return row >= rows.size() || existing.empty() || existing[row] == 0;
         };
         const auto hit = [&](std::uint32_t place, double length) {
             const std::uint32_t row = bins.order[place];

@@ -22,10 +22,10 @@ struct Intrusion {
 };
 
 /// Finds the rows within the radii of the points by more than a billionth, in their order. Rows
-/// with `given` other than 0 may be anywhere; none were given if that is empty. Throws UserError
+/// with `existing` other than 0 may be anywhere; none do if that is empty. Throws UserError
 /// when interrupted.
 std::vector<Intrusion> find_intrusions(const MeshInput& mesh, std::span<const SampleRow> rows,
-                                       std::span<const std::uint32_t> given,
+                                       std::span<const std::uint32_t> existing,
                                        std::span<const KeepOut> avoided, ProgressLine& progress);
 
 } // namespace geodisk::tools

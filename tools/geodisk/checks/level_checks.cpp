@@ -15,8 +15,8 @@
 namespace geodisk::tools {
 namespace {
 
-/// Of a level that is spaced, where some samples were given.
-constexpr const char* kButGiven = "all spaced, pairs of given samples aside";
+/// Of a level that is spaced, where some samples were existing.
+constexpr const char* kButExisting = "all spaced, pairs of existing samples aside";
 
 /// Returns the number of samples up to the end of a level, where levels come in order.
 std::size_t end_of(std::span<const std::uint32_t> levels, std::uint32_t level) {
@@ -104,7 +104,7 @@ std::vector<LevelSpacing> check_levels(const std::string& samples_path, const Sa
     const auto levels = samples.extra_values(kLevelColumn);
     check_column(samples_path, levels, samples.rows.size(), distances.size());
     check_ends(samples_path, samples, levels, distances.size());
-    const auto given = samples.extra_values(kGivenColumn);
+    const auto existing = samples.extra_values(kExistingColumn);
     for (std::uint32_t level = 0; level < distances.size(); ++level) {
         const std::size_t end = end_of(levels, level);
         if (level + 1 == distances.size()) {
@@ -116,9 +116,9 @@ std::vector<LevelSpacing> check_levels(const std::string& samples_path, const Sa
         for (double& radius : own) {
             radius *= scale;
         }
-        GivenSpacing spacing =
+        ExistingSpacing spacing =
             check_spacing(mesh, std::span(samples.rows).first(end), PairDistances{own},
-                          given.first(given.empty() ? 0 : end), progress, note);
+                          existing.first(existing.empty() ? 0 : end), progress, note);
         found.push_back({distances[level], end, std::move(spacing.others)});
         if (end == samples.rows.size()) {
             break; // The file ends here: later levels are not in it.
@@ -127,13 +127,13 @@ std::vector<LevelSpacing> check_levels(const std::string& samples_path, const Sa
     return found;
 }
 
-std::string level_lines(const std::vector<LevelSpacing>& levels, bool has_given) {
+std::string level_lines(const std::vector<LevelSpacing>& levels, bool has_existing) {
     std::string text;
     for (const LevelSpacing& level : levels) {
         text += (text.empty() ? "levels        " : "              ") + grouped(level.samples) +
                 " samples at distance " + rounded(level.min_distance, 6) + ", " +
                 (level.result.violations.empty()
-                     ? (has_given ? kButGiven : "all spaced")
+                     ? (has_existing ? kButExisting : "all spaced")
                      : counted(level.result.violations.size(), "violation", "violations")) +
                 '\n';
     }

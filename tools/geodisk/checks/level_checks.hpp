@@ -19,7 +19,7 @@ namespace geodisk::tools {
 struct LevelSpacing {
     double min_distance;  ///< As the header has it.
     std::size_t samples;  ///< Up to its end.
-    SpacingResult result; ///< Of all pairs but those of given samples.
+    SpacingResult result; ///< Of all pairs but those of existing samples.
 };
 
 /// Checks the samples up to the end of each level whose distance the header has; none without such
@@ -31,8 +31,8 @@ std::vector<LevelSpacing> check_levels(const std::string& samples_path, const Sa
                                        const SpacingResult& last, ProgressLine& progress,
                                        const NotePairs& note);
 
-/// A line for each level. `has_given` tells whether pairs of given samples were left out.
-std::string level_lines(const std::vector<LevelSpacing>& levels, bool has_given);
+/// A line for each level. `has_existing` tells whether pairs of existing samples were left out.
+std::string level_lines(const std::vector<LevelSpacing>& levels, bool has_existing);
 
 /// "3 pairs of samples up to level 1 are closer than 0.2"; empty without violations.
 std::string level_fault(const std::vector<LevelSpacing>& levels);

@@ -14,7 +14,7 @@
 namespace geodisk::tools {
 namespace {
 
-constexpr double kMostCells = 0x1p26;
+constexpr double kMaxCells = 0x1p26;
 
 std::vector<ref::FacePoint<double>> points_of(std::span<const Sample> samples) {
     std::vector<ref::FacePoint<double>> points;
@@ -71,7 +71,7 @@ void for_each_pair(const PairSearch& search, ProgressLine& progress, const Reach
     progress.clear();
 }
 
-/// What has been noted of pairs that count, or of those that were given.
+/// What has been noted of pairs that count, or of existing samples.
 class Notes {
   public:
     /// Returns true if a pair is to be noted.
@@ -85,7 +85,7 @@ class Notes {
     }
     std::size_t violations() const { return violations_; }
     /// Returns the ratio of the closest pair; there must be one.
-    double least_ratio() const { return closest_->ratio; }
+    double min_ratio() const { return closest_->ratio; }
 
   private:
     std::optional<ClosePair> closest_;
@@ -106,7 +106,7 @@ std::vector<std::uint32_t> places_of(const PairSearch& search) {
 } // namespace
 
 PairSearch search_on(const PreparedMesh& mesh, std::span<const SampleRow> rows, double distance) {
-    const double unit = ref::suitable_unit(mesh, distance, kMostCells);
+    const double unit = ref::suitable_unit(mesh, distance, kMaxCells);
     // The reference takes lengths beyond all proportion to the mesh for unknown ones.
     PairSearch search{mesh, ref::frame_of(mesh, unit), 2 * ref::longest_path(mesh), {}};
     search.samples.reserve(rows.size());
@@ -118,15 +118,15 @@ PairSearch search_on(const PreparedMesh& mesh, std::span<const SampleRow> rows, 
 
 std::vector<NotedPair> note_pairs(const PairSearch& search, ProgressLine& progress) {
     std::vector<NotedPair> noted;
-    Notes others, among_given;
+    Notes others, among_existing;
     const bool is_even = search.distances && search.distances->are_found_from_both();
-    bool has_enough = false; // Pairs of given samples: only closer ones are looked for.
+    bool has_enough = false; // Pairs of existing samples: only closer ones are looked for.
     const auto reach = [&](std::uint32_t row) {
-        has_enough = among_given.violations() >= kMostGivenPairs;
+        has_enough = among_existing.violations() >= kMaxExistingPairs;
         const double full = search.reach(row);
         // Pairs with a new sample are found from that one.
-        return has_enough && is_even && search.given[row] != 0
-                   ? std::min(full, among_given.least_ratio() * search.distances->reach(row))
+        return has_enough && is_even && search.existing[row] != 0
+                   ? std::min(full, among_existing.min_ratio() * search.distances->reach(row))
                    : full;
     };
     for_each_pair(
@@ -134,13 +134,13 @@ std::vector<NotedPair> note_pairs(const PairSearch& search, ProgressLine& progre
         [&](std::uint32_t source, std::uint32_t row_a, std::uint32_t row_b, double distance) {
             const double least = search.distances ? search.distances->of(row_a, row_b) : 1;
             const ClosePair pair{row_a, row_b, distance, distance / least};
-            const bool is_given = search.is_given(pair);
-            Notes& notes = is_given ? among_given : others;
-            const bool is_violation = search.is_violation(pair) && !(is_given && has_enough);
+            const bool is_existing = search.is_existing(pair);
+            Notes& notes = is_existing ? among_existing : others;
+            const bool is_violation = search.is_violation(pair) && !(is_existing && has_enough);
             if (notes.takes(pair, is_violation)) {
                 noted.push_back({source, pair});
             }
-            return others.violations() < kMostViolations;
+            return others.violations() < kMaxViolations;
         });
     return noted;
 }
@@ -151,11 +151,11 @@ std::vector<NotedPair> merged_pairs(const PairSearch& search, std::vector<NotedP
     std::size_t violations = 0, end = 0;
     for (; end < noted.size(); ++end) {
         const bool is_next = end > 0 && noted[end].source != noted[end - 1].source;
-        if (is_next && violations >= kMostViolations) {
+        if (is_next && violations >= kMaxViolations) {
             break;
         }
         const ClosePair& pair = noted[end].pair;
-        violations += search.is_violation(pair) && !search.is_given(pair) ? 1u : 0u;
+        violations += search.is_violation(pair) && !search.is_existing(pair) ? 1u : 0u;
     }
     noted.resize(end);
     return noted;

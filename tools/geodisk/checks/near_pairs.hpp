@@ -27,15 +27,16 @@ struct PairSearch {
     std::optional<PairDistances> distances{};
     /// Pairs are found up to this part of the distance they must have, or up to this distance.
     double cut = 0;
-    std::span<const std::uint32_t> given{};  ///< Other than 0 where given; empty if none are.
+    std::span<const std::uint32_t>
+        existing{}; ///< Other than 0 for existing samples; empty if none are.
     std::span<const std::uint8_t> sources{}; ///< 0 where no pairs are looked for; or empty.
 
     /// Returns how far from a sample others are looked for.
     double reach(std::uint32_t row) const { return distances ? cut * distances->reach(row) : cut; }
     bool is_source(std::uint32_t row) const { return sources.empty() || sources[row] != 0; }
     /// Returns true for pairs whose distance is the user's.
-    bool is_given(const ClosePair& pair) const {
-        return !given.empty() && given[pair.row_a] != 0 && given[pair.row_b] != 0;
+    bool is_existing(const ClosePair& pair) const {
+        return !existing.empty() && existing[pair.row_a] != 0 && existing[pair.row_b] != 0;
     }
     bool is_violation(const ClosePair& pair) const { return distances && pair.is_violation(); }
 };
@@ -63,9 +64,10 @@ std::vector<NotedPair> merged_pairs(const PairSearch& search, std::vector<NotedP
 using NotePairs = std::function<std::vector<NotedPair>(const PairSearch&, ProgressLine&)>;
 
 /// As in spacing.hpp, by `note`.
-GivenSpacing check_spacing(const MeshInput& mesh, std::span<const SampleRow> rows,
-                           const PairDistances& distances, std::span<const std::uint32_t> given,
-                           ProgressLine& progress, const NotePairs& note);
+ExistingSpacing check_spacing(const MeshInput& mesh, std::span<const SampleRow> rows,
+                              const PairDistances& distances,
+                              std::span<const std::uint32_t> existing, ProgressLine& progress,
+                              const NotePairs& note);
 std::optional<ClosePair> find_closest(const MeshInput& mesh, std::span<const SampleRow> rows,
                                       ProgressLine& progress, const NotePairs& note);
 

@@ -9,13 +9,13 @@ std::vector<MeshWarning> run_warnings(const SampleJob& job, const MeshInput& mes
                                       const SampleResult& result) {
     std::vector<MeshWarning> warnings =
         set_warnings({.samples = result.count(),
-                      .given = result.given,
+                      .existing = result.existing,
                       .avoids = result.avoided > 0 || result.avoided_length > 0,
                       .min_distance = result.params.min_distance * mesh.distance_part,
                       .wanted_count = job.wanted_count.samples,
                       .cut = result.done.cut,
                       .stop_count = job.method.stop_count,
-                      .has_throws = job.method.throws > 0,
+                      .has_darts = job.method.darts > 0,
                       .bare = result.bare});
     for (MeshWarning& warning : warnings) {
         warning.file = job.mesh.mesh;

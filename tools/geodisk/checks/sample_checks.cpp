@@ -139,7 +139,7 @@ std::vector<StrayRow> find_strays(const SampleFile& samples, const MeshInput& me
 }
 
 std::vector<std::uint32_t> masked_samples(const SampleFile& samples, const MeshInput& mesh) {
-    const auto given = samples.extra_values(kGivenColumn);
+    const auto existing = samples.extra_values(kExistingColumn);
     const auto edges = mesh.sampled().half_edges();
     const auto is_beside_mask = [&](const Sample& at) {
         constexpr float kAtEdge = 1e-4f; // Weight of the corner opposite to it.
@@ -158,10 +158,10 @@ std::vector<std::uint32_t> masked_samples(const SampleFile& samples, const MeshI
     std::vector<std::uint32_t> masked;
     for (std::uint32_t i = 0; i < samples.rows.size() && !mesh.face_mask.empty(); ++i) {
         const SampleRow& row = samples.rows[i];
-        const bool is_given = i < given.size() && given[i] != 0;
+        const bool is_existing = i < existing.size() && existing[i] != 0;
         const Sample at = mesh.sampled_of(row);
         const bool is_exact = samples.has_faces && !mesh.split; // Else it was moved.
-        if (mesh.face_mask[at.face] == 0 && !is_given && (is_exact || !is_beside_mask(at))) {
+        if (mesh.face_mask[at.face] == 0 && !is_existing && (is_exact || !is_beside_mask(at))) {
             masked.push_back(i);
         }
     }

@@ -38,7 +38,7 @@ void check_rows(const std::string& samples_path, const SampleFile& samples,
 /// file rounds. The rows must have passed check_rows(); without coordinates there are none.
 std::vector<StrayRow> find_strays(const SampleFile& samples, const MeshInput& mesh);
 
-/// Returns the samples on faces that the mask of the mesh leaves out, except given ones. A point
+/// Returns the samples on faces that the mask of the mesh leaves out, except existing ones. A point
 /// that was put on the nearest face may also lie at the edge of a face that the mask leaves.
 std::vector<std::uint32_t> masked_samples(const SampleFile& samples, const MeshInput& mesh);
 

@@ -33,20 +33,20 @@ struct ClosePair {
 };
 
 /// Violations that are looked for: enough to say that a file is hopeless, and few enough to hold.
-inline constexpr std::size_t kMostViolations = 1'000'000;
-/// Pairs of given samples that are looked for, besides the closest: where the distance is far
+inline constexpr std::size_t kMaxViolations = 1'000'000;
+/// Pairs of existing samples that are looked for, besides the closest: where the distance is far
 /// beyond theirs, each has very many.
-inline constexpr std::size_t kMostGivenPairs = 50'000;
+inline constexpr std::size_t kMaxExistingPairs = 50'000;
 
 /// Whether the pair is closer, by ratio.
 bool is_closer(const ClosePair& pair, const std::optional<ClosePair>& than);
 
 struct SpacingResult {
-    std::size_t most = kMostViolations; ///< Violations with which the check stops.
-    double cut = 1.25;                  ///< Pairs were looked at up to this ratio.
-    std::optional<ClosePair> closest;   ///< By ratio; none if all are farther apart than the cut.
-    std::vector<ClosePair> violations;  ///< The closest pair first, by ratio.
-    bool is_complete = true;            ///< False if the check stopped at too many violations.
+    std::size_t most = kMaxViolations; ///< Violations with which the check stops.
+    double cut = 1.25;                 ///< Pairs were looked at up to this ratio.
+    std::optional<ClosePair> closest;  ///< By ratio; none if all are farther apart than the cut.
+    std::vector<ClosePair> violations; ///< The closest pair first, by ratio.
+    bool is_complete = true;           ///< False if the check stopped at too many violations.
 
     /// Takes a pair that was found, in any order, and more than once if it was found so. It is a
     /// violation when it is closer by more than a billionth. False if there are too many.
@@ -96,16 +96,16 @@ struct PairDistances {
 SpacingResult check_spacing(const MeshInput& mesh, std::span<const SampleRow> rows,
                             std::span<const double> radii, ProgressLine& progress);
 
-/// Pairs of samples of which some were given.
-struct GivenSpacing {
-    SpacingResult others;      ///< Pairs with a sample that was not given.
-    SpacingResult among_given; ///< Pairs of given samples, whose distance is the user's.
+/// Pairs of samples of which some were existing.
+struct ExistingSpacing {
+    SpacingResult others;         ///< Pairs with a sample that was not existing.
+    SpacingResult among_existing; ///< Pairs of existing samples, whose distance is the user's.
 };
 
-/// The same, where rows with `given` other than 0 were given; none were if that is empty.
-GivenSpacing check_spacing(const MeshInput& mesh, std::span<const SampleRow> rows,
-                           const PairDistances& distances, std::span<const std::uint32_t> given,
-                           ProgressLine& progress);
+/// The same, where rows with `existing` other than 0 were existing; none were if that is empty.
+ExistingSpacing check_spacing(const MeshInput& mesh, std::span<const SampleRow> rows,
+                              const PairDistances& distances,
+                              std::span<const std::uint32_t> existing, ProgressLine& progress);
 
 /// The closest pair of all, by distance, however far apart; none if no path joins any two samples.
 /// Conditions and errors are those of check_spacing().

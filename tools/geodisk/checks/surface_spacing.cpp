@@ -10,10 +10,11 @@
 
 namespace geodisk::tools {
 
-GivenSpacing check_spacing(const MeshInput& mesh, std::span<const SampleRow> rows,
-                           const PairDistances& distances, std::span<const std::uint32_t> given,
-                           ProgressLine& progress, const NotePairs& note) {
-    GivenSpacing result;
+ExistingSpacing check_spacing(const MeshInput& mesh, std::span<const SampleRow> rows,
+                              const PairDistances& distances,
+                              std::span<const std::uint32_t> existing, ProgressLine& progress,
+                              const NotePairs& note) {
+    ExistingSpacing result;
     double largest = rows.empty() ? 1 : 0;
     for (std::uint32_t row = 0; row < rows.size(); ++row) {
         largest = std::max(largest, distances.reach(row));
@@ -22,34 +23,34 @@ GivenSpacing check_spacing(const MeshInput& mesh, std::span<const SampleRow> row
     // From the sample with the larger radius, every pair is found this way.
     search.distances = distances;
     search.cut = result.others.cut;
-    search.given = given;
+    search.existing = existing;
     progress.begin_stage("verifying");
-    result.among_given.most = kMostGivenPairs;
-    bool counts_given = true;
-    std::optional<std::uint32_t> last; // Source of a pair of given samples.
+    result.among_existing.most = kMaxExistingPairs;
+    bool counts_existing = true;
+    std::optional<std::uint32_t> last; // Source of a pair of existing samples.
     for (const auto& [source, pair] : note(search, progress)) {
-        if (!search.is_given(pair)) {
+        if (!search.is_existing(pair)) {
             result.others.add(pair);
             continue;
         }
         // All pairs of a source count, or none.
-        counts_given = source == last ? counts_given : result.among_given.is_complete;
+        counts_existing = source == last ? counts_existing : result.among_existing.is_complete;
         last = source;
-        if (counts_given) {
-            result.among_given.add(pair);
+        if (counts_existing) {
+            result.among_existing.add(pair);
         } else {
-            result.among_given.note_closest(pair);
+            result.among_existing.note_closest(pair);
         }
     }
     result.others.finish();
-    result.among_given.finish();
+    result.among_existing.finish();
     return result;
 }
 
-GivenSpacing check_spacing(const MeshInput& mesh, std::span<const SampleRow> rows,
-                           const PairDistances& distances, std::span<const std::uint32_t> given,
-                           ProgressLine& progress) {
-    return check_spacing(mesh, rows, distances, given, progress, note_pairs);
+ExistingSpacing check_spacing(const MeshInput& mesh, std::span<const SampleRow> rows,
+                              const PairDistances& distances,
+                              std::span<const std::uint32_t> existing, ProgressLine& progress) {
+    return check_spacing(mesh, rows, distances, existing, progress, note_pairs);
 }
 
 SpacingResult check_spacing(const MeshInput& mesh, std::span<const SampleRow> rows,

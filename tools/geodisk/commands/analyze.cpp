@@ -37,7 +37,7 @@ using analysis::Evenness;
 
 /// Samples of a set that a region should hold.
 constexpr double kPerRegion = 20;
-constexpr std::uint32_t kMostRegions = 32;
+constexpr std::uint32_t kMaxRegions = 32;
 
 struct AnalyzeOptions {
     MeshOptions mesh;
@@ -93,7 +93,7 @@ class RegionCounts {
             }
         }
         const auto count = std::bit_floor(
-            static_cast<std::uint32_t>(std::clamp(samples / kPerRegion, 1.0, 1.0 * kMostRegions)));
+            static_cast<std::uint32_t>(std::clamp(samples / kPerRegion, 1.0, 1.0 * kMaxRegions)));
         regions_ = analysis::make_regions(centers, mesh.dimension(), areas, count);
     }
 
@@ -172,7 +172,7 @@ void add_analyze_command(Command app) {
     command.add_option("--seed", options->seed, "S", "Seed of the random points").shows_default();
     add_tolerance_option(command, options->tolerance);
     add_mesh_options(command, options->mesh);
-    add_mask_options(command, options->mask);
+    add_mask_options(command, options->mask, OptionUse::checking);
     add_json_option(command, options->out);
     add_quiet_option(command, options->out, "No progress and no result");
     command.has_footer(help_footer(kAnalyzeExamples));

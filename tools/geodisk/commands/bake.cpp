@@ -33,7 +33,7 @@ constexpr const char* kBakeExamples[] = {
     "geodisk bake spot.obj points.ply -o cells.png --size 2048",
 };
 
-constexpr std::uint32_t kMostTexels = 16384; // Along each side.
+constexpr std::uint32_t kMaxTexels = 16384; // Along each side.
 
 struct BakeOptions {
     MeshOptions mesh;
@@ -44,9 +44,9 @@ struct BakeOptions {
 
 std::uint32_t parse_side(const std::string& text, std::string_view side) {
     const auto texels = parse_integer<std::uint32_t>(side);
-    if (!texels || *texels < 1 || *texels > kMostTexels) {
-        fail_usage("--size takes SIDE or WIDTHxHEIGHT, each of 1 to " +
-                   std::to_string(kMostTexels) + " texels, not " + in_quotes(text));
+    if (!texels || *texels < 1 || *texels > kMaxTexels) {
+        fail_usage("--size takes SIDE or WIDTHxHEIGHT, each of 1 to " + std::to_string(kMaxTexels) +
+                   " texels, not " + in_quotes(text));
     }
     return *texels;
 }

@@ -58,7 +58,7 @@ void run_box(const BoxOptions& options) {
                                       .wanted_count = job.wanted_count.samples,
                                       .cut = done.cut,
                                       .stop_count = job.method.stop_count,
-                                      .has_throws = job.method.throws > 0,
+                                      .has_darts = job.method.darts > 0,
                                       .domain = "box"})) {
         print_warning(warning.message);
     }

@@ -36,7 +36,7 @@ struct NeighbourOptions {
     MeshOptions mesh;
     OutputOptions out;
     RunOptions run;
-    std::string points, vertices, within, among = "vertices", nearest, most_pairs, tolerance;
+    std::string points, vertices, within, among = "vertices", nearest, max_pairs, tolerance;
 
     /// Returns the file of the points to search; "" for others.
     std::string searched() const { return among == "vertices" || among == "sources" ? "" : among; }
@@ -173,10 +173,10 @@ void run_neighbours(const NeighbourOptions& options) {
         fail_usage("--vertices contradicts POINTS: sources are either");
     }
     const std::vector<VertexRange> vertices = parsed_vertices(options.vertices);
-    constexpr double kMost = 0xffffffffp0;
+    constexpr double kMax = 0xffffffffp0;
     const double nearest = options.nearest.empty() ? 0 : parse_count("--nearest", options.nearest);
     const double pairs =
-        options.most_pairs.empty() ? 0 : parse_count("--most-pairs", options.most_pairs);
+        options.max_pairs.empty() ? 0 : parse_count("--most-pairs", options.max_pairs);
     RunnerOptions runner;
     runner.device_bytes = options.run.device_bytes();
     runner.stall_seconds = options.run.stall_seconds();
@@ -187,8 +187,8 @@ void run_neighbours(const NeighbourOptions& options) {
     const MeshInput mesh = load_mesh(options.mesh, progress);
     std::vector<MeshWarning> warnings;
     NeighbourJob job = make_job(options, within, vertices, mesh, warnings, progress);
-    job.nearest = static_cast<std::uint32_t>(std::min(nearest, kMost));
-    job.most_pairs = static_cast<std::uint64_t>(pairs);
+    job.nearest = static_cast<std::uint32_t>(std::min(nearest, kMax));
+    job.max_pairs = static_cast<std::uint64_t>(pairs);
     print_warnings(warnings);
     warnings.insert(warnings.begin(), mesh.warnings.begin(), mesh.warnings.end());
     RunDevice device(options.run.device, runner);
@@ -233,7 +233,7 @@ void add_neighbours_command(Command app) {
                        "Keep only the K nearest per source, nearest first, and of\n"
                        "vertices in one place the lowest; without --within, search\n"
                        "as far as needed");
-    command.add_option("--most-pairs", options->most_pairs, "N",
+    command.add_option("--most-pairs", options->max_pairs, "N",
                        "Stop if more than N pairs are expected (default 2^30)");
     add_mesh_options(command, options->mesh);
     add_tolerance_option(command, options->tolerance);

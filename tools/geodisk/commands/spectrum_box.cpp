@@ -29,8 +29,8 @@ namespace {
 
 using analysis::PowerSpectrum;
 
-constexpr double kMostFrequencies = 0x1p25; ///< 8 bytes each, and as many again.
-constexpr double kReach = 4, kLeastReach = 0.5, kMostReach = 100;
+constexpr double kMaxFrequencies = 0x1p25; ///< 8 bytes each, and as many again.
+constexpr double kReach = 4, kMinReach = 0.5, kMaxReach = 100;
 
 /// Spectrum of all files, and what they have in common.
 struct BoxSpectrum {
@@ -61,7 +61,7 @@ BoxParams read_box(const std::string& path, const SampleFile& samples) {
 
 PowerSpectrum make_spectrum(const std::string& path, const BoxParams& box, double reach) {
     const double highest = reach / box.min_distance;
-    if (PowerSpectrum::count(box, highest) > kMostFrequencies) {
+    if (PowerSpectrum::count(box, highest) > kMaxFrequencies) {
         throw UserError(ExitCode::out_of_memory, path + ": too many frequencies up to " +
                                                      rounded(reach, 3) +
                                                      " waves per minimum distance; lower --reach");
@@ -118,7 +118,7 @@ BoxSpectrum compute(const SpectrumOptions& options, double reach, ProgressLine& 
 void spectrum_of_boxes(const SpectrumOptions& options) {
     const double reach = options.reach.empty()
                              ? kReach
-                             : parse_ratio("--reach", options.reach, kLeastReach, kMostReach);
+                             : parse_ratio("--reach", options.reach, kMinReach, kMaxReach);
     if (!options.harmonics.empty()) {
         fail_usage("--harmonics is for samples on a mesh; give the mesh before them");
     }

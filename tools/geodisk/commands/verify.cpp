@@ -17,7 +17,7 @@
 #include "geodisk/commands/commands.hpp"
 #include "geodisk/commands/help_text.hpp"
 #include "geodisk/commands/verify.hpp"
-#include "geodisk/inputs/given_input.hpp"
+#include "geodisk/inputs/existing_input.hpp"
 #include "geodisk/inputs/mesh_input.hpp"
 #include "geodisk/options/verify_options.hpp"
 #include "geodisk/outputs/outputs.hpp"
@@ -51,11 +51,11 @@ void warn_of_other_rows(const VerifyOptions& options, const SampleFile& samples,
 
 /// Computes the distances of all pairs that may be too close, or finds the closest pair where
 /// nothing says what is too close.
-GivenSpacing measure_spacing(const MeshInput& mesh, const SampleFile& samples,
-                             const WantedSpacing& wanted, ProgressLine& progress,
-                             const NotePairs& note) {
+ExistingSpacing measure_spacing(const MeshInput& mesh, const SampleFile& samples,
+                                const WantedSpacing& wanted, ProgressLine& progress,
+                                const NotePairs& note) {
     if (!wanted.is_known) {
-        GivenSpacing found;
+        ExistingSpacing found;
         found.others.closest = find_closest(mesh, samples.rows, progress, note);
         return found;
     }
@@ -63,7 +63,7 @@ GivenSpacing measure_spacing(const MeshInput& mesh, const SampleFile& samples,
     const PairDistances distances =
         wanted.classes.is_given() ? PairDistances{{}, classes, wanted.classes, wanted.min_distance}
                                   : PairDistances{wanted.radii};
-    return check_spacing(mesh, samples.rows, distances, samples.extra_values(kGivenColumn),
+    return check_spacing(mesh, samples.rows, distances, samples.extra_values(kExistingColumn),
                          progress, note);
 }
 
@@ -105,7 +105,7 @@ void verify_samples(const VerifyOptions& options, const NotePairs& note) {
     if (!spacing.is_known) {
         warn_of_unknown_spacing(options, warnings);
     }
-    GivenSpacing found = measure_spacing(mesh, samples, spacing, progress, note);
+    ExistingSpacing found = measure_spacing(mesh, samples, spacing, progress, note);
     ConstraintOptions constraints = options.constraints;
     constraints.tolerance = options.tolerance;
     const std::size_t before = warnings.size();
@@ -114,7 +114,7 @@ void verify_samples(const VerifyOptions& options, const NotePairs& note) {
         print_warning(warnings[i].file + ": " + warnings[i].message);
     }
     std::vector<Intrusion> intrusions = find_intrusions(
-        mesh, samples.rows, samples.extra_values(kGivenColumn), avoided.disks, progress);
+        mesh, samples.rows, samples.extra_values(kExistingColumn), avoided.disks, progress);
     std::optional<GapCheck> gaps;
     if (options.is_maximal) {
         gaps = find_gaps(mesh, samples.rows, spacing.radii, spacing.min_distance, avoided.disks,
@@ -132,7 +132,7 @@ void verify_samples(const VerifyOptions& options, const NotePairs& note) {
                             std::move(spacing),
                             std::move(strays),
                             std::move(found.others),
-                            std::move(found.among_given),
+                            std::move(found.among_existing),
                             masked_samples(samples, mesh),
                             avoided.points,
                             avoided.length,

@@ -41,7 +41,7 @@ BoxParams box_of(const std::string& path, const std::string& min_distance,
     }
     BoxParams box;
     box.extents = parse_sides(*sides);
-    if (box.extents.empty() || box.extents.size() > kMostBoxDimensions) {
+    if (box.extents.empty() || box.extents.size() > kMaxBoxDimensions) {
         fail_input(path, "its header has the box " + in_quotes(*sides) +
                              ", which is not 1 to 6 positive sides");
     }

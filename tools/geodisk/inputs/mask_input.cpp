@@ -106,7 +106,7 @@ class PartIndex {
     }
 
     [[noreturn]] void fail_unknown(const std::string& path, const OnlyRule& rule) const {
-        constexpr std::size_t kMost = 10;
+        constexpr std::size_t kMax = 10;
         const Naming naming = naming_of(kind_);
         if (known_.empty()) {
             fail_input(path, "has no " + std::string(naming.plural) + " for --only " + rule.text +
@@ -118,12 +118,12 @@ class PartIndex {
             names.push_back(name.empty() ? std::to_string(number) : name);
         }
         shown.assign(names.begin(),
-                     names.begin() + static_cast<std::ptrdiff_t>(std::min(names.size(), kMost)));
+                     names.begin() + static_cast<std::ptrdiff_t>(std::min(names.size(), kMax)));
         for (std::string& name : shown) {
             name = in_quotes(name);
         }
-        if (names.size() > kMost) {
-            shown.push_back(std::to_string(names.size() - kMost) + " more");
+        if (names.size() > kMax) {
+            shown.push_back(std::to_string(names.size() - kMax) + " more");
         }
         fail_input(path, "no face is of " + rule.text + ", as --only requests; the " +
                              naming.plural + " are " + listed(shown) +
@@ -232,20 +232,19 @@ class RuleEffect {
     bool leaves_out() const { return leaves_out_; }
     /// Returns the range of the values, such as "'green' is from 0 to 1".
     std::string range() const {
-        return in_quotes(rule_.name) + " is from " + rounded(least_, 6) + " to " +
-               rounded(most_, 6);
+        return in_quotes(rule_.name) + " is from " + rounded(min_, 6) + " to " + rounded(max_, 6);
     }
 
   private:
     bool regard(double value) {
-        least_ = std::min(least_, value);
-        most_ = std::max(most_, value);
+        min_ = std::min(min_, value);
+        max_ = std::max(max_, value);
         return rule_.holds(value);
     }
 
     MaskRule rule_;
     bool leaves_out_ = false;
-    double least_ = HUGE_VAL, most_ = -HUGE_VAL;
+    double min_ = HUGE_VAL, max_ = -HUGE_VAL;
 };
 
 MeshWarning warning_of_all(const std::string& option, const std::string& range) {

@@ -58,7 +58,7 @@ std::vector<ReadImage> images_of(const std::optional<DensitySource>& density,
         // Radii go by the square root of a density, so by the ratio of factors.
         const double step = image->largest() / kGreySteps;
         const bool is_density = density->is_density;
-        const double floor = density->floor.value_or(RadiusField::kLeastFactor);
+        const double floor = density->floor.value_or(RadiusField::kMinFactor);
         images.push_back({image, density->name, [=](double grey, double linear, const auto&) {
                               const double allowed =
                                   is_density
@@ -212,7 +212,7 @@ MeshInput load_silently(const MeshOptions& options, ProgressLine& progress,
         LoadedRadii loaded =
             load_radii(*source, path, file, split ? split->prepared : prepared, faces);
         radii = std::move(loaded.field);
-        distance_part = source->is_density ? radii->least_factor() : 1;
+        distance_part = source->is_density ? radii->min_factor() : 1;
         for (std::optional<MeshWarning> warning : {density.warning(), loaded.warning}) {
             if (warning) {
                 density_warnings.push_back(std::move(*warning));

@@ -46,8 +46,8 @@ std::optional<MeshWarning> raise_small(Values& factors, const PreparedMesh& mesh
     Found raised;
     for (std::size_t v = 0; v < factors.values.size(); ++v) {
         double& value = factors.values[v];
-        if (value > 0 && value < RadiusField::kLeastFactor) {
-            value = RadiusField::kLeastFactor;
+        if (value > 0 && value < RadiusField::kMinFactor) {
+            value = RadiusField::kMinFactor;
             if (mesh.fans()[v].corner_count > 0) {
                 raised.add(v);
             }

@@ -154,7 +154,7 @@ class ImageSplitter {
 
     BisectedMesh run() {
         note_large_faces();
-        const std::size_t most = mesh_.triangle_count() + kMostAdded;
+        const std::size_t most = mesh_.triangle_count() + kMaxAdded;
         for (;;) {
             std::vector<Coarse> left(images_.size());
             const std::vector<bool> wanted = find_wanted(left);
@@ -188,7 +188,7 @@ class ImageSplitter {
     }
 
   private:
-    static constexpr std::size_t kMostAdded = std::size_t{1} << 20;
+    static constexpr std::size_t kMaxAdded = std::size_t{1} << 20;
 
     void note_large_faces() {
         for (std::size_t face = 0; face < mesh_.triangle_count(); ++face) {

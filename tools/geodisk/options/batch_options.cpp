@@ -49,7 +49,7 @@ void drop_replaced(SampleOptions& common, const SampleOptions& line) {
         common.count.clear();
     }
     if (!line.method.method.empty()) {
-        (throws_darts ? common.method.pool_ratio : common.method.throws).clear();
+        (throws_darts ? common.method.pool_ratio : common.method.darts).clear();
     }
     if (!line.density.given().empty()) {
         common.density = {};
@@ -99,7 +99,7 @@ void add_batch_options(Command command, BatchOptions& options) {
                     "Meshes in work at the same time, 1 to 32 (default 4 per\n"
                     "device)",
                     group)
-        .takes_range(1, kMostJobs);
+        .takes_range(1, kMaxJobs);
     command.add_option("--shard", options.shard, "I/N",
                        "Sample every Nth mesh only, starting with the Ith, counted\n"
                        "from 0; the log is then batch-I-of-N.jsonl",

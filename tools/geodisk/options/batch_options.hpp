@@ -12,7 +12,7 @@
 namespace geodisk::tools {
 
 /// Each has a temporary file while it writes.
-inline constexpr int kMostJobs = 32;
+inline constexpr int kMaxJobs = 32;
 
 /// One of several parts that a batch is divided into.
 struct Shard {

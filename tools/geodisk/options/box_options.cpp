@@ -29,7 +29,7 @@ std::vector<double> parse_sides(const BoxOptions& options) {
     std::size_t dimension = extents.size();
     if (!options.dimension.empty()) {
         const double given = parse_count("--dim", options.dimension);
-        if (given > kMostBoxDimensions) {
+        if (given > kMaxBoxDimensions) {
             fail_usage("--dim: boxes have 1 to 6 dimensions");
         }
         if (dimension != 0 && static_cast<double>(dimension) != given) {
@@ -41,7 +41,7 @@ std::vector<double> parse_sides(const BoxOptions& options) {
     if (dimension == 0) {
         fail_usage("no box given; give --dim, --extents or both");
     }
-    if (dimension > kMostBoxDimensions) {
+    if (dimension > kMaxBoxDimensions) {
         fail_usage("--extents: boxes have 1 to 6 sides, not " + std::to_string(dimension));
     }
     std::vector<double> sides(dimension, 1.0);
@@ -102,7 +102,7 @@ BoxJob parse_job(const BoxOptions& options) {
     } else {
         box.min_distance = distance_for_count(box, job.wanted_count.samples);
     }
-    box.throws = job.method.throws_for(expected_count(box));
+    box.darts = job.method.darts_for(expected_count(box));
     job.runner.device_bytes = options.run.device_bytes();
     job.runner.stall_seconds = options.run.stall_seconds();
     return job;

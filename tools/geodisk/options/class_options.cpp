@@ -43,7 +43,7 @@ std::string entry_text(std::size_t a, std::size_t b) {
 
 ClassTable table_of(const Rows& rows, const Fail& fail) {
     const std::size_t count = rows.size();
-    if (count == 0 || count > kMostClasses) {
+    if (count == 0 || count > kMaxClasses) {
         fail("a table of distances has 1 to 8 rows, not " + std::to_string(count));
     }
     ClassTable table{count, {}};
@@ -67,7 +67,7 @@ ClassTable table_of(const Rows& rows, const Fail& fail) {
         }
     }
     const double least = std::ranges::min(table.distances);
-    if (least < table.largest() * double{kLeastClassFactor}) {
+    if (least < table.largest() * double{kMinClassFactor}) {
         fail("the distances " + exact_text(least) + " and " + exact_text(table.largest()) +
              " differ by more than a factor of 100");
     }
@@ -142,7 +142,7 @@ std::vector<float> ClassTable::factors() const {
     std::vector<float> factors;
     for (std::size_t a = 0; a < count && count > 1; ++a) {
         for (std::size_t b = 0; b < count; ++b) {
-            factors.push_back(std::max(static_cast<float>(factor(a, b)), kLeastClassFactor));
+            factors.push_back(std::max(static_cast<float>(factor(a, b)), kMinClassFactor));
         }
     }
     return factors;
@@ -179,7 +179,7 @@ ClassTable parse_classes(const std::string& text) {
         return table_in_text(text.ends_with(';') ? text.substr(0, text.size() - 1) : text);
     }
     const auto count = parse_integer<std::size_t>(text);
-    if (!count || *count < 1 || *count > kMostClasses) {
+    if (!count || *count < 1 || *count > kMaxClasses) {
         fail_usage("--classes: " + in_quotes(text) +
                    " is neither a number of classes from 1 to 8, nor a table of distances such as "
                    "0.2,0.1;0.1,0.2, nor a file");
@@ -200,12 +200,13 @@ void place_class_file(std::string& text,
     }
 }
 
-void add_class_option(Command command, std::string& text, const std::string& group) {
+void add_class_option(Command command, std::string& text, OptionUse use, const std::string& group) {
     command.add_option("--classes", text, "K|TABLE",
-                       "Spread 1 to 8 classes of samples, each and all together\n"
-                       "(column class). K: each at the minimum distance D, samples\n"
-                       "of two classes at D / sqrt(K). TABLE: a\n"
-                       "symmetric table of distances, as 0.2,0.1;0.1,0.3 or in a file",
+                       help_for(use, "Spread 1 to 8 classes of samples, each and all together\n",
+                                "Check 1 to 8 classes of samples, each and all together\n") +
+                           "(column class). K: each at the minimum distance D, samples\n"
+                           "of two classes at D / sqrt(K). TABLE: a\n"
+                           "symmetric table of distances, as 0.2,0.1;0.1,0.3 or in a file",
                        group);
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "files/files_in_use.hpp"
+#include "geodisk/options/option_use.hpp"
 #include "geometry/surface_disk.hpp"
 
 namespace geodisk::tools {
@@ -58,6 +59,7 @@ void add_class_file(const std::string& text, std::vector<NamedFile>& read);
 void place_class_file(std::string& text,
                       const std::function<std::string(const std::string&)>& place);
 
-void add_class_option(Command command, std::string& text, const std::string& group = "Options");
+void add_class_option(Command command, std::string& text, OptionUse use,
+                      const std::string& group = "Options");
 
 } // namespace geodisk::tools

@@ -110,13 +110,16 @@ HeaderEntries ConstraintOptions::given() const {
     return options;
 }
 
-void add_avoid_option(Command command, ConstraintOptions& options, const std::string& group) {
+void add_avoid_option(Command command, ConstraintOptions& options, OptionUse use,
+                      const std::string& group) {
     command
         .add_option("--avoid", options.avoid, "POINTS:RADIUS",
-                    "Place no new sample within RADIUS of the points and lines of a\n"
-                    "file, along the surface. RADIUS: a length, or the name of a\n"
-                    "column of the file with one per point. POINTS may be border or\n"
-                    "creases: edges of the mesh. May be given several times",
+                    help_for(use,
+                             "Place no new sample within RADIUS of the points and lines of a\n",
+                             "Check that new samples keep RADIUS from points and lines of a\n") +
+                        "file, along the surface. RADIUS: a length, or the name of a\n"
+                        "column of the file with one per point. POINTS may be border or\n"
+                        "creases: edges of the mesh. May be given several times",
                     group)
         .takes_one_value();
 }
@@ -125,11 +128,11 @@ void add_constraint_options(Command command, ConstraintOptions& options) {
     const char* const group = "Constraints";
     command.add_option("--existing", options.existing, "SAMPLES",
                        "Keep the samples of a file, and place new ones at the distance\n"
-                       "from them. They come first, marked by the column given, and\n"
+                       "from them. They come first, marked by the column existing, and\n"
                        "count towards --count. Samples of this mesh, or points of\n"
                        "another program",
                        group);
-    add_avoid_option(command, options, group);
+    add_avoid_option(command, options, OptionUse::sampling, group);
     add_tolerance_option(command, options.tolerance, group);
 }
 

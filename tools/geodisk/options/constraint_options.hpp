@@ -8,6 +8,7 @@
 
 #include "files/files_in_use.hpp"
 #include "files/sample_file.hpp"
+#include "geodisk/options/option_use.hpp"
 #include "program/arguments.hpp"
 
 namespace geodisk::tools {
@@ -52,7 +53,7 @@ struct ConstraintOptions {
 void add_constraint_options(Command command, ConstraintOptions& options);
 
 /// Adds --avoid alone.
-void add_avoid_option(Command command, ConstraintOptions& options,
+void add_avoid_option(Command command, ConstraintOptions& options, OptionUse use,
                       const std::string& group = "Options");
 
 } // namespace geodisk::tools

@@ -125,7 +125,7 @@ std::optional<DensitySource> DensityOptions::source() const {
             fail_usage(std::string(floor_name) +
                        " raises radius factors; --density takes 0 and any range as they are");
         }
-        source.floor = parse_ratio(floor_name, least, RadiusField::kLeastFactor, 1);
+        source.floor = parse_ratio(floor_name, least, RadiusField::kMinFactor, 1);
     } else if (source.kind == Kind::curvature) {
         source.floor = kCurvatureFloor;
     }
@@ -183,21 +183,25 @@ HeaderEntries DensityOptions::added_to(HeaderEntries entries) const {
     return entries;
 }
 
-void add_density_options(Command command, DensityOptions& options) {
+void add_density_options(Command command, DensityOptions& options, OptionUse use) {
     const char* const density = "Density, give one";
     command.add_option("--density", options.density, "SOURCE",
-                       "Make samples per area proportional to a density, in any\n"
-                       "unit; 0 for none. SOURCE: attribute:NAME or NAME (vertex\n"
-                       "property of a PLY), file:FILE (one value per vertex and\n"
-                       "line), map:FILE (grey of an image at the texture\n"
-                       "coordinates) or curvature. The distance applies where the\n"
-                       "density is largest",
+                       help_for(use, "Make samples per area proportional to a density, in any\n",
+                                "Radii are those of a density of samples per area, in any\n") +
+                           "unit; 0 for none. SOURCE: attribute:NAME or NAME (vertex\n"
+                           "property of a PLY), file:FILE (one value per vertex and\n"
+                           "line), map:FILE (grey of an image at the texture\n"
+                           "coordinates) or curvature. The distance applies where the\n"
+                           "density is largest",
                        density);
     command.add_option("--radius-factor", options.radius_factor, "SOURCE",
-                       "Multiply the radius by a factor g, 0 < g <= 1; smaller\n"
-                       "factors give more samples. SOURCE as for --density. The\n"
-                       "distance applies where g is 1. (Aliases: the options\n"
-                       "--density-attribute, -file, -map and -curvature)",
+                       help_for(use,
+                                "Multiply the radius by a factor g, 0 < g <= 1; smaller\n"
+                                "factors give more samples. ",
+                                "Radii are the largest one times a factor g, 0 < g <= 1.\n") +
+                           "SOURCE as for --density. The\n"
+                           "distance applies where g is 1. (Aliases: the options\n"
+                           "--density-attribute, -file, -map and -curvature)",
                        density);
     command.add_option("--radius-factor-floor", options.factor_floor, "G",
                        "Raise smaller factors to G (default for curvature 0.1)", density);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "files/sample_file.hpp"
+#include "geodisk/options/option_use.hpp"
 #include "geodisk/options/run_options.hpp"
 #include "geometry/mesh.hpp"
 
@@ -52,6 +53,6 @@ struct DensityOptions {
     HeaderEntries given() const;
 };
 
-void add_density_options(Command command, DensityOptions& options);
+void add_density_options(Command command, DensityOptions& options, OptionUse use);
 
 } // namespace geodisk::tools

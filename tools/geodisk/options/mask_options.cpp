@@ -190,22 +190,24 @@ HeaderEntries with_entries(HeaderEntries entries, const MaskOptions& options) {
     return entries;
 }
 
-void add_mask_options(Command command, MaskOptions& options) {
+void add_mask_options(Command command, MaskOptions& options, OptionUse use) {
     const char* const group = "Where samples may lie";
     command
         .add_option("--only", options.only, "PART",
-                    "Sample only material:NAME, group:NAME (OBJ group or object),\n"
-                    "node:NAME (with the nodes below it) or part:N (no path joins\n"
-                    "it to others). A number may replace NAME. Repeat to select\n"
-                    "more faces. Paths cross faces that are left out",
+                    help_for(use, "Sample only", "Samples lie on") +
+                        " material:NAME, group:NAME (OBJ group or object),\n"
+                        "node:NAME (with the nodes below it) or part:N (no path joins\n"
+                        "it to others). A number may replace NAME. Repeat to select\n"
+                        "more faces. Paths cross faces that are left out",
                     group)
         .takes_one_value();
     command
         .add_option("--mask", options.masks, "RULE",
-                    "Sample only faces where PROPERTY<VALUE (or <= > >= = !=) holds:\n"
-                    "x, y, z (x0 to x7 in R^n) or a PLY property at all corners, or\n"
-                    "of the face. map:FILE: what is white in an image, or\n"
-                    "compared as a property from 0 to 1. Repeat to add rules",
+                    help_for(use, "Sample only", "Samples lie on") +
+                        " faces where PROPERTY<VALUE (or <= > >= = !=) holds:\n"
+                        "x, y, z (x0 to x7 in R^n) or a PLY property at all corners, or\n"
+                        "of the face. map:FILE: what is white in an image, or\n"
+                        "compared as a property from 0 to 1. Repeat to add rules",
                     group)
         .takes_one_value();
 }

@@ -9,6 +9,7 @@
 
 #include "files/files_in_use.hpp"
 #include "files/sample_file.hpp"
+#include "geodisk/options/option_use.hpp"
 
 namespace geodisk::tools {
 
@@ -59,6 +60,6 @@ struct MaskOptions {
 /// Returns `entries` with those of the options behind them.
 HeaderEntries with_entries(HeaderEntries entries, const MaskOptions& options);
 
-void add_mask_options(Command command, MaskOptions& options);
+void add_mask_options(Command command, MaskOptions& options, OptionUse use);
 
 } // namespace geodisk::tools

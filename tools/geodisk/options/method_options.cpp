@@ -29,7 +29,7 @@ void check_method(const MethodOptions& options) {
         fail_usage("--pool-ratio is for --method pool; with darts, give the number of darts by "
                    "--darts");
     }
-    if (!options.throws_darts() && !options.throws.empty()) {
+    if (!options.throws_darts() && !options.darts.empty()) {
         fail_usage("--darts is for --method darts; with pool, give the number of candidates by "
                    "--pool-ratio");
     }
@@ -59,9 +59,9 @@ void check_filling(const MethodOptions& options) {
 /// A count that candidates, whose index has 32 bits, can reach.
 std::uint32_t parse_candidates(const std::string& option, const std::string& text) {
     const double value = parse_count(option, text);
-    if (value > kMostCandidates) {
+    if (value > kMaxCandidates) {
         fail_usage(option + ": " + in_quotes(text) + " is too many; the maximum is " +
-                   grouped(kMostCandidates));
+                   grouped(kMaxCandidates));
     }
     return static_cast<std::uint32_t>(value);
 }
@@ -86,26 +86,26 @@ void parse_order(const MethodOptions& options, Method& method) {
     }
     if (!options.levels.empty()) {
         const double count = parse_count("--levels", options.levels);
-        if (count > kMostLevels) {
+        if (count > kMaxLevels) {
             fail_usage("--levels: " + in_quotes(options.levels) + " is too many; the maximum is " +
-                       std::to_string(kMostLevels));
+                       std::to_string(kMaxLevels));
         }
         method.levels.count = static_cast<std::uint32_t>(count);
     }
     if (!options.level_factor.empty()) {
-        method.levels.factor = parse_ratio("--level-factor", options.level_factor,
-                                           kLeastLevelFactor, kMostLevelFactor);
+        method.levels.factor =
+            parse_ratio("--level-factor", options.level_factor, kMinLevelFactor, kMaxLevelFactor);
     }
 }
 
 } // namespace
 
-std::uint32_t Method::throws_for(double samples) const {
-    if (stop_count == 0 || throws != 0) {
-        return throws;
+std::uint32_t Method::darts_for(double samples) const {
+    if (stop_count == 0 || darts != 0) {
+        return darts;
     }
     return static_cast<std::uint32_t>(
-        std::min<double>(kMostCandidates, std::ceil(kDartsPerSample * std::max(1.0, samples))));
+        std::min<double>(kMaxCandidates, std::ceil(kDartsPerSample * std::max(1.0, samples))));
 }
 
 double Method::distance_factor() const {
@@ -118,10 +118,10 @@ double Method::expected(double samples) const {
     return stop_count != 0 ? std::min<double>(room, stop_count) : room;
 }
 
-void Method::check_count(std::uint64_t samples, double min_distance, std::uint64_t darts) const {
-    if (throws == 0 && samples < stop_count) {
+void Method::check_count(std::uint64_t samples, double min_distance, std::uint64_t thrown) const {
+    if (darts == 0 && samples < stop_count) {
         fail_usage("--count: placed only " + grouped(samples) + " of " + grouped(stop_count) +
-                   " samples at distance " + rounded(min_distance, 6) + " with " + grouped(darts) +
+                   " samples at distance " + rounded(min_distance, 6) + " with " + grouped(thrown) +
                    " darts; lower --count or the distance, or accept fewer samples with --darts");
     }
 }
@@ -138,11 +138,11 @@ Method parse_method(const MethodOptions& options, const std::string& count) {
         method.pool_ratio = parse_ratio("--pool-ratio", options.pool_ratio, 1, 10000);
     }
     if (method.throws_darts) {
-        if (count.empty() && options.throws.empty()) {
+        if (count.empty() && options.darts.empty()) {
             fail_usage("--method darts needs a number to stop at; give --count, --darts or both");
         }
         method.stop_count = count.empty() ? 0 : parse_candidates("--count", count);
-        method.throws = options.throws.empty() ? 0 : parse_candidates("--darts", options.throws);
+        method.darts = options.darts.empty() ? 0 : parse_candidates("--darts", options.darts);
     }
     parse_order(options, method);
     return method;
@@ -174,10 +174,10 @@ WantedCount parse_wanted_count(const MethodOptions& options, const std::string& 
     }
     const double samples =
         options.exact ? parse_candidates("--count", count) : parse_count("--count", count);
-    if (samples * pool_ratio > kMostCandidates) {
+    if (samples * pool_ratio > kMaxCandidates) {
         fail_usage("--count: " + in_quotes(count) + " samples need a pool of " +
                    rounded(samples * pool_ratio, 3) + " candidates, the maximum is " +
-                   grouped(kMostCandidates) + "; lower --count" +
+                   grouped(kMaxCandidates) + "; lower --count" +
                    (pool_ratio > kDefaultPoolRatio ? " or the pool ratio" : ""));
     }
     return {samples, options.exact};
@@ -258,7 +258,7 @@ void add_method_options(Command command, MethodOptions& options, const std::stri
                     kMethodGroup)
         .offers({"pool", "darts"})
         .shows_default();
-    command.add_option("--darts,--throws", options.throws, "K",
+    command.add_option("--darts,--throws", options.darts, "K",
                        "Maximum number of darts, up to 4294967295; fewer samples than\n"
                        "--count are then no error (default 1000 per sample that fits\n" +
                            domain + ")",

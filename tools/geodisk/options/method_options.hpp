@@ -22,7 +22,7 @@ inline bool names_darts(std::string_view method) {
 
 /// As given on the command line.
 struct MethodOptions {
-    std::string method = "pool", pool_ratio, throws;
+    std::string method = "pool", pool_ratio, darts;
     bool exact = false;
     bool is_dense = false, is_maximal = false;
     std::string order = "dart", levels, level_factor, keep;
@@ -39,7 +39,7 @@ struct Method {
     bool throws_darts = false; ///< --method darts.
     bool is_dense = false, is_maximal = false;
     double pool_ratio = kDefaultPoolRatio;
-    std::uint32_t throws = 0;     ///< 0 if not given.
+    std::uint32_t darts = 0;      ///< 0 if not given.
     std::uint32_t stop_count = 0; ///< Of --count, where darts stop at it; else 0.
     bool has_levels = false;      ///< --order progressive.
     bool is_farthest = false;     ///< --order farthest.
@@ -48,14 +48,14 @@ struct Method {
 
     /// Darts to throw where there is room for so many samples: where a count alone is to stop them,
     /// they end at a number that leaves hardly any gap.
-    std::uint32_t throws_for(double samples) const;
+    std::uint32_t darts_for(double samples) const;
     /// Returns by how much the distance for a count is larger than for the default pool.
     double distance_factor() const;
     /// Samples to reckon with where there is room for so many, at least one.
     double expected(double samples) const;
     /// A count asked for, with no number of darts that would do, must be reached: throws
     /// UserError(usage) if there are fewer samples.
-    void check_count(std::uint64_t samples, double min_distance, std::uint64_t darts) const;
+    void check_count(std::uint64_t samples, double min_distance, std::uint64_t thrown) const;
 };
 
 /// Returns the samples to keep of a farthest-point order, if there is one; 0 for all. Throws

@@ -11,10 +11,10 @@ namespace {
 std::uint32_t parse_side(const std::string& text, std::string_view side) {
     using picture::PictureParams;
     const auto pixels = parse_integer<std::uint32_t>(side);
-    if (!pixels || *pixels < PictureParams::kFewestPixels || *pixels > PictureParams::kMostPixels) {
+    if (!pixels || *pixels < PictureParams::kFewestPixels || *pixels > PictureParams::kMaxPixels) {
         fail_usage("--size takes WIDTHxHEIGHT, each of " +
                    std::to_string(PictureParams::kFewestPixels) + " to " +
-                   std::to_string(PictureParams::kMostPixels) + " pixels, not " + in_quotes(text));
+                   std::to_string(PictureParams::kMaxPixels) + " pixels, not " + in_quotes(text));
     }
     return *pixels;
 }

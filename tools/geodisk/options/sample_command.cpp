@@ -88,7 +88,7 @@ std::string sample_command(const SampleOptions& options) {
     list.add("--levels", options.method.levels);
     list.add("--level-factor", options.method.level_factor);
     list.add("--keep", options.method.keep);
-    list.add("--darts", options.method.throws);
+    list.add("--darts", options.method.darts);
     list.add_flag("--dense", options.method.is_dense);
     list.add_flag("--maximal", options.method.is_maximal);
     list.add("--seed", options.run.seed, usual.run.seed);

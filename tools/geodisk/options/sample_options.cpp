@@ -263,10 +263,10 @@ void add_subject_options(Command command, SampleOptions& options) {
     add_exact_option(command, options.method, distance);
 
     add_mesh_options(command, options.mesh);
-    add_density_options(command, options.density);
-    add_mask_options(command, options.mask);
+    add_density_options(command, options.density, OptionUse::sampling);
+    add_mask_options(command, options.mask, OptionUse::sampling);
     add_constraint_options(command, options.constraints);
-    add_class_option(command, options.classes, "Constraints");
+    add_class_option(command, options.classes, OptionUse::sampling, "Constraints");
     command.add_option("--features", options.features, "ANGLE",
                        "Sample corners first, then edges where faces meet at more than\n"
                        "ANGLE degrees (1 to 180; 30 suits most CAD models), borders and\n"

@@ -63,7 +63,7 @@ struct SampleJob {
     Method method;
     std::optional<Length> min_distance; ///< Without it, wanted_count tells the distance.
     WantedCount wanted_count;
-    SampleParams params; ///< All but the distance, radii, classes, throws and given samples.
+    SampleParams params; ///< All but the distance, radii, classes, darts and existing samples.
     RunnerOptions runner;
     std::string picture; ///< File for one, or empty.
     bool legend = false; ///< On the picture.

@@ -82,12 +82,12 @@ void add_verify_options(Command command, VerifyOptions& options) {
                        "distance in its header, else none: report the smallest)");
     command.add_flag("--maximal", options.is_maximal,
                      "Check that no further sample fits, and report the largest gap");
-    add_avoid_option(command, options.constraints);
-    add_class_option(command, options.classes);
+    add_avoid_option(command, options.constraints, OptionUse::checking);
+    add_class_option(command, options.classes, OptionUse::checking);
     add_tolerance_option(command, options.tolerance);
     add_mesh_options(command, options.mesh);
-    add_density_options(command, options.density);
-    add_mask_options(command, options.mask);
+    add_density_options(command, options.density, OptionUse::checking);
+    add_mask_options(command, options.mask, OptionUse::checking);
     add_json_option(command, options.out);
     add_quiet_option(command, options.out, "No progress, no result; only the exit status");
 }

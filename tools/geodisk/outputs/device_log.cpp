@@ -76,7 +76,7 @@ void DeviceLog::tell_run(const RunReport& run) const {
     const RunPlan& plan = run.plan;
     print_line("work", counted(run.candidates, "candidate", "candidates") + " drawn in " +
                            counted(run.chunks, "part", "parts") + "; " +
-                           counted(run.iterations, "batch", "batches") + ", " +
+                           counted(run.batches, "batch", "batches") + ", " +
                            counted(run.dispatches, "dispatch", "dispatches") + "; " +
                            counted(run.disks, "disk", "disks") + " of " +
                            per_disk(run.windows, run.disks) + " windows, in each " +

@@ -86,12 +86,12 @@ std::string BoxReport::json(double write_seconds) const {
                   {"seed", job_.box.seed}};
     document.update(drawn_json(drawn()));
     document.update({{"density", density_},
-                     {"iterations", run.iterations},
+                     {"batches", run.batches},
                      {"dispatches", run.dispatches},
                      {"disks", run.disks},
                      {"rows", run.windows},
                      {"tested", run.tested},
-                     {"most_conflicts", run.most_conflicts},
+                     {"max_conflicts", run.max_conflicts},
                      {"regrown", run.regrown},
                      {"starts", run.starts}});
     document.update(run_json(done_, stage_seconds({}, done_, {{"write", write_seconds}})));

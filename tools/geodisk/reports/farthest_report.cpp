@@ -27,7 +27,7 @@ Json farthest_json(const FarthestRun& run) {
     const auto& distances = run.order.distances;
     return {{"samples", run.samples},
             {"kept", run.order.indices.size()},
-            {"least_cover", distances.empty() ? Json(nullptr) : distance_json(distances.back())},
+            {"min_cover", distances.empty() ? Json(nullptr) : distance_json(distances.back())},
             {"left_out_within", distance_json(run.order.cover)},
             {"error", run.order.error},
             {"searches", run.order.searches},

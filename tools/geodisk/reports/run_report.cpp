@@ -31,7 +31,7 @@ Json processes_json(const std::vector<ProcessReport>& processes) {
 const char* stopped_by(const Drawn& drawn) {
     const bool has_all = drawn.samples == drawn.method.stop_count || drawn.done.cut > 0;
     return has_all                     ? "count"
-           : drawn.method.throws_darts ? "throws"
+           : drawn.method.throws_darts ? "darts"
            : drawn.method.is_maximal   ? "maximal"
                                        : "pool";
 }
@@ -66,7 +66,7 @@ Json drawn_json(const Drawn& drawn) {
             // Each method has this or that.
             {"pool_ratio", throws_darts ? Json(nullptr) : Json(drawn.method.pool_ratio)},
             {"dense", drawn.method.is_dense},
-            {"throws", throws_darts ? Json(drawn.done.run.candidates) : Json(nullptr)},
+            {"darts", throws_darts ? Json(drawn.done.run.candidates) : Json(nullptr)},
             {"candidates", drawn.done.run.candidates},
             {"chunks", drawn.done.run.chunks},
             {"stopped_by", stopped_by(drawn)},
@@ -101,7 +101,7 @@ std::string candidates_text(const Drawn& drawn, std::uint64_t seed) {
 }
 
 std::pair<std::string, std::string> candidates_entry(const Drawn& drawn) {
-    return {drawn.method.throws_darts ? "throws" : "pool_size",
+    return {drawn.method.throws_darts ? "darts" : "pool_size",
             exact_text(drawn.done.run.candidates)};
 }
 

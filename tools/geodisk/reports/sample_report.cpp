@@ -35,7 +35,7 @@ double told_distance(const SampleJob& job, const MeshInput& mesh, double largest
 }
 
 std::string distance_line(const SampleJob& job, const MeshInput& mesh, double largest) {
-    const double least = mesh.radii ? mesh.radii->least_factor() : 1;
+    const double least = mesh.radii ? mesh.radii->min_factor() : 1;
     const auto range = [&](double of) {
         return least < 1 ? rounded(of * least, 6) + " to " + rounded(of, 6) : rounded(of, 6);
     };
@@ -176,9 +176,9 @@ std::string constraint_lines(const SampleJob& job, const SampleResult& result) {
         }
         text += " samples\n";
     }
-    if (result.given > 0) {
-        const SpacingResult& pairs = result.among_given;
-        text += "given         " + grouped(result.given) + " of them";
+    if (result.existing > 0) {
+        const SpacingResult& pairs = result.among_existing;
+        text += "existing      " + grouped(result.existing) + " of them";
         text +=
             pairs.violations.empty() ? "" : "; " + pairs.pairs_text() + " among these too close";
         text += '\n';
@@ -300,7 +300,7 @@ Json SampleReport::document(const SecondsByStage& after) const {
                   {"radius", distance / 2},
                   {"metric", metric_text(job_)},
                   {"sample_radii", nullptr}, // Where they do not vary.
-                  {"given", nullptr},
+                  {"existing", nullptr},
                   {"avoided", result_.avoided}, // Without --existing.
                   {"avoided_length", result_.avoided_length},
                   {"classes", nullptr},
@@ -316,11 +316,11 @@ Json SampleReport::document(const SecondsByStage& after) const {
     if (radii_.do_vary()) {
         document["sample_radii"] = {{"least", radii_.least}, {"most", radii_.most}};
     }
-    if (result_.given > 0) {
-        document["given"] = {{"samples", result_.given},
-                             {"close_pairs", result_.among_given.violations.size()},
-                             {"complete", result_.among_given.is_complete},
-                             {"closest", pair_json(result_.among_given.closest)}};
+    if (result_.existing > 0) {
+        document["existing"] = {{"samples", result_.existing},
+                                {"close_pairs", result_.among_existing.violations.size()},
+                                {"complete", result_.among_existing.is_complete},
+                                {"closest", pair_json(result_.among_existing.closest)}};
     }
     if (job_.features) {
         const FeatureCounts counts(result_);
@@ -340,12 +340,12 @@ Json SampleReport::document(const SecondsByStage& after) const {
     }
     document["maximal"] = maximal_json(job_, mesh_, run);
     document.update({{"rho", rho_},
-                     {"iterations", run.iterations},
+                     {"batches", run.batches},
                      {"dispatches", run.dispatches},
                      {"disks", run.disks},
                      {"windows", run.windows},
                      {"tested", run.tested},
-                     {"most_waiting", run.most_waiting},
+                     {"max_waiting", run.max_waiting},
                      {"longest_chain", run.longest_chain},
                      {"regrown", run.regrown},
                      {"starts", run.starts}});

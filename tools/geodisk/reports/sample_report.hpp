@@ -39,8 +39,8 @@ struct SampleResult {
     DeviceRun done;
     std::vector<SampleRow> rows;         ///< None where `all` is given.
     std::optional<AllRows> all;          ///< Where rows are divided among processes.
-    std::size_t given = 0;               ///< Number of rows that were given: the first.
-    SpacingResult among_given;           ///< Their pairs.
+    std::size_t existing = 0;            ///< Number of rows that existed before: the first.
+    SpacingResult among_existing;        ///< Their pairs.
     std::size_t avoided = 0;             ///< Number of points to avoid.
     double avoided_length = 0;           ///< Length of lines to avoid.
     std::vector<std::uint32_t> classes;  ///< Of the rows; 0 if there are none.

@@ -47,8 +47,8 @@ Json intrusions_json(const std::vector<Intrusion>& intrusions, std::size_t known
 
 } // namespace
 
-std::size_t SampleCheck::given() const {
-    const auto values = samples.extra_values(kGivenColumn);
+std::size_t SampleCheck::existing() const {
+    const auto values = samples.extra_values(kExistingColumn);
     return static_cast<std::size_t>(std::ranges::count_if(values, [](auto v) { return v != 0; }));
 }
 
@@ -69,7 +69,7 @@ std::vector<std::size_t> SampleCheck::class_counts() const {
     return counts;
 }
 
-std::string SampleCheck::least_text() const {
+std::string SampleCheck::min_text() const {
     return spacing.classes.is_given() ? "the distance of their classes"
            : spacing.radii_vary       ? "the sum of their radii"
                                       : rounded(spacing.min_distance, 9);
@@ -93,7 +93,8 @@ std::string report_text(const SampleCheck& check) {
             << (check.mesh.radii ? "" : ", as the file has them") << '\n';
     }
     out << "smallest      " << smallest_text(check)
-        << (spacing.is_known && check.given() > 1 ? ", pairs of given samples aside\n" : "\n");
+        << (spacing.is_known && check.existing() > 1 ? ", pairs of existing samples aside\n"
+                                                     : "\n");
     if (spacing.classes.is_given()) {
         std::string counts;
         for (const std::size_t count : check.class_counts()) {
@@ -103,12 +104,12 @@ std::string report_text(const SampleCheck& check) {
     }
     const bool has_ratios = spacing.radii_vary || spacing.classes.is_given();
     if (spacing.is_known) {
-        print_violations(out, check.samples, check.result, has_ratios ? check.least_text() : "");
+        print_violations(out, check.samples, check.result, has_ratios ? check.min_text() : "");
     }
-    out << level_lines(check.levels, check.given() > 1);
-    if (const std::size_t given = check.given(); given > 0) {
-        const SpacingResult& pairs = check.among_given;
-        out << "given         " << grouped(given) << " of them"
+    out << level_lines(check.levels, check.existing() > 1);
+    if (const std::size_t existing = check.existing(); existing > 0) {
+        const SpacingResult& pairs = check.among_existing;
+        out << "existing      " << grouped(existing) << " of them"
             << (pairs.violations.empty()
                     ? ""
                     : "; " + pairs.pairs_text() + " among these too close, no violation")
@@ -154,9 +155,9 @@ std::string report_text(const SampleCheck& check) {
 }
 
 std::string report_json(const SampleCheck& check) {
-    const auto& [options, samples, mesh, warnings, spacing, strays, result, among_given, masked,
+    const auto& [options, samples, mesh, warnings, spacing, strays, result, among_existing, masked,
                  avoided, avoided_length, intrusions, gaps, levels, features] = check;
-    const std::size_t given = check.given();
+    const std::size_t existing = check.existing();
     const bool has_distance = spacing.min_distance > 0;
     return text_of(Json{
         {"version", GEODISK_VERSION_STRING},
@@ -175,9 +176,9 @@ std::string report_json(const SampleCheck& check) {
         {"smallest_ratio",
          result.closest && spacing.is_known ? Json(result.closest->ratio) : Json(nullptr)},
         {"violations", spacing.is_known ? violations_json(result) : Json(nullptr)},
-        {"given", given == 0
-                      ? Json(nullptr)
-                      : Json{{"samples", given}, {"violations", violations_json(among_given)}}},
+        {"existing", existing == 0 ? Json(nullptr)
+                                   : Json{{"samples", existing},
+                                          {"violations", violations_json(among_existing)}}},
         {"avoided", check.avoids() ? Json{{"points", avoided},
                                           {"length", avoided_length},
                                           {"intrusions", intrusions_json(intrusions, avoided)}}
@@ -192,7 +193,7 @@ std::string report_json(const SampleCheck& check) {
 
 std::string fault_text(const SampleCheck& check) {
     const WantedSpacing& spacing = check.spacing;
-    std::string message = violation_text(check.result, check.least_text());
+    std::string message = violation_text(check.result, check.min_text());
     const auto add = [&message](std::size_t count, const std::string& one, const std::string& many,
                                 const char* what) {
         if (count > 0) {

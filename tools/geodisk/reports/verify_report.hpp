@@ -28,7 +28,7 @@ struct SampleCheck {
     WantedSpacing spacing;
     std::vector<StrayRow> strays;
     SpacingResult result;              ///< Of all pairs but these:
-    SpacingResult among_given;         ///< Of samples that were given.
+    SpacingResult among_existing;      ///< Of existing samples.
     std::vector<std::uint32_t> masked; ///< Samples on faces that take none.
     std::size_t avoided = 0;           ///< Number of points to avoid.
     double avoided_length = 0;         ///< Length of lines to avoid.
@@ -37,8 +37,8 @@ struct SampleCheck {
     std::vector<LevelSpacing> levels;          ///< Of samples in progressive order.
     std::vector<std::uint32_t> wrong_features; ///< Samples whose mark as feature is wrong.
 
-    /// Number of samples that were given.
-    std::size_t given() const;
+    /// Number of existing samples.
+    std::size_t existing() const;
     /// Packing density, where a distance is known.
     double rho() const;
     /// Number of samples of each class.
@@ -46,7 +46,7 @@ struct SampleCheck {
     /// Returns true if there are points or lines to avoid.
     bool avoids() const { return avoided > 0 || avoided_length > 0; }
     /// What the distance of a pair is a part of.
-    std::string least_text() const;
+    std::string min_text() const;
 };
 
 std::string report_text(const SampleCheck& check);

@@ -18,10 +18,10 @@ GEODISK_PICTURE_CONSTANT kDrawPoints = 1u;
 GEODISK_PICTURE_CONSTANT kDrawVoronoi = 2u;
 GEODISK_PICTURE_CONSTANT kDrawDistance = 3u;
 GEODISK_PICTURE_CONSTANT kDrawDensity = 4u;
-// How much surface there is behind each pixel, in kMostTilt-th parts of what a pixel shows of a
+// How much surface there is behind each pixel, in kMaxTilt-th parts of what a pixel shows of a
 // surface that faces it.
 GEODISK_PICTURE_CONSTANT kDrawArea = 5u;
-GEODISK_PICTURE_CONSTANT kMostTilt = 5u;
+GEODISK_PICTURE_CONSTANT kMaxTilt = 5u;
 // The edges of a box, beside balls.
 GEODISK_PICTURE_CONSTANT kDrawFrame = 6u;
 

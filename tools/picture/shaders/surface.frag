@@ -73,8 +73,8 @@ void main() {
     const float facing = dot(up, to_eye);
     up = facing < 0.0 ? -up : up;
     if (kDraw == kDrawArea) {
-        const float tilt = 1.0 / max(abs(facing), 1.0 / float(kMostTilt));
-        color = vec4(vec3(tilt / float(kMostTilt)), 1);
+        const float tilt = 1.0 / max(abs(facing), 1.0 / float(kMaxTilt));
+        color = vec4(vec3(tilt / float(kMaxTilt)), 1);
         return;
     }
     if (kDraw == kDrawFrame) {

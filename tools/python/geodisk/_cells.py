@@ -67,7 +67,7 @@ def cells(
     samples: ExistingLike,
     *,
     dual: bool = True,
-    most_records: int = 2**27,
+    max_records: int = 2**27,
     device: DeviceLike | None = None,
     progress: bool | ProgressCallback = False,
 ) -> Cells:
@@ -82,7 +82,7 @@ def cells(
         place the first has the cell.
     dual : bool
         Find edges and triangles too.
-    most_records : int
+    max_records : int
         Fail if the disks of the samples have more records of paths, 36 bytes each.
     device, progress
         As for :func:`sample`; a callback is called on another thread.
@@ -96,7 +96,7 @@ def cells(
     InvalidArgument, TypeError
         For values out of range, and arrays of a wrong type or shape.
     OutOfMemory
-        For more than `most_records`.
+        For more than `max_records`.
     Others as :func:`sample`.
 
     Examples
@@ -115,7 +115,7 @@ def cells(
         samples=points.ctypes.data,
         sample_count=len(points),
         areas_only=int(not flag(dual, "dual")),
-        most_records=integer(most_records, "most_records", 2**64 - 1, 1),
+        max_records=integer(max_records, "max_records", 2**64 - 1, 1),
     )
     handle = search("cells", "geodisk_find_cells", on, params, name_of(device), progress)
     told = s.CellArrays()

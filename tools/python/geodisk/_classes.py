@@ -15,8 +15,8 @@ from ._samples import Samples
 #: Number of classes, or a table of their distances.
 ClassesLike = Union[int, ArrayLike]
 
-_MOST = 8
-_LEAST_FACTOR = 0.01
+_MAX = 8
+_MIN_FACTOR = 0.01
 
 
 class Classes:
@@ -26,8 +26,8 @@ class Classes:
         table = real(classes, "classes").astype(np.float64)
         self.distances: NDArray[np.float64] | None = None
         if table.ndim == 0:
-            if not 1 <= table <= _MOST or table != int(table):
-                raise e.invalid(f"classes is {classes!r}, not a number from 1 to {_MOST}, or a table")
+            if not 1 <= table <= _MAX or table != int(table):
+                raise e.invalid(f"classes is {classes!r}, not a number from 1 to {_MAX}, or a table")
             count = int(table)
             factors = np.full((count, count), 1 / math.sqrt(count))
             np.fill_diagonal(factors, 1)
@@ -38,7 +38,7 @@ class Classes:
         self.count = len(factors)
         self.exact_factors = factors
         #: As the library takes them.
-        self.factors = np.maximum(factors, _LEAST_FACTOR).astype(np.float32)
+        self.factors = np.maximum(factors, _MIN_FACTOR).astype(np.float32)
 
     @property
     def largest(self) -> float | None:
@@ -50,7 +50,7 @@ class Classes:
         """How many times as many samples fit as with one distance for all."""
         return float((1 / np.diag(self.factors) ** 2).sum())
 
-    def given(self, existing: Any, count: int) -> NDArray[np.uint8]:
+    def existing_of(self, existing: Any, count: int) -> NDArray[np.uint8]:
         """Returns the classes of `count` samples to keep: 0 unless they have some."""
         if not isinstance(existing, Samples) or "class" not in existing.columns:
             return np.zeros(count, np.uint8)
@@ -65,11 +65,11 @@ class Classes:
 
 
 def _check(table: NDArray[np.float64]) -> None:
-    if table.ndim != 2 or table.shape[0] != table.shape[1] or not 1 <= len(table) <= _MOST:
+    if table.ndim != 2 or table.shape[0] != table.shape[1] or not 1 <= len(table) <= _MAX:
         raise e.invalid(f"the table of classes has the shape {table.shape}, not (k, k) up to (8, 8)")
     if not (np.isfinite(table).all() and (table > 0).all()):
         raise e.invalid("the table of classes has distances that are not positive and finite")
     if not (table == table.T).all():
         raise e.invalid("the table of classes is not symmetric")
-    if table.min() < _LEAST_FACTOR * table.max():
+    if table.min() < _MIN_FACTOR * table.max():
         raise e.invalid("the distances of classes differ by more than a factor of 100")

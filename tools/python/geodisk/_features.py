@@ -37,14 +37,14 @@ class Features:
         self._corners = c_size_t()
 
     def settle(self, params: s.SurfaceParams, kept: int) -> object:
-        """Samples the features at the distance of `params`, and adds them to its given samples.
+        """Samples the features at the distance of `params`, and adds them to its existing samples.
 
         The first `kept` of these are those of the caller. Returns what has to be kept until the
         domain is made.
         """
-        params.given_count = kept
+        params.existing_count = kept
         own = s.SurfaceParams.from_buffer_copy(params)
-        own.throws = own.stop_count = 0
+        own.darts = own.stop_count = 0
         domain = c.Handle(
             "domain",
             "geodisk_domain_features",
@@ -57,7 +57,7 @@ class Features:
             return None
         with Runs(self._device, False) as runs:
             settled = existing_of(self._mesh._surface, places_of(runs.run(domain)))
-        params.given, params.given_count = settled.ctypes.data, len(settled)
+        params.existing, params.existing_count = settled.ctypes.data, len(settled)
         return settled
 
     def marked(self, samples: Samples, kept: int, settled: int) -> Samples:
@@ -69,14 +69,14 @@ class Features:
         kinds = np.count_nonzero(samples.barycentric == 0, axis=1).astype(np.uint32)
         place = np.arange(len(samples))
         kinds[(place < kept) | (place >= settled)] = 0
-        columns = {name: x for name, x in samples.columns.items() if name != "given"}
+        columns = {name: x for name, x in samples.columns.items() if name != "existing"}
         if kept > 0:
-            columns["given"] = (place < kept).astype(np.uint32)
+            columns["existing"] = (place < kept).astype(np.uint32)
         columns["feature"] = kinds
         corners = int(np.count_nonzero(kinds == 2))
         report = {
             **samples.report,
-            "given": kept,
+            "existing": kept,
             "corners": corners,
             "corners_left_out": self._corners.value - corners,
         }

@@ -59,7 +59,7 @@ class Wanted:
 
     def warn_of_lost(self, before: Samples, after: Samples) -> None:
         """Shows what the samples had, and have no longer."""
-        columns = before.columns.keys() - after.columns.keys() - {"given"}
+        columns = before.columns.keys() - after.columns.keys() - {"existing"}
         lost = [f"columns[{name!r}]" for name in columns]
         if self.attributes is None:
             own = before.attributes.keys() - after.attributes.keys() - {"cover"}

@@ -16,7 +16,7 @@ class Levels:
 
 
 def levels_of(
-    order: str, levels: int | None, factor: float | None, metric: str, throws: int
+    order: str, levels: int | None, factor: float | None, metric: str, darts: int
 ) -> Levels | None:
     """Returns the levels of a progressive order, None for other orders."""
     if order == "farthest" and metric != "geodesic":
@@ -28,8 +28,8 @@ def levels_of(
         return None
     if metric != "geodesic":
         raise e.invalid(f"order='progressive' goes by distances along the surface, not {metric}")
-    if throws:
-        raise e.invalid("order='progressive' takes no throws; darts fill no level")
+    if darts:
+        raise e.invalid("order='progressive' takes no darts; darts fill no level")
     count = 0 if levels is None else integer(levels, "levels", 2**32)
     if levels is not None and not 1 <= count <= 32:
         raise e.invalid(f"levels is {count}, not from 1 to 32")

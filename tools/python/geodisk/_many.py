@@ -69,8 +69,8 @@ class _Job:
             radii=radii,
             face_keys=None if self._keys is None else self._keys.ctypes.data,
             face_mask=None if self._mask is None else self._mask.ctypes.data,
-            given=self.existing.ctypes.data,
-            given_count=len(self.existing),
+            existing=self.existing.ctypes.data,
+            existing_count=len(self.existing),
             avoid=self._avoided.ctypes.data,
             avoid_radii=self._avoided_radii.ctypes.data,
             avoid_count=len(self._avoided),
@@ -113,8 +113,8 @@ class _Job:
         return float(self.params.min_distance) * self.distance_part
 
     def settle(self) -> None:
-        """Adds samples on features to the given ones, at the distance of the next run."""
-        self.params.given, self.params.given_count = (
+        """Adds samples on features to the existing ones, at the distance of the next run."""
+        self.params.existing, self.params.existing_count = (
             self.existing.ctypes.data,
             len(self.existing),
         )
@@ -124,7 +124,7 @@ class _Job:
     def take(self, found: Samples) -> bool:
         """Takes the samples of a run. Returns whether another one is needed."""
         if self._features is not None:
-            found = self._features.marked(found, len(self.existing), self.params.given_count)
+            found = self._features.marked(found, len(self.existing), self.params.existing_count)
         if self.search is None:
             self.result = found
             return False
@@ -142,7 +142,7 @@ class _Job:
             self.mesh._handle,
             self._count,
             mask=self._mask,
-            given=len(self.existing),
+            existing=len(self.existing),
             avoids=len(self._avoided) > 0,
         )
         warn([e.GeodiskWarning(f"{prefix}{one}", one.kind, one.count) for one in found])
@@ -271,7 +271,7 @@ def sample_many(
 
 #: Parameters of sample() that one job of several meshes cannot have.
 _OF_ONE_MESH = (
-    "throws",
+    "darts",
     "stop_count",
     "maximal",
     "order",

@@ -83,7 +83,7 @@ def neighbours(
     within: float | ArrayLike | None = None,
     among: str | ExistingLike = "vertices",
     nearest: int = 0,
-    most_pairs: int = 2**30,
+    max_pairs: int = 2**30,
     edge_lengths: ArrayLike | None = None,
     weld: bool | float = False,
     keep_seams: bool = False,
@@ -111,7 +111,7 @@ def neighbours(
     nearest : int
         If not 0, keep only so many of each source: the nearest ones, in the order of their
         distances. Otherwise the neighbours of a source are in the order of their indices.
-    most_pairs : int
+    max_pairs : int
         Fail as soon as more pairs than this are expected in all.
     device, progress
         As for :func:`sample`; progress counts sources. A callback is called on another thread.
@@ -125,7 +125,7 @@ def neighbours(
     InvalidArgument, TypeError
         For values out of range, and arrays of a wrong type or shape.
     OutOfMemory
-        For more than `most_pairs`.
+        For more than `max_pairs`.
     Others as :func:`sample`.
 
     Examples
@@ -144,7 +144,7 @@ def neighbours(
     )
     params = s.NeighbourParams(
         nearest=integer(nearest, "nearest", 2**32 - 1),
-        most_pairs=integer(most_pairs, "most_pairs", 2**64 - 1, 1),
+        max_pairs=integer(max_pairs, "max_pairs", 2**64 - 1, 1),
     )
     kept: list[NDArray[Any]] = []  # What the library reads.
 

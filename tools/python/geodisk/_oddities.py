@@ -35,9 +35,9 @@ def oddities_of_set(
     mesh: c.Handle | None,
     count: float | None,
     stop_count: int = 0,
-    throws: int = 0,
+    darts: int = 0,
     mask: NDArray[np.uint8] | None = None,
-    given: int = 0,
+    existing: int = 0,
     avoids: bool = False,
 ) -> tuple[GeodiskWarning, ...]:
     """Returns what the program prints about samples on a mesh, or in a box."""
@@ -50,9 +50,9 @@ def oddities_of_set(
         cut=samples.report.get("cut", 0),
         wanted_count=0.0 if stop_count else float(count or 0),
         stop_count=stop_count,
-        throws=throws,
+        darts=darts,
         face_mask=None if mask is None else mask.ctypes.data,
-        given=given,
+        existing=existing,
         avoids=int(avoids),
     )
     found = c.Handle("warnings", "geodisk_warnings_of_set", ctypes.byref(params))

@@ -73,7 +73,7 @@ def read(path: str | os.PathLike[str]) -> Samples:
 #: Arguments of sample() that entries of the program's header tell of.
 _OPTIONS = {
     "pool_ratio": "pool_ratio",
-    "throws": "throws",
+    "darts": "darts",
     "exact": "exact",
     "density": "density",
     "radius_factor": "radius_factor",

@@ -58,7 +58,7 @@ def samples_of(
     report["min_distance"] = report["min_distance"] * distance_part if given is None else given
     columns = _columns_of(made)
     columns.pop("part")
-    columns["given"] = _given(report["samples"], report["given"])
+    columns["existing"] = _existing(report["samples"], report["existing"])
     if classes is not None:
         numbers = copied(made.value, s.CLASS, np.uint32)
         columns["class"] = (
@@ -116,7 +116,7 @@ def samples_of_parts(
 ) -> list[Samples]:
     """Returns what a run gave on each of several surfaces, of their seeds and minimum distances.
 
-    The last number of a part is that of its given samples.
+    The last number of a part is that of its existing samples.
     """
     report = report_of(handle)
     del report["levels"], report["level_factor"]
@@ -126,9 +126,9 @@ def samples_of_parts(
     by_part = np.argsort(part, kind="stable")
     ends = np.cumsum(np.bincount(part, minlength=len(parts)))
     result = []
-    for (seed, distance, surface, given), rows in zip(parts, np.split(by_part, ends[:-1])):
+    for (seed, distance, surface, existing), rows in zip(parts, np.split(by_part, ends[:-1])):
         own = {name: None if x is None else x[rows] for name, x in columns.items()}
-        own["given"] = _given(len(rows), given)
+        own["existing"] = _existing(len(rows), existing)
         told = {**report, "options": ["sample_many"]}  # One surface alone has another frame.
         result.append(_made(own, surface, told, distance, seed))
     return result
@@ -173,9 +173,9 @@ def _columns_of(handle: c.Handle) -> dict[str, NDArray[Any] | None]:
     }
 
 
-def _given(count: int, given: int) -> NDArray[np.uint32] | None:
-    """Returns 1 for the first ones, which were given; None if none were."""
-    return (np.arange(count) < given).astype(np.uint32) if given > 0 else None
+def _existing(count: int, existing: int) -> NDArray[np.uint32] | None:
+    """Returns 1 for the existing samples, the first; None if there are none."""
+    return (np.arange(count) < existing).astype(np.uint32) if existing > 0 else None
 
 
 def _made(
@@ -190,7 +190,7 @@ def _made(
     whole = {} if surface is None else {k: x[faces] for k, x in surface.columns.items()}
     attributes = {} if surface is None else surface.attributes
     weights = columns["barycentric"]
-    for name in ("given", "class", "level", "feature"):
+    for name in ("existing", "class", "level", "feature"):
         column = columns.pop(name, None)
         if column is not None:
             whole[name] = column

@@ -45,7 +45,7 @@ def sample(
     density: ArrayLike | None = None,
     radius_factor: ArrayLike | None = None,
     pool_ratio: float = 20,
-    throws: int = 0,
+    darts: int = 0,
     stop_count: int = 0,
     maximal: bool = False,
     order: str = "dart",
@@ -97,14 +97,14 @@ def sample(
     pool_ratio : float
         Candidates per expected sample, 1 to 10,000. More candidates leave fewer gaps: 100 give a
         packing density of 0.75 instead of 0.72.
-    throws : int
+    darts : int
         Number of darts to throw, instead of a pool by `pool_ratio`.
     stop_count : int
         Stop after this many samples. A warning reports if fewer fit.
     maximal : bool
         True to go on after the pool until no further sample fits anywhere. The report then has
         ``is_certified`` 1 if every point is nearer to a sample than ``largest_gap``. Not with
-        `throws`, `stop_count`, `density` and other metrics.
+        `darts`, `stop_count`, `density` and other metrics.
     order : {"dart", "progressive", "farthest"}
         "progressive" returns samples in levels, coarse to fine: each level has half the distance of
         the one before, and the last one the given distance. The samples up to the end of a level
@@ -123,7 +123,7 @@ def sample(
         True for each triangle, or each given polygon, that takes samples; or the indices of these
         triangles. Paths cross the others all the same.
     existing : Samples, or a pair of face_index and barycentric, optional
-        Samples of the mesh to keep: the first of the result, with a 1 in ``columns["given"]``.
+        Samples of the mesh to keep: the first of the result, with a 1 in ``columns["existing"]``.
         Samples without `face_index` are put on the nearest triangles, at most a thousandth of the
         bounding-box diagonal away. New ones keep the minimum distance from them. They count towards
         `count` and `stop_count`. Distances among them are not checked; :func:`verify` tells them
@@ -197,17 +197,17 @@ def sample(
     >>> bool(samples.face_index.max() < 4)
     True
     """
-    throws = integer(throws, "throws", 2**32 - 1)
+    darts = integer(darts, "darts", 2**32 - 1)
     kinds = None if classes is None else Classes(classes)
     if kinds is not None and kinds.largest is not None:
         if [min_distance, radius, count] != [None] * 3:
             raise e.invalid("a table of classes takes no min_distance, radius or count")
         min_distance = kinds.largest
-    distance = given = distance_of(min_distance, radius, count, throws)
+    distance = given = distance_of(min_distance, radius, count, darts)
     seed = integer(seed, "seed", 2**64 - 1)
     stop_count = integer(stop_count, "stop_count", 2**32 - 1)
     check_exact(exact, count, stop_count)
-    check_pool(count, pool_ratio, throws)
+    check_pool(count, pool_ratio, darts)
     choice(metric, "metric", s.METRICS)
     choice(order, "order", ("dart", "progressive", "farthest"))
     record = Record(texture, normals, frames)
@@ -218,7 +218,7 @@ def sample(
     if order == "farthest" and existing is not None:
         raise e.invalid("order='farthest' takes no existing samples, which come first")
     maximal = flag(maximal, "maximal")
-    in_levels = levels_of(order, levels, level_factor, metric, throws)
+    in_levels = levels_of(order, levels, level_factor, metric, darts)
     if in_levels is not None and (classes is not None or features is not None or maximal):
         raise e.invalid("order='progressive' takes no classes, features and maximal")
     if maximal and (exact or (count is not None and stop_count)):
@@ -237,23 +237,23 @@ def sample(
     params = s.SurfaceParams(
         seed=seed,
         pool_ratio=float(pool_ratio),
-        throws=throws,
+        darts=darts,
         radii=None if radii is None else radii.handle.value,
         face_keys=None if keys is None else keys.ctypes.data,
         face_mask=None if mask is None else mask.ctypes.data,
         metric=s.METRICS[metric],
-        given=kept.ctypes.data,
-        given_count=len(kept),
+        existing=kept.ctypes.data,
+        existing_count=len(kept),
         avoid=points.ctypes.data,
         avoid_radii=point_radii.ctypes.data,
         avoid_count=len(points),
         is_maximal=int(maximal),
     )
     if kinds is not None and kinds.count > 1:
-        own_classes = kinds.given(existing, len(kept))
+        own_classes = kinds.existing_of(existing, len(kept))
         params.class_factors = kinds.factors.ctypes.data
         params.class_count = kinds.count
-        params.given_classes = own_classes.ctypes.data
+        params.existing_classes = own_classes.ctypes.data
 
     degrees = 0.0 if features is None else degrees_of(features)
     if features is not None and kinds is not None:
@@ -275,12 +275,12 @@ def sample(
     samples = samples_of(made, seed, mesh._surface, given=given, distance_part=part, classes=kinds)
     warn(
         oddities_of_set(
-            samples, mesh._handle, count, stop_count, throws, mask, len(kept), len(points) > 0
+            samples, mesh._handle, count, stop_count, darts, mask, len(kept), len(points) > 0
         )
     )
     chosen = {
         "pool_ratio": pool_ratio != 20,
-        "throws": throws,
+        "darts": darts,
         "stop_count": stop_count,
         "exact": exact,
         "density": density is not None,
@@ -309,7 +309,7 @@ def sample(
     )
     frame = None
     if samples.min_distance / part != run_distance:  # What files say is rounded.
-        params.min_distance, params.given_count, params.stop_count = run_distance, 0, 0
+        params.min_distance, params.existing_count, params.stop_count = run_distance, 0, 0
         frame = JobFrame.found("geodisk_job_frame_of", mesh._handle.value, byref(params))
     samples = dataclasses.replace(samples, _job=job, _frame=frame)
     if order == "farthest":
@@ -327,7 +327,7 @@ def sample_box(
     exact: bool = False,
     seed: int = 0,
     pool_ratio: float = 20,
-    throws: int = 0,
+    darts: int = 0,
     stop_count: int = 0,
     device: DeviceLike | None = None,
     progress: bool | ProgressCallback = False,
@@ -351,8 +351,8 @@ def sample_box(
     >>> samples.points.shape[1]
     3
     """
-    throws = integer(throws, "throws", 2**32 - 1)
-    distance = distance_of(min_distance, radius, count, throws)
+    darts = integer(darts, "darts", 2**32 - 1)
+    distance = distance_of(min_distance, radius, count, darts)
     periodic = flag(periodic, "periodic")
     sides = np.array(real(extents, "extents"), np.float64, order="C")
     if sides.ndim != 1:
@@ -360,14 +360,14 @@ def sample_box(
     seed = integer(seed, "seed", 2**64 - 1)
     stop_count = integer(stop_count, "stop_count", 2**32 - 1)
     check_exact(exact, count, stop_count)
-    check_pool(count, pool_ratio, throws)
+    check_pool(count, pool_ratio, darts)
     params = s.BoxParams(
         extents=sides.ctypes.data_as(ctypes.POINTER(c_double)),
         dimension=len(sides),
         is_periodic=int(periodic),
         seed=seed,
         pool_ratio=float(pool_ratio),
-        throws=throws,
+        darts=darts,
     )
 
     def domain_at(at: float) -> c.Handle:
@@ -383,5 +383,5 @@ def sample_box(
         made = sampled(runs, domain_at, distance, count, exact)
     samples = samples_of(made, seed, extents=tuple(sides.tolist()), periodic=periodic)
     samples = first_of(samples, count if exact and count else stop_count)
-    warn(oddities_of_set(samples, None, count, stop_count, throws))
+    warn(oddities_of_set(samples, None, count, stop_count, darts))
     return samples

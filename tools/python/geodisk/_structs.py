@@ -89,7 +89,7 @@ class MeshParams(_Sized):
         ("edge_lengths", c_void_p),
         ("weld", c_int32),
         ("weld_distance", c_double),
-        ("most_threads", c_uint32),
+        ("max_threads", c_uint32),
         ("keep_seams", c_int32),
     ]
 
@@ -120,20 +120,20 @@ class SurfaceParams(_Sized):
         ("min_distance", c_double),
         ("seed", c_uint64),
         ("pool_ratio", c_double),
-        ("throws", c_uint32),
+        ("darts", c_uint32),
         ("stop_count", c_uint32),
         ("radii", c_void_p),
         ("face_keys", c_void_p),
         ("metric", c_int32),
         ("face_mask", c_void_p),
-        ("given", c_void_p),
-        ("given_count", c_size_t),
+        ("existing", c_void_p),
+        ("existing_count", c_size_t),
         ("avoid", c_void_p),
         ("avoid_radii", c_void_p),
         ("avoid_count", c_size_t),
         ("class_factors", c_void_p),
         ("class_count", c_size_t),
-        ("given_classes", c_void_p),
+        ("existing_classes", c_void_p),
         ("is_maximal", c_int32),
     ]
 
@@ -147,7 +147,7 @@ class BoxParams(_Sized):
         ("min_distance", c_double),
         ("seed", c_uint64),
         ("pool_ratio", c_double),
-        ("throws", c_uint32),
+        ("darts", c_uint32),
         ("stop_count", c_uint32),
     ]
 
@@ -198,7 +198,7 @@ class Report(_Sized):
         ("struct_size", c_size_t),
         ("samples", c_uint64),
         ("candidates", c_uint32),
-        ("iterations", c_uint32),
+        ("batches", c_uint32),
         ("dispatches", c_uint32),
         ("disks", c_uint32),
         ("windows", c_uint64),
@@ -211,7 +211,7 @@ class Report(_Sized):
         ("sample_seconds", c_double),
         ("readback_seconds", c_double),
         ("missing", c_uint32),
-        ("given", c_uint32),
+        ("existing", c_uint32),
         ("maximal_rounds", c_uint32),
         ("is_certified", c_int32),
         ("maximal_cells", c_uint64),
@@ -251,7 +251,7 @@ class NeighbourParams(_Sized):
         ("points", c_void_p),
         ("point_count", c_size_t),
         ("nearest", c_uint32),
-        ("most_pairs", c_uint64),
+        ("max_pairs", c_uint64),
         ("joined", c_void_p),
     ]
 
@@ -275,7 +275,7 @@ class CellParams(_Sized):
         ("samples", c_void_p),
         ("sample_count", c_size_t),
         ("areas_only", c_int32),
-        ("most_records", c_uint64),
+        ("max_records", c_uint64),
     ]
 
 
@@ -400,9 +400,9 @@ class SampledSet(_Sized):
         ("wanted_count", c_double),
         ("cut", c_uint64),
         ("stop_count", c_uint32),
-        ("throws", c_uint32),
+        ("darts", c_uint32),
         ("face_mask", c_void_p),
-        ("given", c_size_t),
+        ("existing", c_size_t),
         ("avoids", c_int32),
     ]
 

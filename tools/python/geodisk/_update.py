@@ -69,7 +69,7 @@ def update(
     Parameters
     ----------
     samples : Samples
-        All samples of :func:`sample` on the mesh before, in any order. Not with throws, stop_count,
+        All samples of :func:`sample` on the mesh before, in any order. Not with darts, stop_count,
         exact, classes, features, maximal, another order or another metric.
     to : array_like of float, shape (v, d), or a mesh
         The edited mesh, or positions of its vertices; the mesh before by default.
@@ -239,8 +239,8 @@ class _Side:
             radii=None if radii is None else radii.handle.value,
             face_keys=None if keys is None else keys.ctypes.data,
             face_mask=None if mask is None else mask.ctypes.data,
-            given=kept.ctypes.data,
-            given_count=len(kept),
+            existing=kept.ctypes.data,
+            existing_count=len(kept),
             avoid=avoided.ctypes.data,
             avoid_radii=avoid_radii.ctypes.data,
             avoid_count=len(avoided),
@@ -285,7 +285,7 @@ def _is_empty(points: ExistingLike) -> bool:
 
 
 def _existing(surface: Surface, existing: ExistingLike | None) -> NDArray[Any]:
-    """Returns given samples as the library takes them; none for an empty pair or set."""
+    """Returns existing samples as the library takes them; none for an empty pair or set."""
     if existing is not None and _is_empty(existing):
         return np.empty(0, POINT)
     return existing_of(surface, existing)

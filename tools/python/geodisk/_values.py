@@ -140,12 +140,12 @@ def check_exact(exact: bool, count: float | None, stop_count: int = 0) -> None:
         raise e.invalid("exact and stop_count contradict each other; give just one of them")
 
 
-def check_pool(count: float | None, pool_ratio: float, throws: int = 0) -> None:
+def check_pool(count: float | None, pool_ratio: float, darts: int = 0) -> None:
     """Checks that the pool for a count is not too large."""
     if not number(pool_ratio, "pool_ratio") >= 1:
         raise e.invalid(f"pool_ratio is {pool_ratio}, not from 1 to 10,000")
     candidates = float(count or 0) * float(pool_ratio)
-    if throws == 0 and candidates >= 2**32:
+    if darts == 0 and candidates >= 2**32:
         raise e.invalid(
             f"count is {count}, which needs a pool of {candidates:.3g} candidates; the maximum is "
             "4294967295"
@@ -153,13 +153,13 @@ def check_pool(count: float | None, pool_ratio: float, throws: int = 0) -> None:
 
 
 def distance_of(
-    min_distance: float | None, radius: float | None, count: float | None, throws: int = 0
+    min_distance: float | None, radius: float | None, count: float | None, darts: int = 0
 ) -> float | None:
     """Returns the minimum distance, or None where a count chooses it."""
     if count is not None and not (isinstance(count, numbers.Real) and 1 <= count <= 1e300):
         raise e.invalid(f"count is {count!r}, not a number of at least 1")
-    if count is not None and 0 < throws < count:
-        raise e.invalid(f"{throws} throws cannot give {count} samples; raise throws")
+    if count is not None and 0 < darts < count:
+        raise e.invalid(f"{darts} darts cannot give {count} samples; raise darts")
     given = [x is not None for x in (min_distance, radius, count)]
     if sum(given) != 1:
         raise e.invalid("give one of min_distance, radius and count")

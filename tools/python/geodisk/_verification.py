@@ -53,17 +53,17 @@ class Verification:
         Number of samples whose radius does not match the density.
     rho : float
         Packing density; NaN in boxes, and without a minimum distance.
-    given : int
-        Number of samples with a 1 in ``columns["given"]``.
-    given_violations : ndarray of int64, shape (k, 2)
+    existing : int
+        Number of samples with a 1 in ``columns["existing"]``.
+    existing_violations : ndarray of int64, shape (k, 2)
         Pairs of these that are too close, closest first. They count as no violations.
     level_violations : tuple of int
         Numbers of pairs too close for each level of progressive order, among the samples up to its
         end. Empty in dart order, and with `min_distance`.
     masked : int
-        Number of samples on triangles that `face_mask` leaves out, except given ones.
+        Number of samples on triangles that `face_mask` leaves out, except existing ones.
     within_avoided : ndarray of int64, shape (k,)
-        Samples within the radius of a point of `avoid`, except given ones.
+        Samples within the radius of a point of `avoid`, except existing ones.
     is_maximal : bool or None
         With `maximal`, whether no further sample fits anywhere; else None.
     largest_gap : float
@@ -82,8 +82,8 @@ class Verification:
     misplaced: int
     wrong_radii: int
     rho: float
-    given: int
-    given_violations: NDArray[np.int64]
+    existing: int
+    existing_violations: NDArray[np.int64]
     level_violations: tuple[int, ...] = ()
     masked: int = 0
     within_avoided: NDArray[np.int64] = field(default_factory=lambda: np.empty(0, np.int64))
@@ -166,7 +166,7 @@ def verify(
         As for :func:`sample`. Radii are computed again from it and the minimum distance (by default
         that of the samples), and compared with those of the samples.
     face_mask, avoid
-        As for :func:`sample`. All samples but given ones must lie on these triangles, and outside
+        As for :func:`sample`. All samples but existing ones must lie on these triangles, and outside
         the radii of these points.
     maximal : bool, default False
         Whether to check that no further sample fits anywhere. Takes `face_mask` and `avoid` into
@@ -236,7 +236,7 @@ def verify(
         run(place, ["verify", *arguments], accepted=(0, 1))
         report = json.loads((place / "report.json").read_text("utf-8"))
     violations, closest = report["violations"], report["smallest"]
-    given, gaps = report.get("given"), report.get("maximal")
+    existing, gaps = report.get("existing"), report.get("maximal")
     intrusions = (report.get("avoided") or {}).get("intrusions", {})
     gap = None if gaps is None else gaps["largest_gap"]
     distance, rho = report["min_distance"], report.get("rho")
@@ -252,8 +252,8 @@ def verify(
         misplaced=report["outside"] if surface is None else report["off_the_mesh"],
         wrong_radii=report.get("wrong_radii", 0),
         rho=math.nan if rho is None else rho,
-        given=0 if given is None else given["samples"],
-        given_violations=_pairs({} if given is None else given["violations"]),
+        existing=0 if existing is None else existing["samples"],
+        existing_violations=_pairs({} if existing is None else existing["violations"]),
         level_violations=tuple(
             level["violations"]["pairs"] for level in report.get("levels") or []
         ),

@@ -8,16 +8,15 @@ import re
 _PARAMETERS = {
     option: option.replace("-", "_")
     for option in (
-        "allow-outside attributes avoid background columns count cut density device edge-lengths face-keys keep-seams mesh-format "
+        "allow-outside attributes avoid background columns count cut darts density device edge-lengths face-keys keep-seams mesh-format "
         "metric min-distance tolerance pool-ratio radius radius-factor seed size stop-count style up view weld"
     ).split()
-} | {"darts": "throws"}
+}
 # Fields of a request that have another name here.
 _FIELDS = {
     "is_exact": "exact",
     "class_factors": "classes",
     "radii": "radii that vary",
-    "given": "existing",
     "progressive": "order='progressive'",
 }
 _EXCLUSION = re.compile(r"^(\w+) and (\w+)(?= exclude each other: )")

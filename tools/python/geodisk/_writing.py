@@ -39,7 +39,7 @@ WHOLE_COLUMNS = (
     "material",
     "group",
     "part",
-    "given",
+    "existing",
     "class",
     "feature",
     "level",

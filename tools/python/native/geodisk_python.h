@@ -141,9 +141,9 @@ typedef struct geodisk_sampled_set {
     double wanted_count;      /* Samples that the distance was chosen for, or 0. */
     uint64_t cut;             /* Samples of the run that an exact count left out. */
     uint32_t stop_count;      /* As in geodisk_surface_params. */
-    uint32_t throws;
+    uint32_t darts;
     const uint8_t *face_mask; /* As in geodisk_surface_params. */
-    size_t given;             /* Those of the samples that were given, the first. */
+    size_t existing;          /* Those of the samples that existed before, the first. */
     int32_t avoids;           /* Not 0 if there are points to avoid. */
 } geodisk_sampled_set;
 

@@ -61,13 +61,13 @@ std::vector<MeshWarning> warnings_of(const c::Mesh& mesh, const geodisk_source* 
 
 std::vector<MeshWarning> warnings_of_set(const geodisk_sampled_set& given) {
     SampledSet set{.samples = given.count,
-                   .given = given.given,
+                   .existing = given.existing,
                    .avoids = given.avoids != 0,
                    .min_distance = given.min_distance,
                    .wanted_count = given.wanted_count,
                    .cut = given.cut,
                    .stop_count = given.stop_count,
-                   .has_throws = given.throws > 0};
+                   .has_darts = given.darts > 0};
     if (given.mesh == nullptr) {
         set.domain = "box";
         return set_warnings(set);

@@ -106,7 +106,7 @@ void main() {
     float tilt = dot(up, to_eye);
     up = tilt < 0.0 ? -up : up;
     if (task == kArea) {
-        color = vec4(vec3(min(1.0 / abs(tilt), float(kMostTilt)) / float(kMostTilt)), 1);
+        color = vec4(vec3(min(1.0 / abs(tilt), float(kMaxTilt)) / float(kMaxTilt)), 1);
         return;
     }
     // Of a pixel, in units.

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include <geodisk/vertex_sets.hpp>
+#include <geodisk/detail/vertex_sets.hpp>
 
 namespace geodisk {
 namespace {

@@ -5,7 +5,7 @@
 #include <tuple>
 #include <utility>
 
-#include <geodisk/vertex_sets.hpp>
+#include <geodisk/detail/vertex_sets.hpp>
 
 namespace geodisk {
 namespace {

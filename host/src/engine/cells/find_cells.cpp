@@ -26,7 +26,7 @@ std::uint32_t grid_level(const JobFrame& frame, const LitCells& lit) {
     const double step =
         std::max(kSmallestCell * lit.smallest_radius(), kSmallestOfAll * lit.largest_radius());
     const double splits = std::ceil(std::log2(std::max(2.0, frame.longest_edge / step)));
-    return static_cast<std::uint32_t>(std::min<double>(splits, kMostSplits - 1));
+    return static_cast<std::uint32_t>(std::min<double>(splits, kMaxSplits - 1));
 }
 
 class CellSearch {

@@ -9,7 +9,7 @@ namespace geodisk {
 namespace {
 
 // More functions are told apart in smaller cells.
-constexpr std::size_t kMostPieces = 12, kMostLights = 48;
+constexpr std::size_t kMaxPieces = 12, kMaxLights = 48;
 // Distances are nearly linear if they are off by no more than this part of them.
 constexpr double kExact = 0x1p-14;
 
@@ -52,7 +52,7 @@ bool FlatPieces::drop_beaten(double margin) {
         if (is_beaten(piece)) {
             continue;
         }
-        if (piece.function.lit != CornerFunction::kAllLit || functions_.size() == kMostPieces) {
+        if (piece.function.lit != CornerFunction::kAllLit || functions_.size() == kMaxPieces) {
             return false;
         }
         samples_.push_back(piece.sample);
@@ -65,7 +65,7 @@ bool FlatPieces::drop_beaten(double margin) {
 bool FlatPieces::find(const FacePart& part, const LitFaces::Target& target,
                       const NearLights::View& view, std::span<const std::uint32_t> lights,
                       Detail detail) {
-    if (!view.is_lit || lights.size() > kMostLights) {
+    if (!view.is_lit || lights.size() > kMaxLights) {
         return false;
     }
     const CornerFunctions functions(lit_, part, target, lights);

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <tuple>
 
-#include "engine/domain/given.hpp"
+#include "engine/domain/existing.hpp"
 #include "mesh/face_area.hpp"
 
 namespace geodisk {

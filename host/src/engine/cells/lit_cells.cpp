@@ -27,10 +27,10 @@ constexpr double kTie = 0x1p-19;
 // twice.
 constexpr double kFacesPerDisk = 2.5;
 // Maximum of records read at once and of disks of a job, and room for more than expected.
-constexpr double kMostRecords = 0x1p21;
-constexpr double kMostDisks = 0x1p20;
+constexpr double kMaxRecords = 0x1p21;
+constexpr double kMaxDisks = 0x1p20;
 constexpr double kSpareRecords = 1.5;
-constexpr double kLeastRecords = 4096;
+constexpr double kMinRecords = 4096;
 
 } // namespace
 
@@ -68,22 +68,22 @@ bool LitCells::report(const Progress& now) const {
 Error LitCells::too_many(double records) const {
     return {Status::job_too_large, "the cells take about " + number_text(records) +
                                        " records of paths, more than the " +
-                                       std::to_string(cells_.most_records) +
+                                       std::to_string(cells_.max_records) +
                                        " that are allowed; take fewer samples or a simpler mesh"};
 }
 
 Result<std::size_t> LitCells::some_disks(std::span<const std::uint32_t> samples,
                                          const TakeLights& take) {
     const double wanted = kSpareRecords * records_per_disk_;
-    const double most = std::min(kMostRecords, impl_.record_bytes() / sizeof(gpu::LitRec));
+    const double most = std::min(kMaxRecords, impl_.record_bytes() / sizeof(gpu::LitRec));
     const double count = std::floor(
-        std::clamp(std::min(most / wanted, kMostDisks), 1.0, static_cast<double>(samples.size())));
+        std::clamp(std::min(most / wanted, kMaxDisks), 1.0, static_cast<double>(samples.size())));
     const double largest =
         static_cast<double>(impl_.engine().report.limits.max_storage_buffer_range) /
             sizeof(gpu::LitRec) -
         1;
     // A single disk takes all there is where need be.
-    const double room = std::min(wanted * count + kLeastRecords, std::floor(largest));
+    const double room = std::min(wanted * count + kMinRecords, std::floor(largest));
     if (room < records_per_disk_ * count) {
         return Error{Status::job_too_large, "the disk of a sample has about " +
                                                 number_text(records_per_disk_) +
@@ -132,7 +132,7 @@ Result<Done> LitCells::all_disks(std::span<const std::uint32_t> samples, const T
         left_ -= *done;
         const double of_all =
             static_cast<double>(samples.size()) / static_cast<double>(samples.size() - left_);
-        if (lit_.size() > cells_.most_records) {
+        if (lit_.size() > cells_.max_records) {
             return too_many(static_cast<double>(lit_.size()) * of_all);
         }
     }
@@ -158,7 +158,7 @@ Result<Done> LitCells::choose_radii() {
         if (auto lit = all_disks(few, count); !lit) {
             return lit;
         }
-        if (all <= static_cast<double>(cells_.most_records)) {
+        if (all <= static_cast<double>(cells_.max_records)) {
             return Done{};
         }
         if (radius <= kSmallest) {

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "engine/cells/grid_points.hpp"
-#include "engine/domain/given.hpp"
+#include "engine/domain/existing.hpp"
 #include "support/invalid.hpp"
 
 namespace geodisk {
@@ -70,9 +70,9 @@ Result<std::unique_ptr<LitSamples>> LitSamples::make(Runner& runner, const Prepa
     const double each = statistics.area / static_cast<double>(made->samples.size());
     made->job.min_distance =
         std::max(kFirstRadius * std::sqrt(each), statistics.longest_edge / kLongestEdge);
-    made->job.throws = 1; // A pool might be too large, and none is drawn.
+    made->job.darts = 1; // A pool might be too large, and none is drawn.
     const auto frame = frame_of(mesh, made->job);
-    made->job.throws = 0;
+    made->job.darts = 0;
     if (!frame) {
         return frame.error();
     }

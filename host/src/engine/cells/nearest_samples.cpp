@@ -11,7 +11,7 @@
 #include "engine/cells/cells_of.hpp"
 #include "engine/cells/grid_points.hpp"
 #include "engine/cells/near_lights.hpp"
-#include "engine/domain/given.hpp"
+#include "engine/domain/existing.hpp"
 #include "engine/neighbours/check_query.hpp"
 #include "engine/run/runner_impl.hpp"
 #include "mesh/extent.hpp"
@@ -126,11 +126,11 @@ NearestSamples::~NearestSamples() = default;
 
 Result<NearestSamples> NearestSamples::create(Runner& runner, const PreparedMesh& mesh,
                                               std::span<const Sample> samples,
-                                              std::uint64_t most_records,
+                                              std::uint64_t max_records,
                                               const ProgressCallback& progress) noexcept {
     return guarded([&]() -> Result<NearestSamples> {
         CellParams params;
-        params.most_records = most_records;
+        params.max_records = max_records;
         const ProgressCallback heard = [&](Progress now) {
             now.candidates /= 2; // The disks are all there is to compute.
             return progress(now);

@@ -49,7 +49,7 @@ GridDomain::GridDomain(BoxParams box, const DrawAxes& lattice, std::uint32_t wor
 }
 
 // Points and cells must fit too.
-std::uint64_t GridDomain::most_candidates(const DeviceLimits& limits, std::uint32_t slots) const {
+std::uint64_t GridDomain::max_candidates(const DeviceLimits& limits, std::uint32_t slots) const {
     const std::uint64_t words = limits.max_storage_buffer_range / 4;
     return std::min((words - std::uint64_t{slots} * words_per_point_) / (words_per_point_ + 1),
                     std::bit_floor(words - 1) / kHeadsPerCandidate);
@@ -128,7 +128,7 @@ BoxDomain::BoxDomain(const BoxParams& box)
     kernels.domain = DomainKind::box;
     stages = stages_of(box);
     samples_per_measure = samples_per_volume(box);
-    samples = samples_to_expect(stages.samples, box.throws, box.stop_count);
+    samples = samples_to_expect(stages.samples, box.darts, box.stop_count);
     stop_count = box.stop_count;
     dimension = kernels.dimension;
     units = 1;

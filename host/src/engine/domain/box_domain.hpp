@@ -9,7 +9,7 @@ namespace geodisk {
 /// Candidates with coordinates in a box.
 class GridDomain : public Domain::Impl {
   public:
-    std::uint64_t most_candidates(const DeviceLimits& limits, std::uint32_t slots) const override;
+    std::uint64_t max_candidates(const DeviceLimits& limits, std::uint32_t slots) const override;
     void plan_disks(RunPlan& plan, std::uint32_t candidates,
                     const DeviceReport& report) const override;
     double disk_steps(const RunPlan& plan, std::uint32_t candidates) const override;

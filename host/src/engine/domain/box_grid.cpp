@@ -9,8 +9,8 @@ namespace {
 
 // Odd multipliers with well-mixed bits. They hash the cells of an axis if a table cannot hold them
 // all.
-constexpr std::uint32_t kHashStrides[gpu::kMostAxes] = {1u,          0x9E3779B1u, 0xB5297A4Du,
-                                                        0x68E31DA5u, 0x1B56C4E9u, 0x7FEB352Du};
+constexpr std::uint32_t kHashStrides[gpu::kMaxAxes] = {1u,          0x9E3779B1u, 0xB5297A4Du,
+                                                       0x68E31DA5u, 0x1B56C4E9u, 0x7FEB352Du};
 // Bits of a coordinate within a cell for drawing candidates, if the side has the usual length.
 constexpr int kCellBits = 16;
 constexpr int kShortSideBits = 31;

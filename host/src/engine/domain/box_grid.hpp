@@ -13,7 +13,7 @@
 
 namespace geodisk {
 
-static_assert(gpu::kMostAxes == kMostBoxDimensions);
+static_assert(gpu::kMaxAxes == kMaxBoxDimensions);
 
 /// Heads of a cell table per candidate; up to twice as many make a power of two. Sparser tables
 /// cost memory, fuller ones make cells share a head.
@@ -37,7 +37,7 @@ struct DrawAxis {
     std::uint32_t width; ///< Width of every cell but the last, in steps; 0 for 2^32.
     std::uint32_t last_width;
 };
-using DrawAxes = std::array<DrawAxis, gpu::kMostAxes>;
+using DrawAxes = std::array<DrawAxis, gpu::kMaxAxes>;
 DrawAxes draw_axes(const BoxParams& box) noexcept;
 /// Returns axes with 2^32 steps along every side, whatever candidates are drawn by.
 DrawAxes finest_axes(const BoxParams& box) noexcept;
@@ -54,7 +54,7 @@ void sample_point(std::uint64_t seed, const DrawAxes& axes, const gpu::SampleRec
 /// Grid with cells at least half a distance wide. Its table has about as many heads as there are
 /// cells, or candidates if those are fewer; see shaders/lib/grid.glsl.
 struct BoxGrid {
-    std::array<gpu::AxisRec, gpu::kMostAxes> axes{};
+    std::array<gpu::AxisRec, gpu::kMaxAxes> axes{};
     std::uint32_t heads; ///< Number of heads, a power of two.
     float limit2; ///< Squared distance below which candidates conflict, in units of the minimum
                   ///< distance.

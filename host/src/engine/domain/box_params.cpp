@@ -9,7 +9,7 @@
 
 #include "engine/domain/box_grid.hpp"
 #include "engine/domain/stages.hpp"
-#include "geodisk/philox.hpp"
+#include "geodisk/detail/philox.hpp"
 #include "support/guard.hpp"
 #include "support/invalid.hpp"
 #include "support/number_text.hpp"
@@ -23,8 +23,8 @@ struct Density {
     double density;
     double overhang; ///< Border samples have neighbours on one side only.
 };
-constexpr Density kDensities[kMostBoxDimensions] = {{0.726, 0.281}, {0.601, 0.295}, {0.540, 0.280},
-                                                    {0.523, 0.262}, {0.545, 0.245}, {0.597, 0.237}};
+constexpr Density kDensities[kMaxBoxDimensions] = {{0.726, 0.281}, {0.601, 0.295}, {0.540, 0.280},
+                                                   {0.523, 0.262}, {0.545, 0.245}, {0.597, 0.237}};
 
 // Fits a float.
 constexpr double kLargestIntensity = 0x1p126;
@@ -42,7 +42,7 @@ double shortest_side(const BoxParams& box) {
 }
 
 Result<Done> check_sides(const BoxParams& box) {
-    if (box.extents.empty() || box.extents.size() > kMostBoxDimensions) {
+    if (box.extents.empty() || box.extents.size() > kMaxBoxDimensions) {
         return invalid("a box must have 1 to 6 sides, not " + std::to_string(box.extents.size()));
     }
     for (std::size_t axis = 0; axis < box.extents.size(); ++axis) {
@@ -119,10 +119,10 @@ Result<std::uint32_t> pool_size(const BoxParams& box) noexcept {
                 "sides of the box are too short beside the minimum distance; leave them out");
         }
         const double wanted = std::ceil(stages.candidates());
-        if (!(wanted <= kMostCandidates)) {
+        if (!(wanted <= kMaxCandidates)) {
             return invalid("the minimum distance is too small for this box: the pool would take " +
                            number_text(wanted) + " candidates, the maximum is " +
-                           number_text(kMostCandidates));
+                           number_text(kMaxCandidates));
         }
         return static_cast<std::uint32_t>(wanted);
     });
@@ -154,7 +154,7 @@ double samples_per_volume(const BoxParams& box) noexcept {
 
 Stages stages_of(const BoxParams& box) noexcept {
     const double samples = samples_per_volume(box) * volume_of(box);
-    return {samples, pool_ratio_of(box.pool_ratio, samples), box.throws};
+    return {samples, pool_ratio_of(box.pool_ratio, samples), box.darts};
 }
 
 void sample_point(std::uint64_t job_seed, const DrawAxes& axes, const gpu::SampleRec& sample,
@@ -162,7 +162,7 @@ void sample_point(std::uint64_t job_seed, const DrawAxes& axes, const gpu::Sampl
     const auto number = std::bit_cast<std::uint32_t>(sample.weight1);
     const auto stage = std::bit_cast<std::uint32_t>(sample.weight2);
     const std::size_t n = point.size();
-    std::array<std::uint32_t, kMostBoxDimensions> at{};
+    std::array<std::uint32_t, kMaxBoxDimensions> at{};
     std::uint32_t cell = sample.face;
     for (std::size_t i = 0; i < n; ++i) {
         at[i] = cell % axes[i].cells;

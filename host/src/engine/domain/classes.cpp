@@ -42,7 +42,7 @@ std::string pair_text(std::uint32_t a, std::uint32_t b) {
 
 Result<Done> check_factors(const SampleParams& params) {
     const std::uint32_t count = class_count(params);
-    if (count < 2 || count > gpu::kMostClasses ||
+    if (count < 2 || count > gpu::kMaxClasses ||
         std::size_t{count} * count != params.class_factors.size()) {
         return invalid("the table of classes has " + std::to_string(params.class_factors.size()) +
                        " factors; it takes K * K of them for 2 to 8 classes");
@@ -50,9 +50,9 @@ Result<Done> check_factors(const SampleParams& params) {
     for (std::uint32_t a = 0; a < count; ++a) {
         for (std::uint32_t b = 0; b < count; ++b) {
             const double factor = factor_of(params, a, b);
-            if (!(factor >= kLeastClassFactor && factor <= 1)) {
+            if (!(factor >= kMinClassFactor && factor <= 1)) {
                 return invalid("the factor " + pair_text(a, b) + " is " + number_text(factor) +
-                               ", not from " + number_text(kLeastClassFactor) + " to 1");
+                               ", not from " + number_text(kMinClassFactor) + " to 1");
             }
             if (factor != factor_of(params, b, a)) {
                 return invalid("the table of classes is not symmetric: it has two factors " +
@@ -109,9 +109,9 @@ float class_cells_per_unit(const SampleParams& params) noexcept {
 
 Result<Done> check_classes(const SampleParams& params) {
     if (params.class_factors.empty()) {
-        return params.given_classes.empty()
+        return params.existing_classes.empty()
                    ? Result<Done>(Done{})
-                   : invalid("given samples have classes, but there is no table of classes");
+                   : invalid("existing samples have classes, but there is no table of classes");
     }
     if (auto checked = check_factors(params); !checked) {
         return checked;
@@ -119,14 +119,16 @@ Result<Done> check_classes(const SampleParams& params) {
     if (params.radii != nullptr) {
         return invalid("classes take no radii that vary");
     }
-    if (!params.given_classes.empty() && params.given_classes.size() != params.given.size()) {
-        return invalid("there are " + std::to_string(params.given_classes.size()) +
-                       " classes for " + std::to_string(params.given.size()) + " given samples");
+    if (!params.existing_classes.empty() &&
+        params.existing_classes.size() != params.existing.size()) {
+        return invalid("there are " + std::to_string(params.existing_classes.size()) +
+                       " classes for " + std::to_string(params.existing.size()) +
+                       " existing samples");
     }
-    for (std::size_t i = 0; i < params.given_classes.size(); ++i) {
-        if (params.given_classes[i] >= class_count(params)) {
-            return invalid("given sample " + std::to_string(i) + " has class " +
-                           std::to_string(params.given_classes[i]) + ", but there are " +
+    for (std::size_t i = 0; i < params.existing_classes.size(); ++i) {
+        if (params.existing_classes[i] >= class_count(params)) {
+            return invalid("existing sample " + std::to_string(i) + " has class " +
+                           std::to_string(params.existing_classes[i]) + ", but there are " +
                            std::to_string(class_count(params)) + ", numbered from 0");
         }
     }
@@ -145,7 +147,7 @@ void add_classes(const SampleParams& params, UploadParts& parts) {
     const auto word_of = [](double x) {
         return std::bit_cast<std::uint32_t>(static_cast<float>(x));
     };
-    std::fill_n(table.begin(), gpu::kMostClasses, ~0u);
+    std::fill_n(table.begin(), gpu::kMaxClasses, ~0u);
     const std::uint32_t count = class_count(params);
     const double all = class_density(params);
     double below = 0, densest = 0;
@@ -161,7 +163,7 @@ void add_classes(const SampleParams& params, UploadParts& parts) {
         }
         table[gpu::kClassReaches + a] = word_of(reach_of(params, a));
         for (std::uint32_t b = 0; b < count; ++b) {
-            table[gpu::kClassDistances + gpu::kMostClasses * a + b] =
+            table[gpu::kClassDistances + gpu::kMaxClasses * a + b] =
                 word_of(factor_of(params, a, b));
         }
     }

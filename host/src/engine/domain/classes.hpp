@@ -27,7 +27,7 @@ double class_crowding(const SampleParams& params) noexcept;
 /// largest distances that the classes have, and more than a quarter.
 float class_cells_per_unit(const SampleParams& params) noexcept;
 
-/// Checks the table, the classes of given samples, and that nothing contradicts them.
+/// Checks the table, the classes of existing samples, and that nothing contradicts them.
 Result<Done> check_classes(const SampleParams& params);
 
 /// Returns the bytes of the table of classes; 0 if samples have none.

@@ -27,7 +27,7 @@ struct MaximalJob {
     const PreparedMesh* mesh;
     SampleParams params; ///< Of the first samples, without the samples and points below.
     JobFrame frame;
-    std::vector<Sample> given;
+    std::vector<Sample> existing;
     std::vector<KeepOut> avoid;
 };
 
@@ -42,7 +42,7 @@ struct Domain::Impl {
     double samples = 0; ///< Expected samples, limited by the stop count and the number of darts.
     std::uint32_t stop_count = 0; ///< Stop count, or 0.
     std::uint64_t seed = 0;
-    /// Points to avoid, then given samples, to upload as the first samples.
+    /// Points to avoid, then existing samples, to upload as the first samples.
     std::vector<gpu::SampleRec> settled;
     std::uint32_t avoided = 0; ///< How many of them are points to avoid.
     std::uint32_t classes = 0; ///< Number of classes; 0 if samples have none.
@@ -69,8 +69,7 @@ struct Domain::Impl {
     static Domain wrap(std::unique_ptr<const Impl> impl) { return Domain(std::move(impl)); }
 
     /// Returns the maximum of candidates that one binding holds, with this many slots.
-    virtual std::uint64_t most_candidates(const DeviceLimits& limits,
-                                          std::uint32_t slots) const = 0;
+    virtual std::uint64_t max_candidates(const DeviceLimits& limits, std::uint32_t slots) const = 0;
     /// Sets what disks need in a plan with slots, if this many candidates are drawn at once:
     /// disks_by unless it is `lanes`, lanes, window_capacity, table_capacity, list_capacity and
     /// error_bound.

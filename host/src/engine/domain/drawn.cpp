@@ -4,7 +4,7 @@
 #include <array>
 #include <tuple>
 
-#include <geodisk/philox.hpp>
+#include <geodisk/detail/philox.hpp>
 
 #include "constants.h"
 #include "engine/domain/device_mesh.hpp"
@@ -116,7 +116,7 @@ void CandidateDraw::draw(std::uint32_t face, std::uint32_t stage,
         DrawnCandidate drawn{stage, random[0] >> (32u - gpu::kPriorityBits), {face, 0, 0}};
         weigh_evenly(drawn.point, random);
         bool is_kept = params.radii == nullptr || propose(drawn.point, radii, random);
-        for (std::uint32_t proposal = 1; proposal < gpu::kMostProposals && !is_kept; ++proposal) {
+        for (std::uint32_t proposal = 1; proposal < gpu::kMaxProposals && !is_kept; ++proposal) {
             random = philox(params.seed, {key, number, stage, proposal});
             weigh_evenly(drawn.point, random);
             is_kept = propose(drawn.point, radii, random);

@@ -8,7 +8,7 @@
 
 #include "constants.h"
 #include "engine/domain/face_mask.hpp"
-#include "geodisk/philox.hpp"
+#include "geodisk/detail/philox.hpp"
 #include "support/guard.hpp"
 #include "support/invalid.hpp"
 
@@ -17,7 +17,7 @@ namespace {
 
 /// Darts per minimum distance along a curve. About 0.75 samples fit there, with few gaps left.
 constexpr double kDartsPerDistance = 64;
-constexpr double kMostDarts = 0x1p28;
+constexpr double kMaxDarts = 0x1p28;
 // Philox counters of darts on half-edges, by the corner of the face; candidates have other stages.
 constexpr std::uint32_t kFeatureStage = 0xfea70000u;
 /// Returns a half-edge of the edge of h whose face takes samples.
@@ -94,8 +94,8 @@ Result<Done> check(const PreparedMesh& mesh, const SampleParams& params, const F
     if (features.mesh() != mesh.identity()) {
         return invalid("the features are of another mesh");
     }
-    if (params.throws != 0) {
-        return invalid("samples on features come from no darts; leave out `throws`");
+    if (params.darts != 0) {
+        return invalid("samples on features come from no darts; leave out `darts`");
     }
     if (!params.class_factors.empty()) {
         return invalid("samples on features have no classes");
@@ -110,7 +110,7 @@ Result<Done> check(const PreparedMesh& mesh, const SampleParams& params, const F
     for (const std::uint32_t h : features.edges()) {
         expected += darts_on(mesh, params, h) + 1;
     }
-    if (!(expected <= kMostDarts)) {
+    if (!(expected <= kMaxDarts)) {
         return invalid("the minimum distance is too small: the curves would take more than 2^28 "
                        "darts");
     }

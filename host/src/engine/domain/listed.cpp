@@ -19,15 +19,15 @@
 namespace geodisk {
 namespace {
 
-constexpr std::size_t kMostListed = std::size_t{1} << gpu::kPriorityBits;
+constexpr std::size_t kMaxListed = std::size_t{1} << gpu::kPriorityBits;
 
 Result<Done> check_listed(const PreparedMesh& mesh, const SampleParams& params,
                           std::span<const ListedCandidate> candidates) {
-    if (candidates.empty() || candidates.size() > kMostListed) {
+    if (candidates.empty() || candidates.size() > kMaxListed) {
         return invalid("a list of candidates has 1 to 2^28, not " +
                        std::to_string(candidates.size()));
     }
-    if (params.throws != 0) {
+    if (params.darts != 0) {
         return invalid("candidates are listed, so there are no darts to throw");
     }
     if (!params.class_factors.empty()) {
@@ -96,8 +96,8 @@ std::vector<std::uint32_t> sort_by_cell(const PlacedSurface& surface, const Face
 
 Stages listed_stages(double samples, std::size_t candidates) {
     Stages stages{samples, static_cast<double>(candidates) / samples};
-    stages.most_stages = 1;
-    stages.most_expected = static_cast<double>(candidates);
+    stages.max_stages = 1;
+    stages.max_expected = static_cast<double>(candidates);
     return stages;
 }
 
@@ -143,8 +143,7 @@ Result<Domain> SurfaceDomain::listed(const PreparedMesh& mesh, const SampleParam
 Result<Domain> SurfaceDomain::recording(const PreparedMesh& mesh, const SampleParams& params,
                                         const JobFrame& frame, Ending ending,
                                         std::span<const ListedCandidate> targets,
-                                        std::uint32_t most_records,
-                                        std::span<const double> bounds) {
+                                        std::uint32_t max_records, std::span<const double> bounds) {
     // A job needs a candidate. No candidate is ever decided.
     const ListedCandidate candidate{0, 0, 0};
     const auto candidates = targets.empty() ? std::span(&candidate, 1) : targets;
@@ -163,9 +162,9 @@ Result<Domain> SurfaceDomain::recording(const PreparedMesh& mesh, const SamplePa
     std::vector<std::uint32_t>& words = made->listed_.weights;
     words.resize(targets.empty() ? 0 : (words.size() + 3) / 4 * 4, 0);
     const auto first = static_cast<std::uint32_t>(1 + words.size() / 4);
-    words.insert(words.begin(), {0, most_records, first, 0});
+    words.insert(words.begin(), {0, max_records, first, 0});
     const std::size_t bytes = ending == Ending::light ? sizeof(gpu::LitRec) : sizeof(gpu::HitRec);
-    made->record_bytes_ = words.size() * sizeof words[0] + std::uint64_t{most_records} * bytes;
+    made->record_bytes_ = words.size() * sizeof words[0] + std::uint64_t{max_records} * bytes;
     made->samples = std::max<double>(1, static_cast<double>(made->settled.size()));
     if (!bounds.empty()) {
         made->set_bounds(bounds);

@@ -30,12 +30,12 @@ struct ListedCandidate {
 };
 
 /// Makes the domain of a surface whose only candidates are these, decided in the order of the list
-/// after the given samples of `params`. Samples are the accepted ones in that order, behind the
-/// given ones. The seed and the pool ratio have no effect. Kernels draw nothing: a recorded job
+/// after the existing samples of `params`. Samples are the accepted ones in that order, behind the
+/// existing ones. The seed and the pool ratio have no effect. Kernels draw nothing: a recorded job
 /// must upload the data again before it restarts. `mesh` and `params` as for Domain::surface().
 ///
-/// Errors: those of Domain::surface(); `invalid_argument` for no candidate, more than 2^28, darts
-/// (`throws`), classes, or a candidate, naming it, in a face that does not exist or with weights
+/// Errors: those of Domain::surface(); `invalid_argument` for no candidate, more than 2^28,
+/// `darts`, classes, or a candidate, naming it, in a face that does not exist or with weights
 /// that sum to more than 1.
 GEODISK_API Result<Domain> listed_domain(const PreparedMesh& mesh, const SampleParams& params,
                                          std::span<const ListedCandidate> candidates) noexcept;

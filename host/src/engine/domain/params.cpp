@@ -5,8 +5,8 @@
 #include <string>
 
 #include "engine/domain/classes.hpp"
+#include "engine/domain/existing.hpp"
 #include "engine/domain/face_mask.hpp"
-#include "engine/domain/given.hpp"
 #include "engine/domain/stages.hpp"
 #include "support/guard.hpp"
 #include "support/invalid.hpp"
@@ -28,16 +28,16 @@ Result<Done> check_largest_face(const PreparedMesh& mesh, const SampleParams& pa
     const double longest = mesh.statistics().longest_edge;
     const double densest =
         params.radii != nullptr ? params.radii->largest_density() : class_density(params);
-    if (longest * longest * densest * most < kMostPerFace) {
+    if (longest * longest * densest * most < kMaxPerFace) {
         return Done{};
     }
     for (std::uint32_t face = 0; face < mesh.face_count(); ++face) {
         const double expected = expected_in_face(mesh, params, face, most);
-        if (!(expected <= kMostPerFace)) {
+        if (!(expected <= kMaxPerFace)) {
             return Error{Status::invalid_argument,
                          "the minimum distance is too small for this mesh: face " +
                              std::to_string(face) + " alone expects " + number_text(expected) +
-                             " candidates at once, the maximum is " + number_text(kMostPerFace) +
+                             " candidates at once, the maximum is " + number_text(kMaxPerFace) +
                              "; split it",
                          face};
         }
@@ -77,7 +77,7 @@ Result<Done> check_maximal(const SampleParams& params) {
     if (!params.maximal) {
         return Done{};
     }
-    if (params.throws != 0) {
+    if (params.darts != 0) {
         return invalid("a maximal set ends when no sample fits, not after a number of darts");
     }
     if (params.stop_count != 0) {
@@ -173,7 +173,7 @@ Result<Done> check_params(const PreparedMesh& mesh, const SampleParams& params) 
     if (auto checked = check_maximal(params); !checked) {
         return checked.error();
     }
-    return check_given(mesh, params);
+    return check_existing(mesh, params);
 }
 
 Result<std::uint32_t> check_candidates(const PreparedMesh& mesh, const SampleParams& params,
@@ -190,10 +190,10 @@ Result<std::uint32_t> check_candidates(const PreparedMesh& mesh, const SamplePar
                              "any area");
     }
     const double wanted = std::ceil(stages.candidates());
-    if (!(wanted <= kMostCandidates)) {
+    if (!(wanted <= kMaxCandidates)) {
         return invalid("the minimum distance is too small for this surface: the pool would take " +
                        number_text(wanted) + " candidates, the maximum is " +
-                       number_text(kMostCandidates));
+                       number_text(kMaxCandidates));
     }
     const double longest = mesh.statistics().longest_edge / params.min_distance;
     if (!(longest <= kLongestEdge)) {

@@ -9,8 +9,8 @@ namespace {
 constexpr float kSmallestProbability = 0x1p-32f;
 constexpr float kSmallestMean = 0x1p-40f;
 constexpr float kLargestTailMean = 8;
-constexpr std::uint32_t kMostTailSteps = 64;
-constexpr int kMostFactor = 8; // Terms of the series of 1 - exp(-r).
+constexpr std::uint32_t kMaxTailSteps = 64;
+constexpr int kMaxFactor = 8; // Terms of the series of 1 - exp(-r).
 
 /// Returns a number in (0, 1).
 float unit_fraction(std::uint32_t word) {
@@ -23,7 +23,7 @@ std::uint32_t poisson_tail(float mean, std::uint32_t word) {
     const float fraction = unit_fraction(word);
     const float r = mean * 0.0625f;
     float series = 1;
-    for (int k = kMostFactor; k >= 2; --k) {
+    for (int k = kMaxFactor; k >= 2; --k) {
         series = 1.0f - r * (1.0f / static_cast<float>(k)) * series;
     }
     float any = r * series; // P(N >= n + 1)
@@ -33,7 +33,7 @@ std::uint32_t poisson_tail(float mean, std::uint32_t word) {
         any = any * (2.0f - any);
     }
     std::uint32_t n = 0;
-    while (fraction < any && p > kSmallestProbability && n < kMostTailSteps) {
+    while (fraction < any && p > kSmallestProbability && n < kMaxTailSteps) {
         ++n;
         p = ratio(p * mean, static_cast<float>(n));
         any = any - p;

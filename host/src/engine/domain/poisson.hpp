@@ -5,7 +5,7 @@
 
 namespace geodisk {
 
-/// Returns a Poisson number of a mean up to kMostPerFace, from two random words. It is the one that
+/// Returns a Poisson number of a mean up to kMaxPerFace, from two random words. It is the one that
 /// kernels compute, to the bit.
 std::uint32_t poisson(float mean, std::uint32_t first, std::uint32_t second);
 

@@ -11,8 +11,8 @@
 #include "bindings.h"
 #include "engine/capacity.hpp"
 #include "engine/domain/device_mesh.hpp"
+#include "engine/domain/existing.hpp"
 #include "engine/domain/face_mask.hpp"
-#include "engine/domain/given.hpp"
 #include "engine/domain/stages.hpp"
 #include "engine/domain/tolerances.hpp"
 #include "support/guard.hpp"
@@ -158,11 +158,11 @@ SpaceDomain::SpaceDomain(const MeshView& view, const PreparedMesh& mesh, const S
     kernels.curved = metric == Metric::approximate;
     stages = stages_of(mesh, params);
     samples_per_measure = samples_per_area();
-    samples = samples_to_expect(stages.samples, params.throws, params.stop_count);
+    samples = samples_to_expect(stages.samples, params.darts, params.stop_count);
     stop_count = params.stop_count;
     units = mesh.face_count();
     first_faces = {0, mesh.face_count()};
-    add_given(params, 0, settled);
+    add_existing(params, 0, settled);
 }
 
 void SpaceDomain::add_needs(WorkspaceNeeds& needs, std::uint32_t candidates,

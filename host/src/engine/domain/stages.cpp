@@ -11,46 +11,47 @@
 namespace geodisk {
 namespace {
 
-constexpr double kMostDartsOfStage = 0x1p23;
-constexpr double kMostDartsPerSample = 640;
+constexpr double kMaxDartsOfStage = 0x1p23;
+constexpr double kMaxDartsPerSample = 640;
 // Candidates of a small face, in the mean over all candidates. By measurement.
-constexpr double kMostInSmallFace = 24;
+constexpr double kMaxInSmallFace = 24;
 
 } // namespace
 
 std::uint32_t Stages::pool_stages() const noexcept {
-    if (most_stages != 0) {
-        return most_stages;
+    if (max_stages != 0) {
+        return max_stages;
     }
     return static_cast<std::uint32_t>(
-        std::clamp(std::ceil(ratio / kStageRatio), 1.0, double{kMostPoolStages}));
+        std::clamp(std::ceil(ratio / kStageRatio), 1.0, double{kMaxPoolStages}));
 }
 
 double Stages::per_sample(std::uint32_t stage) const noexcept {
     if (!is_counted()) {
         return ratio / pool_stages();
     }
-    double darts = kStageRatio;
+    double per_sample = kStageRatio;
     const double whole = of_whole > 0 ? of_whole : samples;
-    const double most = std::min(kMostDartsPerSample, kMostDartsOfStage / whole);
-    while (darts > most) { // By powers of two, so that an edit of the mesh hardly ever changes it.
-        darts /= 2;
+    const double most = std::min(kMaxDartsPerSample, kMaxDartsOfStage / whole);
+    while (per_sample >
+           most) { // By powers of two, so that an edit of the mesh hardly ever changes it.
+        per_sample /= 2;
     }
-    for (std::uint32_t s = 0; s < stage && 2 * darts <= most; ++s) {
-        darts *= 2;
+    for (std::uint32_t s = 0; s < stage && 2 * per_sample <= most; ++s) {
+        per_sample *= 2;
     }
-    return std::max(darts, kLeastPool / whole);
+    return std::max(per_sample, kMinPool / whole);
 }
 
 std::uint32_t Stages::left(std::uint32_t done, std::uint64_t drawn) const noexcept {
     if (is_counted()) {
-        return drawn < throws ? 1 : 0;
+        return drawn < darts ? 1 : 0;
     }
     return pool_stages() - std::min(done, pool_stages());
 }
 
 std::uint64_t Stages::still_wanted(std::uint64_t drawn) const noexcept {
-    return is_counted() ? throws - std::min<std::uint64_t>(drawn, throws) : ~std::uint64_t{0};
+    return is_counted() ? darts - std::min<std::uint64_t>(drawn, darts) : ~std::uint64_t{0};
 }
 
 double Stages::expected_at_once(std::uint32_t stages) const noexcept {
@@ -59,7 +60,7 @@ double Stages::expected_at_once(std::uint32_t stages) const noexcept {
     }
     // The last that there may be is the largest.
     double last = 0, all = 0;
-    for (std::uint32_t s = 0; all < 2.0 * throws && s < gpu::kMostDartStages; ++s) {
+    for (std::uint32_t s = 0; all < 2.0 * darts && s < gpu::kMaxDartStages; ++s) {
         last = expected(s);
         all += last;
     }
@@ -67,7 +68,7 @@ double Stages::expected_at_once(std::uint32_t stages) const noexcept {
 }
 
 double pool_ratio_of(double asked, double samples) {
-    return std::max(asked, kLeastPool / samples);
+    return std::max(asked, kMinPool / samples);
 }
 
 Stages stages_of(const PreparedMesh& mesh, const SampleParams& params) {
@@ -77,16 +78,16 @@ Stages stages_of(const PreparedMesh& mesh, const SampleParams& params) {
 Stages stages_of(const PreparedMesh& mesh, const SampleParams& params, double area) {
     // A distance beyond all those of the mesh is as good as one just beyond.
     const double samples = expected_count(area, working_distance(mesh, params));
-    return {samples, pool_ratio_of(params.pool_ratio, samples), params.throws};
+    return {samples, pool_ratio_of(params.pool_ratio, samples), params.darts};
 }
 
 Stages stages_in(const JobFrame& frame, const SampleParams& params) {
-    return {frame.samples, frame.pool_ratio, params.throws};
+    return {frame.samples, frame.pool_ratio, params.darts};
 }
 
 Stages stages_in(const JobFrame& frame, const PreparedMesh& mesh, const SampleParams& params) {
     Stages stages{expected_count(effective_area(mesh, params), frame.unit), frame.pool_ratio,
-                  params.throws};
+                  params.darts};
     stages.of_whole = frame.samples;
     return stages;
 }
@@ -120,7 +121,7 @@ void FaceCrowding::add(const PreparedMesh& mesh, const SampleParams& params, con
 }
 
 bool FaceCrowding::is_small() const noexcept {
-    return squares_ <= kMostInSmallFace * sum_;
+    return squares_ <= kMaxInSmallFace * sum_;
 }
 
 bool has_small_faces(const PreparedMesh& mesh, const SampleParams& params) {

@@ -8,7 +8,7 @@
 namespace geodisk {
 
 /// Fewer candidates are not worth a pool.
-inline constexpr double kLeastPool = 64;
+inline constexpr double kMinPool = 64;
 
 /// Returns the candidates of a pool per expected sample: as many as asked for, or those of the
 /// least pool.

@@ -11,8 +11,8 @@
 #include "engine/domain/check_frame.hpp"
 #include "engine/domain/classes.hpp"
 #include "engine/domain/device_mesh.hpp"
+#include "engine/domain/existing.hpp"
 #include "engine/domain/face_mask.hpp"
-#include "engine/domain/given.hpp"
 #include "engine/domain/stages.hpp"
 #include "mesh/edge_paths.hpp"
 #include "records.h"
@@ -33,19 +33,19 @@ constexpr double kVeryLarge = 8192;
 constexpr double kVeryLargeCost = 0.9;
 // Conflicts to provide for, per candidate that a full surface has for each sample.
 constexpr double kListPerCrowd = 8;
-constexpr double kLeastList = 8;
+constexpr double kMinList = 8;
 
-// Given samples per sample that a full surface holds, from which on their disks overlap so much
+// Existing samples per sample that a full surface holds, from which on their disks overlap so much
 // that bounds pay.
-constexpr double kCrowdedGiven = 4;
+constexpr double kCrowdedExisting = 4;
 // Paths end at vertices that are this much farther than their bound, in units of the frame: more
 // than rounding does to distances. Bounds are not above the most, far beyond any disk.
 constexpr double kBoundMargin = 0.002;
-constexpr double kMostBound = 1e30;
+constexpr double kMaxBound = 1e30;
 
 // Of several surfaces, as of one.
-constexpr std::uint64_t kMostHalfEdges = std::uint64_t{1} << 30;
-constexpr std::uint64_t kMostVertices = gpu::kVertexMask;
+constexpr std::uint64_t kMaxHalfEdges = std::uint64_t{1} << 30;
+constexpr std::uint64_t kMaxVertices = gpu::kVertexMask;
 
 /// Windows and corners of a disk that covers so many faces, by measurement.
 double trips_over(double faces) {
@@ -81,14 +81,13 @@ Stages stages_of(PlacedSurfaces surfaces) {
         const Stages& own = surface.stages;
         all.samples += own.samples;
         pool += own.pool();
-        all.most_stages = std::max(all.most_stages, own.pool_stages());
-        all.most_expected += own.expected(0);
+        all.max_stages = std::max(all.max_stages, own.pool_stages());
+        all.max_expected += own.expected(0);
     }
     all.ratio = pool / all.samples;
     for (const AlikeSurfaces& alike : alike_surfaces(surfaces)) {
-        all.most_variance += alike.deviation * alike.deviation;
-        all.most_alike =
-            std::max(all.most_alike, static_cast<std::uint32_t>(alike.surfaces.size()));
+        all.max_variance += alike.deviation * alike.deviation;
+        all.max_alike = std::max(all.max_alike, static_cast<std::uint32_t>(alike.surfaces.size()));
     }
     return all;
 }
@@ -117,7 +116,7 @@ Result<PlacedSurface> place(const SurfacePart& part) {
     if (!frame) {
         return frame.error();
     }
-    if (params.throws != 0 || params.stop_count != 0) {
+    if (params.darts != 0 || params.stop_count != 0) {
         return invalid("of several surfaces, darts and samples are not counted");
     }
     if (!params.class_factors.empty()) {
@@ -190,8 +189,8 @@ Result<Domain> Domain::surfaces(std::span<const SurfacePart> parts) noexcept {
             vertices += part.mesh->vertex_count();
             corners += part.mesh->corners().size();
             candidates += next->stages.candidates();
-            if (half_edges > kMostHalfEdges || vertices > kMostVertices ||
-                candidates > kMostCandidates) {
+            if (half_edges > kMaxHalfEdges || vertices > kMaxVertices ||
+                candidates > kMaxCandidates) {
                 return in_part(surfaces.size(),
                                invalid("with those before it is too large for one job, which may "
                                        "have 2^30 half-edges, 2^30 vertices and 2^32 candidates"));
@@ -210,7 +209,7 @@ SurfaceDomain::make(std::vector<PlacedSurface> surfaces) {
         return cells.error();
     }
     auto made = std::make_unique<SurfaceDomain>(std::move(surfaces), std::move(*cells));
-    made->bound_given();
+    made->bound_existing();
     return std::unique_ptr<const Impl>(std::move(made));
 }
 
@@ -236,7 +235,7 @@ SurfaceDomain::SurfaceDomain(std::vector<PlacedSurface> surfaces, FaceCells cell
     }
     avoided = static_cast<std::uint32_t>(settled.size());
     for (const PlacedSurface& surface : surfaces_) {
-        add_given(surface.params, surface.first_face, settled);
+        add_existing(surface.params, surface.first_face, settled);
     }
     first_faces.push_back(face_count(surfaces_));
     kernels.domain = DomainKind::surface;
@@ -254,13 +253,13 @@ SurfaceDomain::SurfaceDomain(std::vector<PlacedSurface> surfaces, FaceCells cell
         maximal = MaximalJob{surfaces_[0].mesh,
                              params,
                              surfaces_[0].frame,
-                             {params.given.begin(), params.given.end()},
+                             {params.existing.begin(), params.existing.end()},
                              {params.avoid.begin(), params.avoid.end()}};
         maximal->params.maximal = false;
-        maximal->params.given = {};
+        maximal->params.existing = {};
         maximal->params.avoid = {};
     }
-    samples = samples_to_expect(full_, params.throws, params.stop_count);
+    samples = samples_to_expect(full_, params.darts, params.stop_count);
     stop_count = params.stop_count;
     seed = kernels.several ? 0 : params.seed;
     units = face_count(surfaces_);
@@ -272,17 +271,17 @@ void SurfaceDomain::set_bounds(std::span<const double> bounds) {
     const double unit = surfaces_[0].frame.unit;
     bounds_.assign((bounds.size() + 3) / 4 * 4, 0); // Whole rows.
     std::ranges::transform(bounds, bounds_.begin(), [unit](double bound) {
-        return static_cast<float>(std::min(bound / unit + kBoundMargin, kMostBound));
+        return static_cast<float>(std::min(bound / unit + kBoundMargin, kMaxBound));
     });
     kernels.bounded = true;
 }
 
-void SurfaceDomain::bound_given() {
-    const std::span<const Sample> given = surfaces_[0].params.given;
+void SurfaceDomain::bound_existing() {
+    const std::span<const Sample> given = surfaces_[0].params.existing;
     // With radii or distances that differ, a sample that is farther may reject what a nearer one
     // does not.
     if (kernels.several || kernels.adaptive || kernels.classes || maximal ||
-        static_cast<double>(given.size()) < kCrowdedGiven * whole_) {
+        static_cast<double>(given.size()) < kCrowdedExisting * whole_) {
         return;
     }
     EdgePaths paths(*surfaces_[0].mesh);
@@ -292,7 +291,7 @@ void SurfaceDomain::bound_given() {
     set_bounds(paths.lengths());
 }
 
-std::uint64_t SurfaceDomain::most_candidates(const DeviceLimits& limits, std::uint32_t) const {
+std::uint64_t SurfaceDomain::max_candidates(const DeviceLimits& limits, std::uint32_t) const {
     return limits.max_storage_buffer_range / (2 * sizeof(std::uint32_t)); // Two weights each.
 }
 
@@ -306,7 +305,7 @@ void SurfaceDomain::plan_disks(RunPlan& plan, std::uint32_t candidates,
         plan.disks_by = DisksBy::groups;
         plan.pool_block = 1;
         // More than it has threads would be disks in vain.
-        plan.slots = cpu ? std::min(plan.slots, std::max(kLeastSlots, cpu_threads())) : plan.slots;
+        plan.slots = cpu ? std::min(plan.slots, std::max(kMinSlots, cpu_threads())) : plan.slots;
         plan.lanes = cpu ? std::min(plan.slots, cpu_threads()) : plan.slots;
         plan.window_capacity = pow2_at_least(128 + 4 * faces);
     } else {
@@ -318,7 +317,7 @@ void SurfaceDomain::plan_disks(RunPlan& plan, std::uint32_t candidates,
     }
     plan.table_capacity = pow2_at_least((cpu ? 48 : 16) + 4 * faces);
     const double crowd = class_crowding(surfaces_[0].params) * candidates / full_;
-    plan.list_capacity = pow2_at_least(std::max(kLeastList, kListPerCrowd * crowd));
+    plan.list_capacity = pow2_at_least(std::max(kMinList, kListPerCrowd * crowd));
     plan.error_bound = first_error_;
 }
 
@@ -385,7 +384,7 @@ void SurfaceDomain::set_constants(gpu::JobRec& job, const RunPlan& plan) const {
     job.first_class_row =
         job.first_key_row +
         static_cast<std::uint32_t>((key_bytes(surfaces_) + mask_bytes(surfaces_)) / kRowBytes);
-    job.most_lag = std::ranges::max(surfaces_, {}, &PlacedSurface::lag).lag;
+    job.max_lag = std::ranges::max(surfaces_, {}, &PlacedSurface::lag).lag;
     job.vertices = vertex_count(surfaces_);
     job.path_rules = gpu::kRuleSplitsOnce | gpu::kRuleStraightFaces;
     for (const PlacedSurface& surface : surfaces_) {

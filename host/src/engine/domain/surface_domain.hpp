@@ -23,14 +23,13 @@ class SurfaceDomain : public Domain::Impl {
                                  const JobFrame& frame,
                                  std::span<const ListedCandidate> candidates);
 
-    /// Makes the domain of the given samples and points to avoid of `params`, whose disks record
+    /// Makes the domain of the existing samples and points to avoid of `params`, whose disks record
     /// what `ending` says, at most so many times. To record what they reach is for these targets,
     /// or without any for vertices. `bounds` as for set_bounds(), if there are any.
     static Result<Domain> recording(const PreparedMesh& mesh, const SampleParams& params,
                                     const JobFrame& frame, Ending ending,
                                     std::span<const ListedCandidate> targets,
-                                    std::uint32_t most_records,
-                                    std::span<const double> bounds = {});
+                                    std::uint32_t max_records, std::span<const double> bounds = {});
     /// Makes the domain of a surface whose parameters are checked.
     static Result<Domain> plain(const PreparedMesh& mesh, const SampleParams& params,
                                 const JobFrame& frame);
@@ -38,7 +37,7 @@ class SurfaceDomain : public Domain::Impl {
     /// Returns the number of the target at each place, of recording() with targets.
     std::span<const std::uint32_t> target_numbers() const { return listed_.numbers; }
 
-    std::uint64_t most_candidates(const DeviceLimits& limits, std::uint32_t slots) const override;
+    std::uint64_t max_candidates(const DeviceLimits& limits, std::uint32_t slots) const override;
     void plan_disks(RunPlan& plan, std::uint32_t candidates,
                     const DeviceReport& report) const override;
     double disk_steps(const RunPlan& plan, std::uint32_t candidates) const override;
@@ -55,12 +54,13 @@ class SurfaceDomain : public Domain::Impl {
     double guard_for(double error_bound) const override { return error.guard_for(error_bound); }
 
   private:
-    /// Ends the disks of given samples at vertices that are farther than this, in mesh units: only
-    /// where something else is nearer, whatever is behind. For one surface whose radii do not vary.
+    /// Ends the disks of existing samples at vertices that are farther than this, in mesh units:
+    /// only where something else is nearer, whatever is behind. For one surface whose radii do not
+    /// vary.
     void set_bounds(std::span<const double> bounds);
-    /// Sets those by which the disks of given samples, if they overlap a lot, end where another of
-    /// them is nearer.
-    void bound_given();
+    /// Sets those by which the disks of existing samples, if they overlap a lot, end where another
+    /// of them is nearer.
+    void bound_existing();
     /// Returns what the host gives of a buffer of candidates.
     std::span<const std::uint32_t> listed_words(BufferRole role) const;
     double faces_per_disk() const { return 2.0 * face_count(surfaces_) / whole_; }

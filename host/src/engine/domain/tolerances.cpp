@@ -9,12 +9,12 @@ namespace geodisk {
 namespace {
 
 constexpr double kRounding = 0x1p-22;
-constexpr double kLeastSlack = 16; // In roundings.
+constexpr double kMinSlack = 16; // In roundings.
 // Factors are floats, and radii are summed in float: each errs by 2^-23 at most.
 constexpr double kRadiiRounding = 0x1p-21;
-constexpr double kLeastChain = 64;
-constexpr double kMostChain = 1u << 16;
-constexpr double kLeastGuard = 0x1p-13;
+constexpr double kMinChain = 64;
+constexpr double kMaxChain = 1u << 16;
+constexpr double kMinGuard = 0x1p-13;
 // Where radii vary: what is added to a small radius matters more.
 constexpr double kRadiiLeastGuard = 0x1p-15;
 
@@ -45,12 +45,12 @@ double working_distance(const PreparedMesh& mesh, const SampleParams& params) {
 
 ErrorModel::ErrorModel(const JobFrame& frame)
     : longest_(frame.longest_edge), further_(frame.radii_vary ? kRadiiRounding : 0),
-      least_guard_(frame.radii_vary ? kRadiiLeastGuard : kLeastGuard), per_crossing_(kRounding) {}
+      min_guard_(frame.radii_vary ? kRadiiLeastGuard : kMinGuard), per_crossing_(kRounding) {}
 
 void ErrorModel::widen(const ErrorModel& other) noexcept {
     longest_ = std::max(longest_, other.longest_);
     further_ = std::max(further_, other.further_);
-    least_guard_ = std::min(least_guard_, other.least_guard_);
+    min_guard_ = std::min(min_guard_, other.min_guard_);
     per_crossing_ = std::max(per_crossing_, other.per_crossing_);
 }
 
@@ -62,13 +62,13 @@ double ErrorModel::error_of(std::uint32_t chain, bool trims) const noexcept {
 }
 
 double ErrorModel::guard_for(double error_bound) const noexcept {
-    return power_of_two_from(error_bound - further_, least_guard_) + further_;
+    return power_of_two_from(error_bound - further_, min_guard_) + further_;
 }
 
 Tolerances ErrorModel::tolerances(double error_bound) const noexcept {
     const double guard = guard_for(error_bound);
     return {static_cast<float>(1 + guard), static_cast<float>(error_bound),
-            static_cast<float>(kRounding * power_of_two_from(2 + longest_, kLeastSlack)), guard,
+            static_cast<float>(kRounding * power_of_two_from(2 + longest_, kMinSlack)), guard,
             error_bound};
 }
 
@@ -76,8 +76,7 @@ Tolerances ErrorModel::tolerances(double error_bound) const noexcept {
 std::uint32_t guessed_chain(const PreparedMesh& mesh, double min_distance) {
     const double faces = 2.0 * static_cast<double>(mesh.statistics().triangles) /
                          std::max(1.0, expected_count(mesh.statistics().area, min_distance));
-    return static_cast<std::uint32_t>(
-        std::clamp(8 + 4 * std::sqrt(faces), kLeastChain, kMostChain));
+    return static_cast<std::uint32_t>(std::clamp(8 + 4 * std::sqrt(faces), kMinChain, kMaxChain));
 }
 
 } // namespace geodisk

@@ -54,7 +54,7 @@ class GEODISK_API ErrorModel {
   private:
     double longest_ = 0; ///< Edge.
     double further_ = 0;
-    double least_guard_ = 0x1p-13;
+    double min_guard_ = 0x1p-13;
     double per_crossing_ = 0;
 };
 

@@ -17,7 +17,7 @@ namespace {
 Result<std::uint32_t> larger_capacity(const gpu::ControlRec& control, std::uint32_t slots,
                                       const DeviceReport& report) {
     const std::uint64_t most = report.limits.max_storage_buffer_range / sizeof(gpu::SampleRec);
-    const std::uint64_t least = least_sample_capacity(control, slots);
+    const std::uint64_t least = min_sample_capacity(control, slots);
     const std::uint64_t capacity = std::min(least + control.accepted / 2, std::max(most, least));
     if (capacity > most) {
         return Error{Status::job_too_large,
@@ -144,8 +144,8 @@ Result<Advice> Job::Impl::advance(const gpu::ControlRec& control, std::uint64_t 
     if (control.overflow != 0) {
         // As many slots as the job was made with, if the pool may be as large as that takes.
         RunPlan before = plan;
-        before.slots = most_slots;
-        before.lanes = most_lanes;
+        before.slots = max_slots;
+        before.lanes = max_lanes;
         const std::uint64_t most = pool_bytes != 0 ? pool_bytes : workspace[gpu::kBindPool].size;
         auto grown = grown_plan(before, control.overflow, most, sampler->report, last);
         if (!grown) {

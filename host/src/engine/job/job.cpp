@@ -115,8 +115,8 @@ void Job::Impl::apply_plan(const RunPlan& new_plan) {
     push.slots = plan.slots;
     // Where disks are so large that there are no more slots than those that share an order need,
     // disks beyond the groups would be computed after the others, many of them in vain.
-    const bool is_least = by_groups && plan.slots == kLeastSlots;
-    push.batch = is_least ? std::min(plan.lanes, plan.slots) : plan.slots;
+    const bool is_min = by_groups && plan.slots == kMinSlots;
+    push.batch = is_min ? std::min(plan.lanes, plan.slots) : plan.slots;
     push.window_capacity = plan.window_capacity;
     push.table_capacity = plan.table_capacity;
     push.list_capacity = plan.list_capacity;
@@ -126,11 +126,11 @@ void Job::Impl::apply_plan(const RunPlan& new_plan) {
     push.first_list_row = static_cast<std::uint32_t>(plan.first_list_row());
     KernelVariant of_detect = variant;
     of_detect.groups = by_groups;
-    push.step_budget = std::min(plan.step_budget, most_steps(sampler->report, of_detect));
+    push.step_budget = std::min(plan.step_budget, max_steps(sampler->report, of_detect));
     push.large_groups = variant.groups && !by_groups ? plan.large_groups : 0;
     push.large_after = plan.large_after;
     push.sample_capacity = plan.sample_capacity;
-    push.list_groups = std::clamp(plan.dispatch_items / gpu::kSelectBlock, 1u, kMostGroups);
+    push.list_groups = std::clamp(plan.dispatch_items / gpu::kSelectBlock, 1u, kMaxGroups);
 }
 
 gpu::Push Job::Impl::large_push() const {
@@ -141,8 +141,8 @@ gpu::Push Job::Impl::large_push() const {
     large.table_capacity = plan.large_table_capacity;
     large.lane_rows = plan.large_rows();
     large.first_slice_row = static_cast<std::uint32_t>(plan.first_large_row());
-    large.step_budget = std::clamp(push.step_budget / gpu::kGroupStepCost, 1u,
-                                   most_steps(sampler->report, variant));
+    large.step_budget =
+        std::clamp(push.step_budget / gpu::kGroupStepCost, 1u, max_steps(sampler->report, variant));
     return large;
 }
 
@@ -191,13 +191,13 @@ void Job::Impl::begin_stages(std::uint32_t first, std::uint32_t count) {
     ready = first == 0 ? 0 : ready;
     awaits_cut = constants.capacity > stages.still_wanted(thrown);
     cut.reset();
-    chunk_end = (count << gpu::kPriorityBits) + constants.most_lag;
+    chunk_end = (count << gpu::kPriorityBits) + constants.max_lag;
     push.first_stage = first;
     push.stages = count;
     push.intensity = static_cast<float>(stages.per_sample(first) * samples_per_measure);
     push.bucket_shift = static_cast<std::uint32_t>(std::bit_width(chunk_end - 1u)) -
                         static_cast<std::uint32_t>(std::countr_zero(constants.buckets));
-    chunk_end = variant.records() ? 0 : chunk_end; // Only settled samples have disks.
+    chunk_end = variant.records() ? 0 : chunk_end; // Only existing samples have disks.
     apply_end();
 }
 
@@ -214,13 +214,13 @@ void Job::Impl::apply_end() {
     is_end_changed = is_end_changed || push.end_order != old;
 }
 
-Result<Done> Job::set_settled(std::span<const gpu::SampleRec> samples) noexcept {
+Result<Done> Job::set_existing(std::span<const gpu::SampleRec> samples) noexcept {
     return guarded([&]() -> Result<Done> {
-        if (auto checked = check_settled(samples, *impl_); !checked) {
+        if (auto checked = check_existing_records(samples, *impl_); !checked) {
             return checked;
         }
-        impl_->given = static_cast<std::uint32_t>(samples.size());
-        if (impl_->constants.stop_count != kMostCandidates) {
+        impl_->existing = static_cast<std::uint32_t>(samples.size());
+        if (impl_->constants.stop_count != kMaxCandidates) {
             impl_->constants.stop_count -= impl_->avoided;
         }
         impl_->avoided = 0;
@@ -324,19 +324,19 @@ Result<Done> Job::Impl::set_out(const Domain& of_domain, const RunPlan& new_plan
     }
     number = next_number();
     if (of.settled.size() > new_plan.sample_capacity) {
-        return too_many_settled(of.settled.size(), new_plan);
+        return too_many_existing(of.settled.size(), new_plan);
     }
     const bool has_sets = sets_for == variant.domain;
     const bool had_cells = has_cells();
-    most_slots = new_plan.slots;
-    most_lanes = new_plan.lanes;
+    max_slots = new_plan.slots;
+    max_lanes = new_plan.lanes;
     has_lane_per_slot = of.has_lane_per_slot;
     is_listed = of.is_listed;
     stages = of.stages;
     samples_per_measure = of.samples_per_measure;
     error = of.error;
     dispatches = 0;
-    given = static_cast<std::uint32_t>(of.settled.size());
+    existing = static_cast<std::uint32_t>(of.settled.size());
     avoided = of.avoided;
     classes = of.classes;
     push = {};
@@ -347,7 +347,7 @@ Result<Done> Job::Impl::set_out(const Domain& of_domain, const RunPlan& new_plan
     constants.cells =
         static_cast<std::uint32_t>(of.cells(constants.capacity, new_plan.error_bound));
     set_seed(of.seed);
-    constants.stop_count = of.stop_count != 0 ? of.stop_count + avoided : kMostCandidates;
+    constants.stop_count = of.stop_count != 0 ? of.stop_count + avoided : kMaxCandidates;
     constants.idle_capacity = new_plan.idle_capacity;
     of.set_constants(constants, new_plan);
     apply_plan(new_plan);

@@ -15,7 +15,7 @@ namespace geodisk {
 namespace {
 
 // Of a minimum distance.
-constexpr double kMostError = 0.5;
+constexpr double kMaxError = 0.5;
 
 /// Whether a buffer of a workspace will do, beside the first `others` buffers of it.
 Result<Done> check_buffer(const Workspace& workspace, std::size_t role, VkDeviceSize needed,
@@ -33,11 +33,11 @@ Result<Done> check_buffer(const Workspace& workspace, std::size_t role, VkDevice
 
 /// Returns true if work groups for large disks have slices of possible sizes.
 bool has_large_slices(const RunPlan& plan) {
-    constexpr std::uint32_t kMost = 1u << gpu::kMostLevels;
-    return plan.large_groups <= kMost && plan.large_window_capacity >= gpu::kLeastGroupWindows &&
+    constexpr std::uint32_t kMax = 1u << gpu::kMaxLevels;
+    return plan.large_groups <= kMax && plan.large_window_capacity >= gpu::kMinGroupWindows &&
            std::has_single_bit(plan.large_window_capacity) &&
-           std::has_single_bit(plan.large_table_capacity) && plan.large_window_capacity <= kMost &&
-           plan.large_table_capacity <= kMost;
+           std::has_single_bit(plan.large_table_capacity) && plan.large_window_capacity <= kMax &&
+           plan.large_table_capacity <= kMax;
 }
 
 } // namespace
@@ -63,19 +63,18 @@ Result<Done> check_replacement(const Workspace& workspace, std::size_t role, VkD
 }
 
 Result<Done> check_plan(const RunPlan& plan, const Tuning& tuning) {
-    constexpr std::uint32_t kMost = 1u << gpu::kMostLevels;
-    const std::uint32_t least_windows =
-        plan.disks_by == DisksBy::groups ? gpu::kLeastGroupWindows : 2;
+    constexpr std::uint32_t kMax = 1u << gpu::kMaxLevels;
+    const std::uint32_t min_windows = plan.disks_by == DisksBy::groups ? gpu::kMinGroupWindows : 2;
     const bool fine =
-        plan.slots >= kLeastSlots && plan.window_capacity >= least_windows &&
+        plan.slots >= kMinSlots && plan.window_capacity >= min_windows &&
         std::has_single_bit(plan.window_capacity) && std::has_single_bit(plan.table_capacity) &&
         plan.list_capacity >= 4 && plan.list_capacity % 4 == 0 && plan.lanes >= 1 &&
-        plan.lanes <= kMost && plan.step_budget >= 1 && plan.detect_passes >= 1 &&
+        plan.lanes <= kMax && plan.step_budget >= 1 && plan.detect_passes >= 1 &&
         plan.dispatch_items >= 1 && plan.detect_passes <= 4096 &&
-        plan.sample_capacity > plan.slots && plan.stages >= 1 && plan.stages <= gpu::kMostStages &&
-        plan.idle_capacity >= 1 && plan.idle_capacity <= gpu::kMostListed && plan.slots <= kMost &&
-        plan.window_capacity <= kMost && plan.table_capacity <= kMost &&
-        plan.list_capacity <= kMost && (plan.large_groups == 0 || has_large_slices(plan));
+        plan.sample_capacity > plan.slots && plan.stages >= 1 && plan.stages <= gpu::kMaxStages &&
+        plan.idle_capacity >= 1 && plan.idle_capacity <= gpu::kMaxListed && plan.slots <= kMax &&
+        plan.window_capacity <= kMax && plan.table_capacity <= kMax && plan.list_capacity <= kMax &&
+        (plan.large_groups == 0 || has_large_slices(plan));
     if (!fine) {
         return Error{
             Status::invalid_argument,
@@ -88,16 +87,16 @@ Result<Done> check_plan(const RunPlan& plan, const Tuning& tuning) {
             "0 or more than 2^26"};
     }
     // The vertex table tags distances by the bits that those below 2 leave clear.
-    if (!(plan.error_bound > 0 && plan.error_bound <= kMostError)) {
+    if (!(plan.error_bound > 0 && plan.error_bound <= kMaxError)) {
         return Error{Status::invalid_argument,
                      "the plan's error_bound of " + number_text(plan.error_bound) +
                          " is not above 0 and at most half of the minimum distance"};
     }
-    const std::uint64_t most_slots = std::uint64_t{kMostGroups} * tuning.slot_local_size;
-    if (plan.slots > most_slots) {
+    const std::uint64_t max_slots = std::uint64_t{kMaxGroups} * tuning.slot_local_size;
+    if (plan.slots > max_slots) {
         return Error{Status::invalid_argument,
                      "the plan's " + std::to_string(plan.slots) + " slots are more than the " +
-                         std::to_string(most_slots) + " that work groups of " +
+                         std::to_string(max_slots) + " that work groups of " +
                          std::to_string(tuning.slot_local_size) + " reach"};
     }
     if (plan.pool_block != tuning.pool_block && plan.pool_block != 1) {
@@ -120,26 +119,26 @@ Result<Done> check_plan(const RunPlan& plan, const Job::Impl& job, VkDeviceSize 
                      "the plan has another error_bound, or other stages, idle_capacity or "
                      "sample_capacity than the job was made for"};
     }
-    const std::uint32_t most_slots = job.most_slots;
-    if (plan.pool_bytes() > pool || plan.slots > most_slots) {
+    const std::uint32_t max_slots = job.max_slots;
+    if (plan.pool_bytes() > pool || plan.slots > max_slots) {
         return Error{Status::workspace_too_small,
                      "the plan needs a pool of " + std::to_string(plan.pool_bytes()) +
                          " bytes and " + std::to_string(plan.slots) + " slots; the workspace has " +
-                         std::to_string(pool) + " bytes and " + std::to_string(most_slots) +
+                         std::to_string(pool) + " bytes and " + std::to_string(max_slots) +
                          " slots"};
     }
     return Done{};
 }
 
-Error too_many_settled(std::size_t samples, const RunPlan& plan) {
+Error too_many_existing(std::size_t samples, const RunPlan& plan) {
     return {Status::invalid_argument,
-            std::to_string(samples) + " settled samples are more than the plan's " +
+            std::to_string(samples) + " existing samples are more than the plan's " +
                 "sample_capacity of " + std::to_string(plan.sample_capacity)};
 }
 
-Result<Done> check_settled(std::span<const gpu::SampleRec> samples, const Job::Impl& job) {
+Result<Done> check_existing_records(std::span<const gpu::SampleRec> samples, const Job::Impl& job) {
     if (samples.size() > job.plan.sample_capacity) {
-        return too_many_settled(samples.size(), job.plan);
+        return too_many_existing(samples.size(), job.plan);
     }
     const bool has_weights = job.variant.domain != DomainKind::box;
     // Multiples of 2^-24, so that the weight of the first corner is exact.
@@ -150,13 +149,13 @@ Result<Done> check_settled(std::span<const gpu::SampleRec> samples, const Job::I
         const gpu::SampleRec& sample = samples[i];
         if (sample.face >= job.constants.faces) {
             return Error{Status::invalid_argument,
-                         "settled sample " + std::to_string(i) + " is in " +
+                         "existing sample " + std::to_string(i) + " is in " +
                              (has_weights ? "face " : "cell ") + std::to_string(sample.face) +
                              ", but there are " + std::to_string(job.constants.faces)};
         }
         if (const std::uint32_t own = sample.order & gpu::kClassMask;
             job.classes != 0 && own >= job.classes) {
-            return Error{Status::invalid_argument, "settled sample " + std::to_string(i) +
+            return Error{Status::invalid_argument, "existing sample " + std::to_string(i) +
                                                        " has class " + std::to_string(own) +
                                                        ", but there are " +
                                                        std::to_string(job.classes)};
@@ -164,7 +163,7 @@ Result<Done> check_settled(std::span<const gpu::SampleRec> samples, const Job::I
         if (has_weights && !(is_weight(sample.weight1) && is_weight(sample.weight2) &&
                              sample.weight1 + sample.weight2 <= 1)) {
             return Error{Status::invalid_argument,
-                         "the weights of settled sample " + std::to_string(i) +
+                         "the weights of existing sample " + std::to_string(i) +
                              " are not multiples of 2^-24 that sum to at most 1"};
         }
     }

@@ -21,9 +21,9 @@ Result<Done> check_workspace(const Workspace& workspace, const WorkspaceNeeds& n
 Result<Done> check_replacement(const Workspace& workspace, std::size_t role, VkDeviceSize needed,
                                const Sampler::Impl& sampler);
 
-/// Makes the error for more settled samples than the plan has room for.
-Error too_many_settled(std::size_t samples, const RunPlan& plan);
-/// Checks that settled samples are of the job's domain, and that there is room for them.
-Result<Done> check_settled(std::span<const gpu::SampleRec> samples, const Job::Impl& job);
+/// Makes the error for more existing samples than the plan has room for.
+Error too_many_existing(std::size_t samples, const RunPlan& plan);
+/// Checks that existing samples are of the job's domain, and that there is room for them.
+Result<Done> check_existing_records(std::span<const gpu::SampleRec> samples, const Job::Impl& job);
 
 } // namespace geodisk

@@ -6,7 +6,7 @@ namespace geodisk {
 namespace {
 
 // Orders are spread evenly, so a few guesses by proportion do; halves where they do not.
-constexpr std::uint32_t kMostByProportion = 16;
+constexpr std::uint32_t kMaxByProportion = 16;
 
 } // namespace
 
@@ -31,7 +31,7 @@ void OrderCut::choose() {
     if (is_found_) {
         return;
     }
-    const double part = guesses_ < kMostByProportion
+    const double part = guesses_ < kMaxByProportion
                             ? static_cast<double>(wanted_ - low_count_) / (high_count_ - low_count_)
                             : 0.5;
     const auto step = static_cast<std::uint32_t>(part * (high_ - low_));

@@ -216,13 +216,13 @@ Result<Done> Placement::record(VkCommandBuffer commands, const Job& job) const n
         vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, impl_->pipeline);
         vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, layout, 0, 1,
                                    &impl_->set, 0, nullptr);
-        for (std::uint32_t group = 0; group < groups; group += kMostGroups) {
+        for (std::uint32_t group = 0; group < groups; group += kMaxGroups) {
             gpu::PlacePush push = impl_->push;
             push.first_group = group;
             push.avoided = own.avoided;
             vk.vkCmdPushConstants(commands, layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof push,
                                   &push);
-            vk.vkCmdDispatch(commands, std::min(groups - group, kMostGroups), 1, 1);
+            vk.vkCmdDispatch(commands, std::min(groups - group, kMaxGroups), 1, 1);
         }
         return Done{};
     });

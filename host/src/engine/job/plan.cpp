@@ -23,10 +23,10 @@ namespace geodisk {
 namespace {
 
 // Even with one per work group, there are no more groups than any device allows.
-constexpr double kMostSlots = (1u << 16) - 512;
+constexpr double kMaxSlots = (1u << 16) - 512;
 // Maximum on a CPU: more lists would not fit its caches.
-constexpr double kMostCpuSlots = 1u << 13;
-constexpr double kMostPasses = 32;
+constexpr double kMaxCpuSlots = 1u << 13;
+constexpr double kMaxPasses = 32;
 // Several milliseconds per dispatch.
 constexpr std::uint32_t kCpuDispatchItems = 1u << 19;
 constexpr std::uint32_t kDispatchItems = 1u << 21;
@@ -36,7 +36,7 @@ constexpr double kSlotMargin = 1.5;
 // passes over all candidates.
 constexpr std::uint32_t kIdlePerSlot = 32;
 constexpr std::uint32_t kCandidatesPerIdle = 16;
-constexpr std::uint32_t kLeastIdle = 4096;
+constexpr std::uint32_t kMinIdle = 4096;
 
 std::uint64_t blocks_of(std::uint64_t words) {
     return (words + gpu::kScanBlock - 1) / gpu::kScanBlock;
@@ -48,16 +48,15 @@ std::uint64_t blocks_of(std::uint64_t words) {
 std::uint32_t wanted_slots(double disks, std::uint32_t batches, const DeviceReport& report) {
     const bool cpu = report.type == VK_PHYSICAL_DEVICE_TYPE_CPU;
     const double least =
-        cpu ? std::clamp<double>(disks / 2, kLeastSlots, std::max(kLeastSlots, cpu_lanes(report)))
-            : 64;
+        cpu ? std::clamp<double>(disks / 2, kMinSlots, std::max(kMinSlots, cpu_lanes(report))) : 64;
     auto aim = static_cast<std::uint32_t>(
-        std::clamp(disks / batches, least, cpu ? kMostCpuSlots : kMostSlots));
+        std::clamp(disks / batches, least, cpu ? kMaxCpuSlots : kMaxSlots));
     // Lanes should not wait for each other at the end of a batch, nor a thread have a few alone.
     const std::uint32_t all = cpu ? cpu_lanes(report) : 1;
     const std::uint32_t lanes = cpu && aim < all ? all / cpu_threads() : all;
     aim = (aim + lanes - 1) / lanes * lanes;
-    return aim <= gpu::kMostRanked ? aim
-                                   : aim + static_cast<std::uint32_t>(kSlotMargin * std::sqrt(aim));
+    return aim <= gpu::kMaxRanked ? aim
+                                  : aim + static_cast<std::uint32_t>(kSlotMargin * std::sqrt(aim));
 }
 
 /// Returns the sample capacity for an expected number, and a `stop_count` unless it is 0: half as
@@ -77,7 +76,7 @@ std::uint32_t wanted_sample_capacity(double samples, std::uint32_t stop_count, s
 /// Returns the number of idle candidates to list at once.
 std::uint32_t wanted_idle_capacity(std::uint32_t slots, std::uint32_t capacity) noexcept {
     const std::uint32_t wanted = std::max(kIdlePerSlot * slots, capacity / kCandidatesPerIdle);
-    return std::clamp(wanted, kLeastIdle, gpu::kMostListed);
+    return std::clamp(wanted, kMinIdle, gpu::kMaxListed);
 }
 
 Result<Done> check_needs(const WorkspaceNeeds& needs, const Domain::Impl& of,
@@ -107,7 +106,7 @@ const char* to_string(BufferRole role) noexcept {
     return kNames[static_cast<std::size_t>(role)];
 }
 
-std::uint64_t least_sample_capacity(const gpu::ControlRec& control, std::uint32_t slots) noexcept {
+std::uint64_t min_sample_capacity(const gpu::ControlRec& control, std::uint32_t slots) noexcept {
     return std::uint64_t{control.accepted} + slots + 1;
 }
 
@@ -141,9 +140,9 @@ RunPlan overridden(RunPlan plan, const RunPlan& wanted) noexcept {
     replace(plan.large_after, wanted.large_after);
     // A disk of a work group begins with several windows.
     if (plan.disks_by == DisksBy::groups) {
-        plan.window_capacity = std::max(plan.window_capacity, gpu::kLeastGroupWindows);
+        plan.window_capacity = std::max(plan.window_capacity, gpu::kMinGroupWindows);
     }
-    plan.large_window_capacity = std::max(plan.large_window_capacity, gpu::kLeastGroupWindows);
+    plan.large_window_capacity = std::max(plan.large_window_capacity, gpu::kMinGroupWindows);
     plan.trims = plan.trims || wanted.trims;
     plan.error_bound = wanted.error_bound != 0 ? wanted.error_bound : plan.error_bound;
     return plan;
@@ -188,7 +187,7 @@ Result<RunPlan> Sampler::plan_run(const Domain& domain, std::uint64_t pool_bytes
         // Disks that only record are never in vain.
         const std::uint32_t batches = of.kernels.records() ? 1 : tuning().batches;
         plan.slots = wanted_slots(of.samples, batches, report);
-        plan.stages = stages_at_once(of.stages, of.most_candidates(report.limits, plan.slots));
+        plan.stages = stages_at_once(of.stages, of.max_candidates(report.limits, plan.slots));
         const std::uint32_t candidates = capacity_for(of.stages, plan.stages);
         plan.sample_capacity =
             of.avoided + wanted_sample_capacity(of.samples, of.stop_count, plan.slots, report);
@@ -215,9 +214,9 @@ Result<RunPlan> Sampler::plan_run(const Domain& domain, std::uint64_t pool_bytes
         plan_large_disks(plan, report.type == VK_PHYSICAL_DEVICE_TYPE_CPU || of.kernels.records());
         KernelVariant variant = impl_->variant_for(domain);
         variant.groups = plan.disks_by == DisksBy::groups;
-        plan.step_budget = most_steps(report, variant);
+        plan.step_budget = max_steps(report, variant);
         plan.detect_passes = static_cast<std::uint32_t>(
-            std::clamp(of.detect_passes(plan, candidates), 1.0, kMostPasses));
+            std::clamp(of.detect_passes(plan, candidates), 1.0, kMaxPasses));
         return plan;
     });
 }

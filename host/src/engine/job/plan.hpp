@@ -13,6 +13,6 @@ Result<WorkspaceNeeds> needs_of(const Domain& domain, const RunPlan& plan,
                                 const DeviceReport& report);
 
 /// Returns the sample capacity that a run needs to continue: the samples so far and all of a batch.
-std::uint64_t least_sample_capacity(const gpu::ControlRec& control, std::uint32_t slots) noexcept;
+std::uint64_t min_sample_capacity(const gpu::ControlRec& control, std::uint32_t slots) noexcept;
 
 } // namespace geodisk

@@ -9,7 +9,7 @@
 namespace geodisk {
 namespace {
 
-constexpr std::uint32_t kLargestCapacity = 1u << gpu::kMostLevels;
+constexpr std::uint32_t kLargestCapacity = 1u << gpu::kMaxLevels;
 // Work groups beside lanes for large disks, and what one of them holds at first. A lane leaves a
 // disk to them after so many windows, since others wait for it.
 constexpr std::uint32_t kLargeGroups = 16;
@@ -32,9 +32,9 @@ std::uint32_t group_rows(std::uint32_t windows, std::uint32_t vertices) {
 }
 
 /// Returns the bytes of the smallest pool for the plan: the minimum of lists and a block of lanes.
-std::uint64_t least_pool(const RunPlan& plan) {
+std::uint64_t min_pool(const RunPlan& plan) {
     return std::uint64_t{plan.pool_block} * plan.lane_rows() * 16 +
-           std::uint64_t{kLeastSlots} * plan.list_capacity * 4;
+           std::uint64_t{kMinSlots} * plan.list_capacity * 4;
 }
 
 /// Fits slots and lanes to the pool. Work groups for large disks get at most half of it, but one at
@@ -48,18 +48,18 @@ void fit(RunPlan& plan, std::uint64_t pool_bytes) {
             std::clamp<std::uint64_t>(pool_bytes / 2 / slice, 1, plan.large_groups));
         pool_bytes -= std::min(pool_bytes, plan.large_groups * slice);
     }
-    if (pool_bytes < least_pool(plan)) {
+    if (pool_bytes < min_pool(plan)) {
         plan.pool_block = 1;
     }
-    if (pool_bytes < least_pool(plan)) {
+    if (pool_bytes < min_pool(plan)) {
         plan.lanes = 0;
         return;
     }
     const std::uint64_t block = std::uint64_t{plan.pool_block} * plan.lane_rows() * 16;
     const std::uint64_t list = std::uint64_t{plan.list_capacity} * 4;
     const std::uint64_t for_lists = std::min(pool_bytes / 2, pool_bytes - block);
-    plan.slots = static_cast<std::uint32_t>(std::clamp<std::uint64_t>(
-        for_lists / list, kLeastSlots, std::max(kLeastSlots, plan.slots)));
+    plan.slots = static_cast<std::uint32_t>(
+        std::clamp<std::uint64_t>(for_lists / list, kMinSlots, std::max(kMinSlots, plan.slots)));
     const std::uint64_t blocks = (pool_bytes - plan.slots * list) / block;
     plan.lanes = static_cast<std::uint32_t>(
         std::min<std::uint64_t>(std::min(plan.lanes, plan.slots), blocks * plan.pool_block));
@@ -121,13 +121,13 @@ std::uint64_t RunPlan::pool_bytes() const noexcept {
 RunPlan fitted(RunPlan plan, std::uint64_t pool_bytes) {
     const std::uint32_t enough =
         plan.disks_by == DisksBy::groups ? std::min(plan.lanes, kEnoughGroups) : 1;
-    const std::uint32_t least_rows = plan.table_capacity / kAmpleRows;
+    const std::uint32_t min_rows = plan.table_capacity / kAmpleRows;
     for (;;) {
         RunPlan fitting = plan;
         fit(fitting, pool_bytes);
         if (fitting.lanes < enough && plan.window_capacity > kFirstWindows) {
             plan.window_capacity /= 2;
-        } else if (fitting.lanes == 0 && plan.table_capacity > std::max(least_rows, 1u)) {
+        } else if (fitting.lanes == 0 && plan.table_capacity > std::max(min_rows, 1u)) {
             plan.table_capacity /= 2;
         } else {
             return fitting;
@@ -176,7 +176,7 @@ Error slice_error(const RunPlan& plan, std::uint64_t pool_bytes) {
     return Error{
         Status::workspace_too_small,
         "the disk of one candidate takes " + std::to_string(std::uint64_t{plan.lane_rows()} * 16) +
-            " bytes of the pool and each of the least " + std::to_string(kLeastSlots) +
+            " bytes of the pool and each of the least " + std::to_string(kMinSlots) +
             " lists of conflicts " + std::to_string(std::uint64_t{plan.list_capacity} * 4) +
             ", but the pool may take only " + std::to_string(pool_bytes)};
 }

@@ -161,7 +161,7 @@ class Recorder {
                 std::min<std::uint64_t>(
                     {job_.plan.dispatch_items, budget_.items, budget_.items_of_new}) /
                     per_group,
-                1, kMostGroups);
+                1, kMaxGroups);
             const std::uint64_t part = std::min(count - cursor_.done, groups * per_group);
             label();
             record(cursor_.done, part);
@@ -286,7 +286,7 @@ bool record_begin(VkCommandBuffer commands, Job::Impl& job, Budget& budget) {
         static_assert(kSettled == kAccepted + 4 && kOrdered == kSettled + 4 &&
                       kRest == kOrdered + 4);
         if (push.first_stage == 0) {
-            recorder.fill(kAccepted, kRest - kAccepted, job.given);
+            recorder.fill(kAccepted, kRest - kAccepted, job.existing);
             recorder.fill(kRest, sizeof(gpu::ControlRec) - kRest, 0);
         } else {
             recorder.copy(kAccepted, kSettled);
@@ -444,7 +444,7 @@ void Sampler::record_rewind(VkCommandBuffer commands, Job& job) const noexcept {
     recorder.change([&] { recorder.fill_generation(); });
     // No lane has a slot, and no row of a table a disk.
     recorder.clear(BufferRole::pool, VkDeviceSize{push.first_list_row} * 16);
-    recorder.pass(Kernel::rewind, job.impl_->most_slots, impl_->choices.tuning.slot_local_size,
+    recorder.pass(Kernel::rewind, job.impl_->max_slots, impl_->choices.tuning.slot_local_size,
                   push);
     recorder.change([&] {
         for (const std::size_t word :

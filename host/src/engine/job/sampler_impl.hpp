@@ -50,7 +50,7 @@ struct Sampler::Impl {
 };
 
 /// Work groups of a dispatch: Vulkan promises no more.
-inline constexpr std::uint32_t kMostGroups = 65535;
+inline constexpr std::uint32_t kMaxGroups = 65535;
 
 /// A descriptor set of a job: a kernel over the workspace, or a scan kernel over another buffer.
 enum class SetRole : std::uint32_t { workspace, cell_scan, start_scan, bucket_scan };
@@ -81,8 +81,8 @@ struct Job::Impl {
     std::array<VkBufferView, kBufferRoles> views{};
     const KernelPipelines* own_pipelines = nullptr; ///< Besides those that all jobs have.
     KernelVariant variant;
-    std::uint32_t most_slots = 0; ///< What the slot and control buffers hold.
-    std::uint32_t most_lanes = 0; ///< Of the first plan.
+    std::uint32_t max_slots = 0; ///< What the slot and control buffers hold.
+    std::uint32_t max_lanes = 0; ///< Of the first plan.
     // As Domain::Impl has them.
     bool has_lane_per_slot = false;
     bool is_listed = false;
@@ -97,7 +97,7 @@ struct Job::Impl {
     Cursor begun, finished, counted; ///< Positions in record_begin, record_finish, record_count.
     std::uint32_t generation = 0;    ///< See ControlRec.
     bool is_begin_due = true;        ///< record_begin() of the stages at hand.
-    std::uint32_t given = 0;         ///< Samples that are settled from the start,
+    std::uint32_t existing = 0;      ///< Samples that are settled from the start,
     std::uint32_t avoided = 0;       ///< of which so many, the first, are points to avoid.
     std::uint32_t classes = 0;       ///< Domain::Impl::classes.
     std::uint64_t thrown = 0;        ///< Candidates of the stages before.
@@ -123,10 +123,10 @@ struct Job::Impl {
     void begin_stages(std::uint32_t first, std::uint32_t count);
     void begin_first_stages();
     void set_seed(std::uint64_t seed);
-    /// Restarts with other settled samples, so many, of which the first ones are points to avoid.
+    /// Restarts with other existing samples, so many, of which the first ones are points to avoid.
     /// They are written to the samples buffer before record_begin().
     void restart(std::uint32_t settled, std::uint32_t of_avoided) {
-        given = settled;
+        existing = settled;
         avoided = of_avoided;
         begin_first_stages();
     }

@@ -92,7 +92,7 @@ std::vector<KernelVariant> all_kernel_variants() {
         }
     }
     variants.emplace_back().domain = DomainKind::lists;
-    for (std::uint32_t dimension = 1; dimension <= kMostBoxDimensions; ++dimension) {
+    for (std::uint32_t dimension = 1; dimension <= kMaxBoxDimensions; ++dimension) {
         KernelVariant& variant = variants.emplace_back();
         variant.domain = DomainKind::box;
         variant.dimension = dimension;

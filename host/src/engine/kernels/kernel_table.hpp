@@ -63,8 +63,8 @@ constexpr std::size_t index_of(DomainKind kind) {
     X(lanes_apart, kSpecLanesApart) /* Pool blocks of one lane, whatever Tuning::pool_block is. */
 // clang-format on
 
-/// What disks are computed for. All but the first are of settled samples alone, by kernels of their
-/// own.
+/// What disks are computed for. All but the first are of existing samples alone, by kernels of
+/// their own.
 enum class Ending : std::uint8_t {
     conflicts, ///< Candidates in them are listed and decided.
     light,     ///< How they light faces is recorded (gpu::LitRec).

@@ -18,7 +18,7 @@ constexpr std::uint32_t kGridTrips = 1024;
 
 } // namespace
 
-std::uint32_t most_steps(const DeviceReport& report, const KernelVariant& variant) noexcept {
+std::uint32_t max_steps(const DeviceReport& report, const KernelVariant& variant) noexcept {
     const bool bounded = report.driver_id == VK_DRIVER_ID_MESA_LLVMPIPE;
     if (variant.domain != DomainKind::surface) {
         return bounded ? (kLlvmpipeIterations - kBeforeGridTrips) / gpu::kIterationsPerGridTrip

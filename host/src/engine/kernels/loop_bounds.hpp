@@ -11,6 +11,6 @@ namespace geodisk {
 
 /// Returns the maximum of steps that one dispatch of detect may safely take. llvmpipe ends long
 /// loops silently, and other devices have watchdogs.
-std::uint32_t most_steps(const DeviceReport& report, const KernelVariant& variant) noexcept;
+std::uint32_t max_steps(const DeviceReport& report, const KernelVariant& variant) noexcept;
 
 } // namespace geodisk

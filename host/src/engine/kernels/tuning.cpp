@@ -26,7 +26,7 @@ bool texels_reach(const DeviceLimits& limits) {
 /// active candidates are still accepted (paper Table 1).
 Tuning default_tuning(const DeviceReport& report) {
     const std::uint32_t subgroup =
-        std::bit_floor(std::clamp(report.limits.subgroup_size, 1u, kMostPoolBlock));
+        std::bit_floor(std::clamp(report.limits.subgroup_size, 1u, kMaxPoolBlock));
     Tuning tuning;
     tuning.local_size = kDefaultLocalSize;
     tuning.slot_local_size =
@@ -53,9 +53,9 @@ Result<Done> check(const Tuning& tuning, const DeviceReport& report) {
                      "the local size must be 0 or a power of two up to the device's limit of " +
                          std::to_string(most)};
     }
-    if (!is_power_of_two_up_to(tuning.pool_block, kMostPoolBlock)) {
+    if (!is_power_of_two_up_to(tuning.pool_block, kMaxPoolBlock)) {
         return Error{Status::invalid_argument, "the pool block must be 0 or a power of two up to " +
-                                                   std::to_string(kMostPoolBlock)};
+                                                   std::to_string(kMaxPoolBlock)};
     }
     if (tuning.reads == Reads::texels && !texels_reach(report.limits)) {
         return Error{Status::device_lacks,

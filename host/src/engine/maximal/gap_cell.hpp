@@ -8,7 +8,7 @@
 namespace geodisk {
 
 /// Maximum number of splits. A cell is then far smaller than the guard.
-inline constexpr std::uint32_t kMostSplits = 30;
+inline constexpr std::uint32_t kMaxSplits = 30;
 
 /// The weights of the second and third corner of a face, at a point.
 struct FaceWeights {

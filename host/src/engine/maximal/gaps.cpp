@@ -6,7 +6,7 @@
 #include <tuple>
 #include <utility>
 
-#include <geodisk/philox.hpp>
+#include <geodisk/detail/philox.hpp>
 
 #include "engine/domain/face_mask.hpp"
 #include "mesh/face_area.hpp"
@@ -66,7 +66,7 @@ class Gaps::Splitter {
             }
         }
         const bool is_open = stack_.size() == end;
-        if (is_open || target.reach <= goal_ * target.spacing() || cell.level == kMostSplits) {
+        if (is_open || target.reach <= goal_ * target.spacing() || cell.level == kMaxSplits) {
             keep(cell, end);
         } else {
             for (const GapCell& child : cell.children()) {
@@ -135,7 +135,7 @@ void Gaps::refine(double goal) {
 
 bool Gaps::are_smallest() const {
     return std::ranges::all_of(
-        cells_, [](const Living& living) { return living.cell.level == kMostSplits; });
+        cells_, [](const Living& living) { return living.cell.level == kMaxSplits; });
 }
 
 std::vector<ListedCandidate> Gaps::darts(std::uint32_t round, double goal, double most) const {

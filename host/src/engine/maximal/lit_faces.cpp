@@ -120,7 +120,7 @@ LitFaces::Target LitFaces::target(const GapCell& cell) const {
         const auto corners = cell.corners();
         const double radii[3] = {radius_at(cell.face, corners[0]), radius_at(cell.face, corners[1]),
                                  radius_at(cell.face, corners[2])};
-        target.least_radius = std::min({radii[0], radii[1], radii[2]});
+        target.min_radius = std::min({radii[0], radii[1], radii[2]});
         target.largest_radius = std::max({radii[0], radii[1], radii[2]});
     }
     return target;
@@ -130,7 +130,7 @@ LitFaces::Target LitFaces::target(std::uint32_t face, FaceWeights weights) const
     Target target{};
     place(face, weights, target);
     if (radii_ != nullptr) {
-        target.least_radius = target.largest_radius = radius_at(face, weights);
+        target.min_radius = target.largest_radius = radius_at(face, weights);
     }
     return target;
 }
@@ -201,14 +201,14 @@ Cover LitFaces::cover(std::uint32_t light, const Target& target) const {
     if (outside > target.margin) {
         return Cover::none;
     }
-    const bool is_near = offset.distance + target.reach < limit_of(record, target.least_radius);
+    const bool is_near = offset.distance + target.reach < limit_of(record, target.min_radius);
     return outside == 0 && is_near ? Cover::all : Cover::some;
 }
 
 double LitFaces::excess(std::uint32_t light, const Target& target) const {
     const auto [distance, outside] = sight(light, target);
     return outside > 0 ? std::numeric_limits<double>::infinity()
-                       : distance + target.reach - limit_of(records_[light], target.least_radius);
+                       : distance + target.reach - limit_of(records_[light], target.min_radius);
 }
 
 } // namespace geodisk

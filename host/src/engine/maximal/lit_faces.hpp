@@ -41,10 +41,10 @@ class LitFaces {
         Place at[3];   ///< The centroid in the frame of each half-edge of the face.
         double reach;  ///< Maximum distance of a point of the cell from the centroid.
         double margin; ///< The same with the rounding of weights to multiples of 2^-24.
-        double least_radius, largest_radius; ///< In the cell; 0 if radii do not vary.
+        double min_radius, largest_radius; ///< In the cell; 0 if radii do not vary.
 
         /// Returns the minimum distance of samples in the cell, at least.
-        double spacing() const { return least_radius > 0 ? 2 * least_radius : 1; }
+        double spacing() const { return min_radius > 0 ? 2 * min_radius : 1; }
     };
     Target target(const GapCell& cell) const;
     /// Does the same for any triangle in a face. Its radii are 0.

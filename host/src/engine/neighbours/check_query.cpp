@@ -5,7 +5,7 @@
 #include <limits>
 #include <string>
 
-#include "engine/domain/given.hpp"
+#include "engine/domain/existing.hpp"
 #include "support/invalid.hpp"
 #include "support/number_text.hpp"
 

@@ -1,6 +1,6 @@
 #include <geodisk/neighbours.hpp>
 
-#include "engine/domain/given.hpp"
+#include "engine/domain/existing.hpp"
 #include "engine/neighbours/check_query.hpp"
 #include "engine/neighbours/joined_vertices.hpp"
 #include "engine/neighbours/search_nearest.hpp"

@@ -30,7 +30,7 @@ namespace {
 
 // Room for more pairs than expected.
 constexpr double kSparePairs = 1.25;
-constexpr double kLeastPairs = 1024;
+constexpr double kMinPairs = 1024;
 // Sources that the first lists have room for, until the number of pairs is known better.
 constexpr double kFirstSources = 256;
 // Of the mantissa of a length in double precision.
@@ -39,9 +39,9 @@ constexpr SyncScope kCopies{VK_PIPELINE_STAGE_TRANSFER_BIT,
                             VK_ACCESS_TRANSFER_READ_BIT | VK_ACCESS_TRANSFER_WRITE_BIT};
 
 Result<Done> check_options(const FrameNeighbourOptions& options) {
-    if (options.frames == 0 || options.frames > kMostFrames) {
+    if (options.frames == 0 || options.frames > kMaxFrames) {
         return invalid("FrameNeighbourOptions::frames is " + std::to_string(options.frames) +
-                       ", not from 1 to " + std::to_string(kMostFrames));
+                       ", not from 1 to " + std::to_string(kMaxFrames));
     }
     if (options.dispatches == 0 || options.rounds == 0) {
         return invalid("FrameNeighbourOptions::dispatches and rounds must not be 0");
@@ -63,10 +63,10 @@ float float_below(double length) {
 Result<std::vector<std::uint32_t>> names_of(std::span<const std::vector<std::uint32_t>> numbers) {
     std::vector<std::uint32_t> names(numbers.size() + 1);
     for (std::size_t target = 0; target < numbers.size(); ++target) {
-        if (numbers[target].size() > gpu::kMostNames) {
+        if (numbers[target].size() > gpu::kMaxNames) {
             return invalid(std::to_string(numbers[target].size()) +
                            " vertices are joined with vertex " + std::to_string(target) +
-                           ", more than " + std::to_string(gpu::kMostNames));
+                           ", more than " + std::to_string(gpu::kMaxNames));
         }
         names[target] = static_cast<std::uint32_t>(names.size());
         names.insert(names.end(), numbers[target].begin(), numbers[target].end());
@@ -188,9 +188,8 @@ Result<Done> FrameNeighbours::Impl::take_inputs(const Domain& all, const Prepare
 }
 
 std::uint32_t FrameNeighbours::Impl::wanted_room() const {
-    return static_cast<std::uint32_t>(
-        std::clamp(static_cast<double>(options.record_bytes) / sizeof(gpu::HitRec), kLeastRecords,
-                   kMostRecords));
+    return static_cast<std::uint32_t>(std::clamp(
+        static_cast<double>(options.record_bytes) / sizeof(gpu::HitRec), kMinRecords, kMaxRecords));
 }
 
 void FrameNeighbours::Impl::retire(Retired old) {
@@ -228,14 +227,14 @@ Result<Done> FrameNeighbours::Impl::make_lists(std::uint32_t least, VkCommandBuf
                                       : sizes.each() * std::min<double>(count(), kFirstSources);
     const double most =
         std::min(static_cast<double>(engine().report.limits.max_storage_buffer_range / 4),
-                 static_cast<double>(query.most_pairs) + kLeastPairs);
+                 static_cast<double>(query.max_pairs) + kMinPairs);
     if (least > most) {
         return Error{Status::job_too_large,
                      std::to_string(least) + " neighbours are more than one buffer of " +
                          engine().report.name + " holds; take a smaller distance or fewer sources"};
     }
     const auto room = static_cast<std::uint32_t>(
-        std::clamp(expected, std::max<double>(least, kLeastPairs), std::max<double>(most, least)));
+        std::clamp(expected, std::max<double>(least, kMinPairs), std::max<double>(most, least)));
     auto made = ListMemory::create(*sampler, count(), room);
     if (!made) {
         return made.error();
@@ -264,7 +263,7 @@ Result<Done> FrameNeighbours::Impl::make_kernels() {
 void FrameNeighbours::Impl::begin_part() {
     const std::uint32_t left = count() - ready;
     part = static_cast<std::uint32_t>(sizes.sources(memory->room(), ready, left));
-    part = std::min(part, memory->most_sources());
+    part = std::min(part, memory->max_sources());
     Job::Impl::of(memory->job()).restart(part, query.radii.empty() ? 0 : part);
     phase = Phase::search;
     begins = true;

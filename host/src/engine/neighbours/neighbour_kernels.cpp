@@ -145,10 +145,10 @@ void NeighbourKernels::pass(VkCommandBuffer commands, Kernel kernel, Role role, 
     vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, layout, 0, 1, &set, 0,
                                nullptr);
     const std::uint32_t groups = (count + per_group - 1) / per_group;
-    for (std::uint32_t group = 0; group < groups; group += kMostGroups) {
+    for (std::uint32_t group = 0; group < groups; group += kMaxGroups) {
         push.first_group = group;
         vk.vkCmdPushConstants(commands, layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof push, &push);
-        vk.vkCmdDispatch(commands, std::min(groups - group, kMostGroups), 1, 1);
+        vk.vkCmdDispatch(commands, std::min(groups - group, kMaxGroups), 1, 1);
     }
     barrier_compute_to_compute(vk, commands);
 }

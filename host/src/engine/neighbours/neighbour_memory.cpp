@@ -14,7 +14,7 @@ namespace geodisk {
 namespace {
 
 constexpr VkDeviceSize kWord = 4;
-constexpr VkDeviceSize kLeastRange = 16; // Of buffers that may have nothing in them.
+constexpr VkDeviceSize kMinRange = 16; // Of buffers that may have nothing in them.
 
 RangeCutter cutter_for(const Sampler& sampler) {
     return RangeCutter(range_alignment(sampler.report().limits));
@@ -30,7 +30,7 @@ Result<ListMemory> ListMemory::create(const Sampler& sampler, std::uint32_t sour
                                       std::uint32_t pairs) {
     RangeCutter cutter = cutter_for(sampler);
     const VkDeviceSize heads = (VkDeviceSize{sources} + 2) * kWord;
-    const VkDeviceSize each = std::max(VkDeviceSize{pairs} * kWord, kLeastRange);
+    const VkDeviceSize each = std::max(VkDeviceSize{pairs} * kWord, kMinRange);
     const VkDeviceSize offsets = cutter.cut(heads);
     const VkDeviceSize targets = cutter.cut(each);
     const VkDeviceSize distances = cutter.cut(each);
@@ -70,7 +70,7 @@ NeighbourMemory::create(const Sampler& sampler, const Domain& domain, const RunP
     auto made = std::make_unique<NeighbourMemory>();
     made->plan_ = plan;
     made->room_ = room;
-    made->most_sources_ = static_cast<std::uint32_t>(Domain::Impl::of(domain).settled.size());
+    made->max_sources_ = static_cast<std::uint32_t>(Domain::Impl::of(domain).settled.size());
     if (auto allocated = made->allocate(sampler, domain, inputs, frames); !allocated) {
         return allocated.error();
     }
@@ -95,13 +95,13 @@ Result<Done> NeighbourMemory::allocate(const Sampler& sampler, const Domain& dom
     RangeCutter cutter = cutter_for(sampler);
     cutter.cut(layout_.bytes);
     const auto cut = [&](BufferRange& range, VkDeviceSize bytes) {
-        range.size = std::max(bytes, kLeastRange);
+        range.size = std::max(bytes, kMinRange);
         range.offset = cutter.cut(range.size);
     };
     const VkDeviceSize entries = VkDeviceSize{room_} * sizeof(gpu::NeighbourRec);
     // Places of entries, and one for the end, take the room of what is sorted.
     static_assert(sizeof(gpu::NeighbourRec) >= 2 * kWord);
-    const VkDeviceSize scanned = std::max(most_sources_ + 2, room_ + 1);
+    const VkDeviceSize scanned = std::max(max_sources_ + 2, room_ + 1);
     cut(sources_, bytes_of(inputs.sources).size());
     cut(ranges_.limits, bytes_of(inputs.limits).size());
     cut(ranges_.names, bytes_of(inputs.names).size());

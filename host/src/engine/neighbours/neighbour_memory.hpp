@@ -22,7 +22,7 @@ namespace geodisk {
 
 /// What the kernels read of all sources and targets.
 struct NeighbourInputs {
-    std::vector<gpu::SampleRec> sources; ///< As the device takes settled samples.
+    std::vector<gpu::SampleRec> sources; ///< As the device takes existing samples.
     std::vector<float> limits;           ///< How far neighbours may be, a float per source.
     /// If targets have other numbers than their own: where those of each begin, and the end; then
     /// the numbers.
@@ -76,9 +76,9 @@ class NeighbourMemory {
     Job& job() { return *job_; }
     const RunPlan& plan() const { return plan_; }
     std::uint32_t room() const { return room_; } ///< For hits, and for entries.
-    std::uint32_t most_sources() const { return most_sources_; }
+    std::uint32_t max_sources() const { return max_sources_; }
     /// Word of the rows where the longest one's length is.
-    std::uint32_t longest_word() const { return most_sources_ + 2; }
+    std::uint32_t longest_word() const { return max_sources_ + 2; }
     /// Ranges of the kernels, but for the lists.
     const NeighbourRanges& ranges() const { return ranges_; }
     std::uint64_t device_bytes() const { return buffer_.size(); }
@@ -114,7 +114,7 @@ class NeighbourMemory {
     BufferRange sources_;
     RunPlan plan_;
     std::uint32_t room_ = 0;
-    std::uint32_t most_sources_ = 0;
+    std::uint32_t max_sources_ = 0;
     std::optional<Job> job_; // Declared last: destroyed before the buffers.
 };
 

@@ -7,7 +7,7 @@
 #include <span>
 #include <string>
 
-#include "engine/domain/given.hpp"
+#include "engine/domain/existing.hpp"
 #include "engine/domain/stages.hpp"
 #include "engine/domain/surface_domain.hpp"
 #include "engine/domain/tolerances.hpp"
@@ -25,7 +25,7 @@ constexpr double kMoreRecords = 16;
 // Room for more records than expected.
 constexpr double kSpareRecords = 1.25;
 // Maximum of sources of a job.
-constexpr double kMostSources = 0x1p20;
+constexpr double kMaxSources = 0x1p20;
 // A disk has at most about this times the square of its radius, on most meshes.
 constexpr double kDiskArea = 3.2;
 // Sources whose pairs are counted before the search, at most.
@@ -49,13 +49,12 @@ std::vector<ListedCandidate> targets_of(const NeighbourQuery& query) {
 
 /// Returns the error of so many pairs, if they are too many.
 Result<Done> check_expected(const NeighbourQuery& query, double pairs) {
-    if (pairs <= static_cast<double>(query.most_pairs)) {
+    if (pairs <= static_cast<double>(query.max_pairs)) {
         return Done{};
     }
     return Error{Status::job_too_large,
                  "about " + number_text(std::round(pairs)) +
-                     " pairs are to be expected, more than the " +
-                     std::to_string(query.most_pairs) +
+                     " pairs are to be expected, more than the " + std::to_string(query.max_pairs) +
                      " that are allowed; take a smaller distance or fewer sources"};
 }
 
@@ -125,9 +124,9 @@ Result<SearchJobs> SearchJobs::create(const PreparedMesh& mesh, const NeighbourQ
     if (auto checked = check_edges(mesh, params.min_distance); !checked) {
         return checked.error();
     }
-    params.throws = 1; // A pool might be too large, and none is drawn.
+    params.darts = 1; // A pool might be too large, and none is drawn.
     const auto frame = frame_of(mesh, params);
-    params.throws = 0;
+    params.darts = 0;
     if (!frame) {
         return frame.error();
     }
@@ -136,7 +135,7 @@ Result<SearchJobs> SearchJobs::create(const PreparedMesh& mesh, const NeighbourQ
         return checked.error();
     }
     if (jobs.targets_per_source() * static_cast<double>(query.sources.size()) >
-        static_cast<double>(query.most_pairs)) {
+        static_cast<double>(query.max_pairs)) {
         if (auto checked = check_ahead(mesh, query); !checked) {
             return checked.error();
         }
@@ -159,7 +158,7 @@ Result<Domain> SearchJobs::job(std::size_t first, std::size_t sources, std::uint
     SampleParams params = params_;
     std::vector<KeepOut> disks;
     if (query_->radii.empty()) {
-        params.given = query_->sources.subspan(first, sources);
+        params.existing = query_->sources.subspan(first, sources);
     } else {
         disks.reserve(sources);
         for (std::size_t i = first; i < first + sources; ++i) {
@@ -170,19 +169,19 @@ Result<Domain> SearchJobs::job(std::size_t first, std::size_t sources, std::uint
     return SurfaceDomain::recording(*mesh_, params, frame_, Ending::reach, targets_, room, bounds_);
 }
 
-std::size_t PartSizes::sources(double most_records, std::size_t done, std::size_t left) const {
+std::size_t PartSizes::sources(double max_records, std::size_t done, std::size_t left) const {
     const auto most = static_cast<double>(left);
     // The first ones tell how many records a source has.
-    const double at_once = done == 0 ? static_cast<double>(kFewSources) : kMostSources;
+    const double at_once = done == 0 ? static_cast<double>(kFewSources) : kMaxSources;
     return static_cast<std::size_t>(
-        std::clamp(std::min({most_records / (kSpareRecords * each_), most, at_once}), 1.0, most));
+        std::clamp(std::min({max_records / (kSpareRecords * each_), most, at_once}), 1.0, most));
 }
 
-std::uint32_t PartSizes::room(std::size_t sources, double most_records) const {
+std::uint32_t PartSizes::room(std::size_t sources, double max_records) const {
     const double wanted = kSpareRecords * each_;
     return static_cast<std::uint32_t>(
-        std::clamp(wanted * static_cast<double>(sources) + kLeastRecords, kLeastRecords,
-                   std::max(most_records, wanted) + kLeastRecords));
+        std::clamp(wanted * static_cast<double>(sources) + kMinRecords, kMinRecords,
+                   std::max(max_records, wanted) + kMinRecords));
 }
 
 void PartSizes::note(double records, std::size_t sources) {

@@ -50,8 +50,8 @@ class SearchJobs {
 };
 
 /// Records of a job: at least, and at most.
-inline constexpr double kLeastRecords = 4096;
-inline constexpr double kMostRecords = 0x1p22;
+inline constexpr double kMinRecords = 4096;
+inline constexpr double kMaxRecords = 0x1p22;
 
 /// How many sources the next job takes, by the records of those before.
 class PartSizes {
@@ -60,9 +60,9 @@ class PartSizes {
     explicit PartSizes(double each) : each_(each) {}
 
     /// Returns the number of sources, of those left, whose records probably fit.
-    std::size_t sources(double most_records, std::size_t done, std::size_t left) const;
+    std::size_t sources(double max_records, std::size_t done, std::size_t left) const;
     /// Returns the room to provide for the records of so many sources. One takes what it needs.
-    std::uint32_t room(std::size_t sources, double most_records) const;
+    std::uint32_t room(std::size_t sources, double max_records) const;
     /// Notes that so many sources had so many records.
     void note(double records, std::size_t sources);
     /// Returns the records to expect of a source, by all that is known.

@@ -78,7 +78,7 @@ Task<Result<Neighbours>> Search::go(WholeProgress whole) {
         return whole ? whole(so_far(now)) : so_far(now);
     };
     const double most =
-        std::clamp(runner_.record_bytes() / sizeof(gpu::HitRec), kLeastRecords, kMostRecords);
+        std::clamp(runner_.record_bytes() / sizeof(gpu::HitRec), kMinRecords, kMaxRecords);
     while (done_ < query_.sources.size()) {
         const std::size_t sources = sizes_.sources(most, done_, query_.sources.size() - done_);
         const auto found = co_await find(sources, sizes_.room(sources, most));

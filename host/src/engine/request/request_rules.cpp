@@ -9,10 +9,10 @@ namespace {
 using Field = RequestField;
 
 constexpr RequestRule kRules[] = {
-    {Field::is_exact, Field::throws, "darts stop at exactly stop_count samples"},
+    {Field::is_exact, Field::darts, "darts stop at exactly stop_count samples"},
     {Field::is_exact, Field::stop_count, "an exact count is one already"},
     {Field::is_exact, Field::maximal, "an exact count drops the last samples, which leaves gaps"},
-    {Field::maximal, Field::throws, "darts are no pool to complete"},
+    {Field::maximal, Field::darts, "darts are no pool to complete"},
     {Field::maximal, Field::stop_count, "a count drops the last samples, which leaves gaps"},
     {Field::maximal, Field::class_factors, "gaps are those of samples without classes"},
     {Field::maximal, Field::metric, "gaps are found along the surface"},
@@ -22,14 +22,14 @@ constexpr RequestRule kRules[] = {
     {Field::features, Field::metric, "features keep distances along the surface"},
     {Field::features, Field::frame, "features are those of a whole mesh"},
     {Field::features, Field::split_from, "features are those of the mesh before it was split"},
-    {Field::progressive, Field::throws, "darts fill no level"},
+    {Field::progressive, Field::darts, "darts fill no level"},
     {Field::progressive, Field::class_factors, "levels are sampled without classes"},
     {Field::progressive, Field::features, "each level would have features of its own"},
     {Field::progressive, Field::maximal, "each level has the gaps of its pool"},
     {Field::progressive, Field::metric, "levels keep distances along the surface"},
     {Field::progressive, Field::keep, "the first samples are those of the first levels"},
     {Field::progressive, Field::frame, "levels have frames of their own"},
-    {Field::farthest, Field::given, "given samples come first"},
+    {Field::farthest, Field::existing, "existing samples come first"},
     {Field::farthest, Field::split_from, "samples are ordered where they are told"},
     {Field::farthest, Field::metric, "the order goes by distances along the surface"},
     {Field::metric, Field::radii, "distances through space do not vary"},
@@ -47,8 +47,8 @@ bool is_set(const SampleRequest& request, Field field) {
         return request.count != 0;
     case Field::is_exact:
         return request.is_exact;
-    case Field::throws:
-        return params.throws != 0;
+    case Field::darts:
+        return params.darts != 0;
     case Field::stop_count:
         return params.stop_count != 0;
     case Field::maximal:
@@ -57,8 +57,8 @@ bool is_set(const SampleRequest& request, Field field) {
         return params.radii != nullptr;
     case Field::class_factors:
         return !params.class_factors.empty();
-    case Field::given:
-        return !params.given.empty();
+    case Field::existing:
+        return !params.existing.empty();
     case Field::features:
         return request.features != 0;
     case Field::progressive:
@@ -80,9 +80,9 @@ bool is_set(const SampleRequest& request, Field field) {
 } // namespace
 
 const char* to_string(RequestField field) noexcept {
-    constexpr const char* kNames[] = {"min_distance", "count",    "is_exact",    "throws",
+    constexpr const char* kNames[] = {"min_distance", "count",    "is_exact",    "darts",
                                       "stop_count",   "maximal",  "radii",       "class_factors",
-                                      "given",        "features", "progressive", "farthest",
+                                      "existing",     "features", "progressive", "farthest",
                                       "keep",         "metric",   "frame",       "split_from"};
     return kNames[static_cast<std::size_t>(field)];
 }

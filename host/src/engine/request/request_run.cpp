@@ -46,7 +46,7 @@ class SurfaceSteps {
                                  std::span<const Sample> standing) const;
 
     /// Fails if no room is left for samples on faces beside those on features.
-    Result<Done> check_settled(std::size_t settled) const;
+    Result<Done> check_existing_records(std::size_t settled) const;
     /// Adds what is known of the features.
     void describe(RequestedSet& found, std::size_t settled) const;
 
@@ -71,10 +71,10 @@ Result<Done> SurfaceSteps::prepare() {
     if (count != 0 && !(count >= 1 && std::isfinite(count))) {
         return invalid("count is " + number_text(count) + ", not a number of samples");
     }
-    const std::size_t given = request_.params.given.size();
-    if (count != 0 && static_cast<double>(given) >= count) {
-        return invalid("count is " + number_text(count) + ", but " + std::to_string(given) +
-                       " given samples count too");
+    const std::size_t existing = request_.params.existing.size();
+    if (count != 0 && static_cast<double>(existing) >= count) {
+        return invalid("count is " + number_text(count) + ", but " + std::to_string(existing) +
+                       " existing samples count too");
     }
     if (request_.is_exact && (count == 0 || count != std::floor(count))) {
         return invalid("is_exact needs a whole number of samples as count");
@@ -142,13 +142,13 @@ SampleParams SurfaceSteps::params_at(double distance) const {
 
 Result<RequestStep> SurfaceSteps::on_features(double distance) const {
     SampleParams params = params_at(distance);
-    params.throws = 0;
+    params.darts = 0;
     params.stop_count = 0;
     auto domain = feature_domain(mesh_, params, *features_);
     if (!domain) {
         return domain.error();
     }
-    const double expected = static_cast<double>(params.given.size() + corners_) +
+    const double expected = static_cast<double>(params.existing.size() + corners_) +
                             kCurveSamples * features_->length() / distance;
     RequestStep step{std::move(*domain), params};
     step.expected = expected;
@@ -161,13 +161,13 @@ Result<RequestStep> SurfaceSteps::on_faces(double distance, const Levels& levels
                                            std::span<const Sample> standing) const {
     SampleParams params = params_at(distance);
     if (has_levels()) {
-        auto own = params_of_level(params, levels, level, standing); // 0: the given.
+        auto own = params_of_level(params, levels, level, standing); // 0: the existing ones.
         if (!own) {
             return own.error();
         }
         params = *own;
     } else if (has_features_) {
-        params.given = standing;
+        params.existing = standing;
     }
     auto made = domain(params);
     if (!made) {
@@ -197,11 +197,11 @@ Result<Domain> SurfaceSteps::domain(const SampleParams& params) const {
     return frame ? Domain::surface(mesh_, params, *frame) : frame.error();
 }
 
-Result<Done> SurfaceSteps::check_settled(std::size_t settled) const {
-    const std::size_t given = request_.params.given.size();
+Result<Done> SurfaceSteps::check_existing_records(std::size_t settled) const {
+    const std::size_t existing = request_.params.existing.size();
     const std::uint32_t stop_count = request_.params.stop_count;
-    if (request_.count == 0 && stop_count != 0 && settled > given && settled >= stop_count) {
-        const std::size_t own = settled - given;
+    if (request_.count == 0 && stop_count != 0 && settled > existing && settled >= stop_count) {
+        const std::size_t own = settled - existing;
         return invalid("stop_count: " + std::to_string(own) + (own == 1 ? " sample" : " samples") +
                        " on features count too, so ask for more than " + std::to_string(settled));
     }
@@ -215,7 +215,7 @@ void SurfaceSteps::describe(RequestedSet& found, std::size_t settled) const {
     const std::vector<Sample>& samples = found.set.samples;
     found.features.assign(samples.size(), FeatureKind::face);
     const std::size_t end = std::min(settled, samples.size());
-    for (std::size_t i = std::min(request_.params.given.size(), end); i < end; ++i) {
+    for (std::size_t i = std::min(request_.params.existing.size(), end); i < end; ++i) {
         found.features[i] = feature_of(samples[i]);
     }
     found.corners = corners_;
@@ -267,7 +267,7 @@ void cut_to(SampleSet& set, std::size_t dimension, std::size_t count) {
     set.samples.resize(std::min(set.samples.size(), count));
     set.points.resize(std::min(set.points.size(), count * dimension));
     set.classes.resize(std::min(set.classes.size(), count));
-    set.given = std::min(set.given, count);
+    set.existing = std::min(set.existing, count);
 }
 
 } // namespace
@@ -285,7 +285,7 @@ struct RequestRun::Impl {
     Result<Done> end_try(SampleSet set);
 
     /// Returns how many samples of a try are kept, at most.
-    std::size_t most_kept() const {
+    std::size_t max_kept() const {
         const std::uint32_t stop = surface ? surface->request().params.stop_count : 0;
         return is_exact                  ? static_cast<std::size_t>(count)
                : count != 0 && stop != 0 ? stop
@@ -298,14 +298,14 @@ struct RequestRun::Impl {
     std::optional<SurfaceSteps> surface;
     StepAt step_at; ///< Without a surface.
     std::optional<RequestStep> step;
-    std::vector<Sample> standing;    ///< Those that the step goes on from, besides the given ones.
-    Levels levels{0};                ///< Those of the try; count 0 without any.
+    std::vector<Sample> standing; ///< Those that the step goes on from, besides the existing ones.
+    Levels levels{0};             ///< Those of the try; count 0 without any.
     std::optional<SampleSet> before; ///< Report of the levels before.
     std::vector<std::size_t> ends;
     RunSeconds seconds;
     std::uint32_t starts = 0;
     RequestedSet best;
-    std::size_t settled = 0; ///< Samples of `best` that are given or on features.
+    std::size_t settled = 0; ///< Samples of `best` that exist already or are on features.
 };
 
 Result<Done> RequestRun::Impl::use(Result<RequestStep> made) {
@@ -324,8 +324,8 @@ Result<Done> RequestRun::Impl::begin_try() {
     if (!surface) {
         return use(step_at(*tries.distance()));
     }
-    const std::span<const Sample> given = surface->request().params.given;
-    standing.assign(given.begin(), given.end());
+    const std::span<const Sample> existing = surface->request().params.existing;
+    standing.assign(existing.begin(), existing.end());
     if (surface->has_levels()) {
         levels = surface->levels_at(*tries.distance());
     }
@@ -347,13 +347,13 @@ Result<Done> RequestRun::Impl::end_try(SampleSet set) {
         return is_best.error();
     }
     if (*is_best) {
-        settled = set.given;
+        settled = set.existing;
         best = {};
         best.set = std::move(set);
         best.min_distance = distance;
         best.ends = std::move(ends);
         best.levels = levels;
-        const std::size_t kept = std::min(samples, most_kept());
+        const std::size_t kept = std::min(samples, max_kept());
         best.cut = samples - kept;
         cut_to(best.set, step->domain.dimension(), kept);
         for (std::size_t& end : best.ends) {
@@ -369,7 +369,7 @@ Result<Done> RequestRun::Impl::end_try(SampleSet set) {
     best.set.report.starts = starts;
     if (surface) {
         surface->describe(best, settled);
-        best.set.given = std::min(surface->request().params.given.size(), best.set.given);
+        best.set.existing = std::min(surface->request().params.existing.size(), best.set.existing);
     }
     return Done{};
 }
@@ -423,15 +423,16 @@ Result<Done> RequestRun::take(SampleSet set) noexcept {
         }
         if (run.step->is_on_features) {
             add_seconds(run.seconds, set.report.seconds);
-            if (const auto checked = run.surface->check_settled(set.samples.size()); !checked) {
+            if (const auto checked = run.surface->check_existing_records(set.samples.size());
+                !checked) {
                 run.step.reset();
                 return checked.error();
             }
             run.standing = std::move(set.samples);
             return run.begin_faces();
         }
-        if (run.before) { // Those before are samples of this set, not given ones.
-            set.given = run.before->given;
+        if (run.before) { // Those before are samples of this set, not existing ones.
+            set.existing = run.before->existing;
             set.report.starts += run.before->report.starts;
             set.report.add(run.before->report);
         }

@@ -36,10 +36,10 @@ Result<bool> Tries::note(std::uint64_t samples) {
     if (const auto checked = check_room(samples); !checked) {
         return checked.error();
     }
-    most_ = std::max(most_, samples);
+    max_ = std::max(max_, samples);
     distance_ = search_.note(distance, samples);
-    if (!distance_ && is_exact_ && static_cast<double>(most_) < wanted_) {
-        return invalid("count: no distance tried gave more than " + std::to_string(most_) + " of " +
+    if (!distance_ && is_exact_ && static_cast<double>(max_) < wanted_) {
+        return invalid("count: no distance tried gave more than " + std::to_string(max_) + " of " +
                        samples_text(static_cast<std::uint64_t>(wanted_)) + ", down to " +
                        number_text(distance) + "; ask for fewer, or leave more room for samples");
     }

@@ -33,7 +33,7 @@ class Tries {
     CountSearch search_;
     std::optional<double> distance_;
     std::uint32_t tries_ = 0;
-    std::uint64_t most_ = 0; ///< Maximum of samples so far.
+    std::uint64_t max_ = 0; ///< Maximum of samples so far.
     std::uint64_t latest_ = 0;
     double largest_ = 0; ///< Largest distance that gave as many samples as the latest.
 };

@@ -8,20 +8,20 @@ namespace geodisk {
 namespace {
 
 constexpr double kTolerance = 0.05;
-constexpr std::uint32_t kMostTries = 7;
+constexpr std::uint32_t kMaxTries = 7;
 /// Of an exact search: the part of a count that may be too much; tries, and tries while none has
 /// given enough.
-constexpr double kMostExcess = 0.01;
+constexpr double kMaxExcess = 0.01;
 constexpr std::uint32_t kExactTries = 6;
-constexpr std::uint32_t kMostExactTries = 12;
+constexpr std::uint32_t kMaxExactTries = 12;
 /// Samples expected at a distance up to which an exact search goes on where smaller distances give
 /// no more, but some.
-constexpr double kMostExpected = 0x1p17;
+constexpr double kMaxExpected = 0x1p17;
 /// Stands for no sample at all in an exact search.
 constexpr double kNone = 0.5;
 /// Maximum factor between the distances of the first two tries, and of later ones on one side.
 constexpr double kFar = 4;
-constexpr double kMostFactor = 2;
+constexpr double kMaxFactor = 2;
 /// Minimum distance of the next try from both sides, as a part of the interval between them.
 constexpr double kMargin = 0.1;
 /// Variance of a count by chance, per sample wanted; and the part of it that another distance
@@ -31,7 +31,7 @@ constexpr double kLasting = 0.4;
 /// Excess over the wanted count, as a part of it, from which on most samples are on thin parts; and
 /// their share then.
 constexpr double kAllThin = 0.25;
-constexpr double kMostThin = 0.9;
+constexpr double kMaxThin = 0.9;
 /// Factor between the distances of two tries beyond which their counts show a trend; and beyond
 /// which equal counts show that no distance gives fewer samples.
 constexpr double kTrend = 1.1;
@@ -49,7 +49,7 @@ double about_factor(double count, double wanted) {
     const double lasting = 1 - std::min(0.5, (1 - kLasting) * variance / square(count - wanted));
     const double ratio = 1 + lasting * (count / wanted - 1);
     const double sure = ratio - 1 - 2 * std::sqrt(variance) / wanted;
-    const double thin = std::clamp(sure / kAllThin, 0.0, kMostThin);
+    const double thin = std::clamp(sure / kAllThin, 0.0, kMaxThin);
     return ratio * (thin + std::sqrt(square(thin) + 4 * (1 - thin) / ratio)) / 2;
 }
 
@@ -64,9 +64,9 @@ double trend_factor(double ratio, double count_a, double count_b, double wanted)
     if ((count_a > wanted) != (count_b > wanted)) {
         part = std::clamp(part, kMargin, 1 - kMargin);
     } else if (!(part > 1)) { // There is no trend.
-        return kMostFactor / ratio;
+        return kMaxFactor / ratio;
     }
-    const double goal = std::max(1 + part * (power - 1), power / square(kMostFactor));
+    const double goal = std::max(1 + part * (power - 1), power / square(kMaxFactor));
     return is_slow ? 1 / goal : std::sqrt(1 / goal);
 }
 
@@ -74,8 +74,8 @@ double trend_factor(double ratio, double count_a, double count_b, double wanted)
 
 CountSearch CountSearch::exact(std::uint64_t count) noexcept {
     CountSearch search(static_cast<double>(count));
-    const double excess = std::floor(kMostExcess * search.wanted_);
-    search.most_ = search.wanted_ + excess;
+    const double excess = std::floor(kMaxExcess * search.wanted_);
+    search.max_ = search.wanted_ + excess;
     search.aim_ = search.wanted_ + excess / 2;
     return search;
 }
@@ -83,25 +83,25 @@ CountSearch CountSearch::exact(std::uint64_t count) noexcept {
 bool CountSearch::ends_with(double distance, double count) noexcept {
     const bool is_first = tries_++ == 0;
     first_distance_ = is_first ? distance : first_distance_;
-    if (most_) {
+    if (max_) {
         is_nearest_ = count >= wanted_ && distance > best_distance_;
         best_distance_ = is_nearest_ ? distance : best_distance_;
-        return (count >= wanted_ && count <= *most_) ||
-               tries_ >= (best_distance_ > 0 ? kExactTries : kMostExactTries);
+        return (count >= wanted_ && count <= *max_) ||
+               tries_ >= (best_distance_ > 0 ? kExactTries : kMaxExactTries);
     }
     const double miss = std::abs(std::max(count, 1.0) - wanted_);
-    is_nearest_ = is_first || miss < least_miss_;
-    least_miss_ = is_nearest_ ? miss : least_miss_;
+    is_nearest_ = is_first || miss < min_miss_;
+    min_miss_ = is_nearest_ ? miss : min_miss_;
     // For small counts, one sample more or less is as close as possible.
     const double allowed = std::max(kTolerance * wanted_, std::min(1.0, wanted_ / 4));
-    return miss <= allowed || tries_ == kMostTries;
+    return miss <= allowed || tries_ == kMaxTries;
 }
 
 double CountSearch::first_factor(double count) const noexcept {
     // A distance close by repeats most of the chance, so an exact search makes up for it.
-    double factor = most_ ? std::sqrt(count / aim_) : about_factor(count, wanted_);
+    double factor = max_ ? std::sqrt(count / aim_) : about_factor(count, wanted_);
     // The step grows as long as all tries are on one side.
-    for (std::uint32_t i = most_ ? 2 : 1; i < tries_; ++i) {
+    for (std::uint32_t i = max_ ? 2 : 1; i < tries_; ++i) {
         factor *= factor;
     }
     return std::clamp(factor, 1 / kFar, kFar);
@@ -112,14 +112,14 @@ std::optional<double> CountSearch::note(double distance, std::uint64_t count) no
     if (ends_with(distance, static_cast<double>(count))) {
         return std::nullopt;
     }
-    const Try last{distance, std::max(static_cast<double>(count), most_ ? kNone : 1)};
+    const Try last{distance, std::max(static_cast<double>(count), max_ ? kNone : 1)};
     const bool is_above = last.count > wanted_;
     std::optional<Try>& own = is_above ? above_ : below_;
     const std::optional<Try> before = std::exchange(own, last);
     std::optional<Try>& other = is_above ? below_ : above_;
     const bool is_again = std::exchange(was_above_, is_above) == is_above;
     if (other) {
-        if (most_ && is_again && before) { // The other side is far off; go nearer to it.
+        if (max_ && is_again && before) { // The other side is far off; go nearer to it.
             other->count = aim_ + (other->count - aim_) / 2;
         }
         return other->distance *
@@ -128,13 +128,13 @@ std::optional<double> CountSearch::note(double distance, std::uint64_t count) no
     if (before && std::max(before->distance / distance, distance / before->distance) > kTrend) {
         const double goal = before->distance * trend_factor(before->distance / distance,
                                                             before->count, last.count, aim_);
-        const double next = std::clamp(goal, distance / kMostFactor, distance * kMostFactor);
+        const double next = std::clamp(goal, distance / kMaxFactor, distance * kMaxFactor);
         const bool is_stuck = distance > kWide * before->distance
                                   ? last.count >= before->count
-                                  : most_ && kWide * distance < before->distance &&
+                                  : max_ && kWide * distance < before->distance &&
                                         last.count <= before->count &&
                                         (last.count == kNone ||
-                                         wanted_ * square(first_distance_ / next) > kMostExpected);
+                                         wanted_ * square(first_distance_ / next) > kMaxExpected);
         return is_stuck ? std::nullopt : std::optional(next);
     }
     return distance * first_factor(last.count);

@@ -10,7 +10,7 @@
 namespace geodisk {
 
 /// Maximum of command buffers in flight.
-inline constexpr std::uint32_t kMostFrames = 16;
+inline constexpr std::uint32_t kMaxFrames = 16;
 
 /// What a job has to do next.
 struct FrameAdvice {

@@ -14,7 +14,7 @@ namespace geodisk {
 namespace {
 
 constexpr std::uint32_t kPositionFloats = 3;
-constexpr std::uint64_t kMostVertices = 0xffffffffu;
+constexpr std::uint64_t kMaxVertices = 0xffffffffu;
 
 Result<Done> check_surface(const MeshView& mesh, std::uint64_t faces, const std::string& name) {
     if (mesh.dimension != 2 && mesh.dimension != 3) {
@@ -59,7 +59,7 @@ Result<FrameMesh> FrameMesh::copy(const Domain& domain, std::span<const MeshView
             return checked.error();
         }
         const std::uint64_t base = all.positions.size() / kPositionFloats;
-        if (base + mesh.vertex_count() > kMostVertices) {
+        if (base + mesh.vertex_count() > kMaxVertices) {
             return invalid("the meshes have more vertices than can be numbered");
         }
         for (std::size_t v = 0; v < mesh.vertex_count(); ++v) {

@@ -21,9 +21,9 @@ constexpr SyncScope kCopies{VK_PIPELINE_STAGE_TRANSFER_BIT,
                             VK_ACCESS_TRANSFER_READ_BIT | VK_ACCESS_TRANSFER_WRITE_BIT};
 
 Result<Done> check_options(const FrameSamplerOptions& options) {
-    if (options.frames == 0 || options.frames > kMostFrames) {
+    if (options.frames == 0 || options.frames > kMaxFrames) {
         return invalid("FrameSamplerOptions::frames is " + std::to_string(options.frames) +
-                       ", not from 1 to " + std::to_string(kMostFrames));
+                       ", not from 1 to " + std::to_string(kMaxFrames));
     }
     if (options.dispatches == 0 || options.rounds == 0 || options.vertices_each == 0) {
         return invalid("FrameSamplerOptions::dispatches, rounds and vertices_each must not be 0");

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <string>
 
-#include <geodisk/philox.hpp>
+#include <geodisk/detail/philox.hpp>
 
 #include "support/invalid.hpp"
 #include "support/number_text.hpp"
@@ -37,7 +37,7 @@ double Levels::scale(std::uint32_t level) const noexcept {
 Levels levels_for(const PreparedMesh& mesh, const SampleParams& last, double factor) noexcept {
     Levels levels{1, factor};
     double samples = expected_count(effective_area(mesh, last), last.min_distance);
-    while (levels.count < kMostLevels && samples >= kFirstLevelSamples * factor * factor) {
+    while (levels.count < kMaxLevels && samples >= kFirstLevelSamples * factor * factor) {
         samples /= factor * factor;
         ++levels.count;
     }
@@ -46,19 +46,19 @@ Levels levels_for(const PreparedMesh& mesh, const SampleParams& last, double fac
 
 Result<SampleParams> params_of_level(const SampleParams& last, const Levels& levels,
                                      std::uint32_t level, std::span<const Sample> before) noexcept {
-    if (levels.count < 1 || levels.count > kMostLevels) {
+    if (levels.count < 1 || levels.count > kMaxLevels) {
         return invalid("there are " + std::to_string(levels.count) + " levels, not 1 to " +
-                       std::to_string(kMostLevels));
+                       std::to_string(kMaxLevels));
     }
-    if (!(levels.factor >= kLeastLevelFactor) || !(levels.factor <= kMostLevelFactor)) {
+    if (!(levels.factor >= kMinLevelFactor) || !(levels.factor <= kMaxLevelFactor)) {
         return invalid("the factor between levels is " + number_text(levels.factor) + ", not " +
-                       number_text(kLeastLevelFactor) + " to " + number_text(kMostLevelFactor));
+                       number_text(kMinLevelFactor) + " to " + number_text(kMaxLevelFactor));
     }
     if (level >= levels.count) {
         return invalid("there is no level " + std::to_string(level) + " of " +
                        std::to_string(levels.count));
     }
-    if (last.throws != 0) {
+    if (last.darts != 0) {
         return invalid("levels are sampled from pools; darts have none");
     }
     if (!last.class_factors.empty()) {
@@ -68,7 +68,7 @@ Result<SampleParams> params_of_level(const SampleParams& last, const Levels& lev
     params.min_distance = last.min_distance * levels.scale(level);
     params.seed = seed_of_level(last.seed, level);
     if (level > 0) {
-        params.given = before;
+        params.existing = before;
     }
     return params;
 }

@@ -21,15 +21,15 @@ constexpr double kGoalFactor = 0.25;
 constexpr std::size_t kFewCells = 8192;
 constexpr double kCoarseGoal = 1;
 // Below it all cells are split as far as possible.
-constexpr double kLeastGoal = 0x1p-40;
+constexpr double kMinGoal = 0x1p-40;
 // Maximum of darts of a round, per sample so far and in all rounds.
 constexpr double kDartsPerSample = 16;
-constexpr double kLeastDarts = 0x1p16;
-constexpr double kMostDarts = 0x1p24;
+constexpr double kMinDarts = 0x1p16;
+constexpr double kMaxDarts = 0x1p24;
 // Maximum of records of lights read at once, and room for more than expected.
-constexpr double kMostRecords = 0x1p21;
+constexpr double kMaxRecords = 0x1p21;
 constexpr double kSpareRecords = 1.5;
-constexpr std::uint32_t kLeastRecords = 4096;
+constexpr std::uint32_t kMinRecords = 4096;
 
 class MaximalRun {
   public:
@@ -63,7 +63,7 @@ class MaximalRun {
 
 Task<Result<SampleSet>> MaximalRun::run_pool() {
     SampleParams params = job_.params;
-    params.given = job_.given;
+    params.existing = job_.existing;
     params.avoid = job_.avoid;
     const auto domain = SurfaceDomain::plain(*job_.mesh, params, job_.frame);
     if (!domain) {
@@ -74,15 +74,15 @@ Task<Result<SampleSet>> MaximalRun::run_pool() {
 
 Task<Result<Done>> MaximalRun::light(std::span<const Sample> samples,
                                      std::span<const KeepOut> avoid) {
-    const double most = std::min(kMostRecords, runner_.record_bytes() / sizeof(gpu::LitRec));
+    const double most = std::min(kMaxRecords, runner_.record_bytes() / sizeof(gpu::LitRec));
     while (!samples.empty() || !avoid.empty()) {
         const auto disks =
             std::max<std::size_t>(1, static_cast<std::size_t>(most / records_per_disk_));
         SampleParams params = job_.params;
         params.avoid = avoid.first(std::min(avoid.size(), disks));
-        params.given = samples.first(std::min(samples.size(), disks - params.avoid.size()));
-        const auto settled = static_cast<double>(params.avoid.size() + params.given.size());
-        const double expected = records_per_disk_ * settled + kLeastRecords;
+        params.existing = samples.first(std::min(samples.size(), disks - params.avoid.size()));
+        const auto settled = static_cast<double>(params.avoid.size() + params.existing.size());
+        const double expected = records_per_disk_ * settled + kMinRecords;
         const auto domain = SurfaceDomain::recording(*job_.mesh, params, job_.frame, Ending::light,
                                                      {}, static_cast<std::uint32_t>(expected));
         if (!domain) {
@@ -99,7 +99,7 @@ Task<Result<Done>> MaximalRun::light(std::span<const Sample> samples,
             continue; // Again, with room for all.
         }
         lit_.add(lit.lights);
-        samples = samples.subspan(params.given.size());
+        samples = samples.subspan(params.existing.size());
         avoid = avoid.subspan(params.avoid.size());
     }
     co_return Done{};
@@ -107,7 +107,7 @@ Task<Result<Done>> MaximalRun::light(std::span<const Sample> samples,
 
 Task<Result<std::vector<Sample>>> MaximalRun::fill(std::uint32_t round, double goal) {
     const double most = std::clamp(kDartsPerSample * static_cast<double>(set_.samples.size()),
-                                   kLeastDarts, kMostDarts);
+                                   kMinDarts, kMaxDarts);
     const std::vector<ListedCandidate> darts = gaps_.darts(round, goal, most);
     if (darts.empty()) {
         co_return std::vector<Sample>();
@@ -173,7 +173,7 @@ Task<Result<SampleSet>> MaximalRun::go() {
             co_return lit.error();
         }
         set_.samples.insert(set_.samples.end(), samples->begin(), samples->end());
-        goal = std::max(goal * kGoalFactor, kLeastGoal);
+        goal = std::max(goal * kGoalFactor, kMinGoal);
         refine(goal, before);
     }
     report_gaps();

@@ -16,8 +16,8 @@ constexpr double kSmallJob = 1024;
 // As many are short on a device 300 times as slow as lavapipe, with all that comes with them.
 constexpr double kFewSteps = 160;
 // Upper limit of a submission in seconds: the shortest watchdogs allow two.
-constexpr double kMostSeconds = 1;
-constexpr std::uint64_t kMostItems = std::uint64_t{1} << 40;
+constexpr double kMaxSeconds = 1;
+constexpr std::uint64_t kMaxItems = std::uint64_t{1} << 40;
 // Maximum growth from one submission to the next, as long as it stays under half of the target;
 // else 2.
 constexpr std::uint64_t kLargestGrowth = 4;
@@ -27,7 +27,7 @@ constexpr double kSteepest = 16;
 /// Returns how many items are done in some seconds; all if it is not known how long they take.
 std::uint64_t items_in(double seconds, double per_item) {
     const double most =
-        per_item > 0 ? std::min(seconds / per_item, static_cast<double>(kMostItems)) : kMostItems;
+        per_item > 0 ? std::min(seconds / per_item, static_cast<double>(kMaxItems)) : kMaxItems;
     return static_cast<std::uint64_t>(std::max(most, 1.0));
 }
 
@@ -40,13 +40,13 @@ std::uint64_t items_of_step(const RunPlan& plan) {
 } // namespace
 
 std::uint64_t Pace::items() const {
-    return std::min(items_, items_in(kMostSeconds, per_item_));
+    return std::min(items_, items_in(kMaxSeconds, per_item_));
 }
 
 void Pace::follow(double seconds, std::uint64_t items) {
     if (seconds < target_ / 2 && items >= items_ / 2) {
         const std::uint64_t times = seconds < target_ / (2 * kLargestGrowth) ? kLargestGrowth : 2;
-        items_ = std::min(times * items_, kMostItems);
+        items_ = std::min(times * items_, kMaxItems);
     } else if (seconds > target_) {
         const double part = std::max(target_ / seconds, 1 / kSteepest);
         items_ = std::max<std::uint64_t>(
@@ -72,7 +72,7 @@ void Pace::took(double seconds, std::uint64_t items, std::uint64_t steps, std::u
 }
 
 bool Pace::fits(double steps) const {
-    return per_item_ > 0 ? steps <= kSmallJob && steps * kItemsPerStep * per_item_ <= kMostSeconds
+    return per_item_ > 0 ? steps <= kSmallJob && steps * kItemsPerStep * per_item_ <= kMaxSeconds
                          : steps <= kFewSteps;
 }
 

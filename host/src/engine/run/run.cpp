@@ -26,9 +26,9 @@ namespace {
 class Run {
   public:
     /// Takes at most so many bytes on the device. `before` reports earlier starts of the run.
-    Run(Runner::Impl& runner, const Domain& domain, std::uint64_t most_bytes,
+    Run(Runner::Impl& runner, const Domain& domain, std::uint64_t max_bytes,
         const RunReport& before, DiskRecords* records)
-        : runner_(runner), domain_(domain), most_bytes_(most_bytes), of_(Domain::Impl::of(domain)),
+        : runner_(runner), domain_(domain), max_bytes_(max_bytes), of_(Domain::Impl::of(domain)),
           memory_(*runner.workspace), kept_(runner.jobs[index_of(of_.kernels.domain)]),
           job_(kept_.job), submissions_(runner, memory_, of_), records_(records) {
         report_.seconds = before.seconds;
@@ -68,7 +68,7 @@ class Run {
 
     Runner::Impl& runner_;
     const Domain& domain_;
-    const std::uint64_t most_bytes_;
+    const std::uint64_t max_bytes_;
     const Domain::Impl& of_;
     RunMemory& memory_;
     Runner::Impl::KeptJob& kept_;
@@ -110,7 +110,7 @@ Result<Done> Run::prepare(const RunPlan& plan) {
         return needs.error();
     }
     const std::uint64_t uploaded = upload_bytes(runner_.sampler, domain_);
-    if (auto allocated = memory_.allocate(*needs, uploaded, most_bytes_); !allocated) {
+    if (auto allocated = memory_.allocate(*needs, uploaded, max_bytes_); !allocated) {
         return allocated;
     }
     if (job_ && kept_.made == memory_.made()) {
@@ -292,7 +292,7 @@ bool Run::is_past_avoided(const Advice& advice) const {
 
 Task<Result<Done>> Run::enlarge_samples(std::uint32_t capacity) {
     auto enlarged = co_await memory_.enlarge_samples(job_->sample_bytes(capacity),
-                                                     control().accepted, most_bytes_);
+                                                     control().accepted, max_bytes_);
     if (!enlarged) {
         co_return enlarged;
     }
@@ -333,11 +333,11 @@ bool Run::fit_samples(Advice& advice) const {
     }
     const auto fits = [&](std::uint32_t capacity) {
         const auto bytes = job_->sample_bytes(capacity);
-        return others + bytes[0] + bytes[1] + bytes[2] <= most_bytes_;
+        return others + bytes[0] + bytes[1] + bytes[2] <= max_bytes_;
     };
     // advance() has found that it fits 32 bits.
     const auto least =
-        static_cast<std::uint32_t>(least_sample_capacity(control(), job_->plan().slots));
+        static_cast<std::uint32_t>(min_sample_capacity(control(), job_->plan().slots));
     if (!fits(advice.sample_capacity) && fits(least)) {
         advice.sample_capacity = least;
     }
@@ -346,7 +346,7 @@ bool Run::fit_samples(Advice& advice) const {
 
 std::uint64_t Run::pool_bytes(std::uint64_t most) const {
     const std::uint64_t others = memory_.bytes() - memory_.range(BufferRole::pool).size;
-    const std::uint64_t allowed = std::min(most_bytes_, runner_.bytes_allowed());
+    const std::uint64_t allowed = std::min(max_bytes_, runner_.bytes_allowed());
     const std::uint64_t left = allowed > others ? allowed - others : 0;
     // It has what it has.
     return std::max(std::min(left, most), memory_.range(BufferRole::pool).size);

@@ -11,13 +11,13 @@
 namespace geodisk {
 namespace {
 
-constexpr VkDeviceSize kLeastStaging = VkDeviceSize{64} << 10;
-constexpr VkDeviceSize kMostStaging = VkDeviceSize{16} << 20;
+constexpr VkDeviceSize kMinStaging = VkDeviceSize{64} << 10;
+constexpr VkDeviceSize kMaxStaging = VkDeviceSize{16} << 20;
 // Bytes for the control record.
 constexpr VkDeviceSize kHeadBytes = 512;
 static_assert(sizeof(gpu::ControlRec) <= kHeadBytes);
 // Maximum bytes of samples that are read before their number is known.
-constexpr VkDeviceSize kMostReadAhead = VkDeviceSize{1} << 20;
+constexpr VkDeviceSize kMaxReadAhead = VkDeviceSize{1} << 20;
 
 /// Buffers that pending submissions may use.
 struct InUse {
@@ -56,7 +56,7 @@ Result<DeviceBuffer> RunMemory::create(const char* name, VkDeviceSize bytes,
 }
 
 std::uint64_t RunMemory::staging_bytes(std::uint64_t upload_bytes) {
-    return std::clamp(kHeadBytes + upload_bytes, kLeastStaging, kMostStaging);
+    return std::clamp(kHeadBytes + upload_bytes, kMinStaging, kMaxStaging);
 }
 
 Result<Done> RunMemory::reserve_staging(VkDeviceSize bytes) {
@@ -222,7 +222,7 @@ Task<Result<Done>> RunMemory::read(BufferRole role, std::span<std::byte> bytes, 
 }
 
 void RunMemory::record_samples(VkCommandBuffer commands, VkDeviceSize bytes) {
-    if (bytes > std::min(staging_.size() - kHeadBytes, kMostReadAhead)) {
+    if (bytes > std::min(staging_.size() - kHeadBytes, kMaxReadAhead)) {
         return;
     }
     barrier_compute_to_transfer(sampler_.vk, commands);

@@ -5,14 +5,14 @@
 namespace geodisk {
 
 void take_counts(const gpu::ControlRec& control, RunReport& report) {
-    report.iterations = control.iterations;
+    report.batches = control.batches;
     report.disks = control.disks;
     report.windows = wide(control.windows_low, control.windows_high);
     report.tested = wide(control.tested_low, control.tested_high);
-    report.most_waiting = control.most_waiting;
+    report.max_waiting = control.max_waiting;
     report.longest_chain = control.longest_chain;
-    report.most_vertices = control.most_vertices;
-    report.most_conflicts = control.most_conflicts;
+    report.max_vertices = control.max_vertices;
+    report.max_conflicts = control.max_conflicts;
     report.trips = wide(control.trips_low, control.trips_high);
     report.lane_trips = wide(control.lane_trips_low, control.lane_trips_high);
 }
@@ -21,16 +21,16 @@ void RunReport::add(const RunReport& other) noexcept {
     // Of several runs together there may be more than fit.
     candidates += std::min(other.candidates, ~candidates);
     chunks += other.chunks;
-    iterations += other.iterations;
+    batches += other.batches;
     dispatches += other.dispatches;
     disks += other.disks;
     regrown += other.regrown;
     windows += other.windows;
     tested += other.tested;
-    most_waiting = std::max(most_waiting, other.most_waiting);
+    max_waiting = std::max(max_waiting, other.max_waiting);
     longest_chain = std::max(longest_chain, other.longest_chain);
-    most_vertices = std::max(most_vertices, other.most_vertices);
-    most_conflicts = std::max(most_conflicts, other.most_conflicts);
+    max_vertices = std::max(max_vertices, other.max_vertices);
+    max_conflicts = std::max(max_conflicts, other.max_conflicts);
     trips += other.trips;
     lane_trips += other.lane_trips;
     guard = std::max(guard, other.guard);

@@ -124,17 +124,17 @@ std::uint64_t Runner::Impl::bytes_allowed() const {
     properties.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MEMORY_PROPERTIES_2;
     properties.pNext = &budget;
     memory_properties2(refs.physical_device, &properties);
-    std::uint64_t most_free = 0;
+    std::uint64_t max_free = 0;
     bool is_told = false;
     for (std::uint32_t i = 0; i < memory.memoryHeapCount; ++i) {
         const bool is_local = (memory.memoryHeaps[i].flags & VK_MEMORY_HEAP_DEVICE_LOCAL_BIT) != 0;
         const VkDeviceSize used = std::min(budget.heapUsage[i], budget.heapBudget[i]);
         is_told = is_told || (is_local && budget.heapBudget[i] > 0);
-        most_free = is_local ? std::max(most_free, budget.heapBudget[i] - used) : most_free;
+        max_free = is_local ? std::max(max_free, budget.heapBudget[i] - used) : max_free;
     }
     // Memory that is kept can be used too.
     const std::uint64_t kept = workspace ? workspace->bytes() : 0;
-    return is_told ? std::min(bytes, most_free + kept) : bytes;
+    return is_told ? std::min(bytes, max_free + kept) : bytes;
 }
 
 Result<Done> Runner::Impl::submit_timed(const std::function<void(VkCommandBuffer)>& record) {

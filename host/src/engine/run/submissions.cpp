@@ -10,16 +10,16 @@
 namespace geodisk {
 namespace {
 
-constexpr std::uint64_t kMostRounds = 256;
+constexpr std::uint64_t kMaxRounds = 256;
 // About those of a run that recomputes few.
 constexpr double kDisksPerSample = 1.5;
 // Rounds that list candidates, or end a batch.
 constexpr std::uint64_t kRoundsBeside = 6;
-constexpr std::uint32_t kMostPasses = 64;
+constexpr std::uint32_t kMaxPasses = 64;
 // Submissions that may leave no trace, before the device counts as stuck.
-constexpr std::uint32_t kMostIdle = 8;
+constexpr std::uint32_t kMaxIdle = 8;
 // Part of a run that the steps of disks alone may count as done.
-constexpr double kMostExpected = 0.99;
+constexpr double kMaxExpected = 0.99;
 // Items of a pass before it is known how long they take.
 constexpr std::uint64_t kItemsOfNew = std::uint64_t{1} << 18;
 
@@ -31,7 +31,7 @@ Submissions::Submissions(Runner::Impl& runner, RunMemory& memory, const Domain::
 void Submissions::use(Job& job, const RunPlan& plan) {
     job_ = &job;
     plan_ = plan;
-    all_steps_ = kDisksPerSample * of_.all_steps(plan) * std::max(1.0, kLeastSlots / of_.samples);
+    all_steps_ = kDisksPerSample * of_.all_steps(plan) * std::max(1.0, kMinSlots / of_.samples);
     paces_ = &runner_.paces_of(this->job().variant);
     items_of_new_ = paces_->passes.begin_run(kItemsOfNew);
     paces_->rounds.begin_run(Pace::kFirstItemsOfRounds, plan.lanes);
@@ -117,8 +117,7 @@ std::uint32_t Submissions::record_rounds(VkCommandBuffer commands) {
         rounds =
             std::max(rounds, kRoundsBeside + 2 * static_cast<std::uint64_t>(disks) / plan.slots);
     }
-    const auto count =
-        static_cast<std::uint32_t>(std::clamp<std::uint64_t>(rounds, 1, kMostRounds));
+    const auto count = static_cast<std::uint32_t>(std::clamp<std::uint64_t>(rounds, 1, kMaxRounds));
     runner_.sampler.record_rounds(commands, *job_, count);
     return count;
 }
@@ -145,19 +144,18 @@ Task<Result<Done>> Submissions::run_rounds(bool rewind) {
     took_rounds(*seconds, rounds, before);
     // Batches that take more than a round: fewer of the other dispatches go idle when a round
     // detects longer.
-    const bool is_slow = rounds >= 2 * (control_.iterations - before.iterations);
+    const bool is_slow = rounds >= 2 * (control_.batches - before.batches);
     if (control_.incomplete > 0 && is_slow && runner_.options.plan.detect_passes == 0) {
-        plan_.detect_passes = std::min(2 * plan_.detect_passes, kMostPasses);
+        plan_.detect_passes = std::min(2 * plan_.detect_passes, kMaxPasses);
     }
     co_return check_progress(before);
 }
 
 Result<Done> Submissions::check_progress(const gpu::ControlRec& before) {
     idle_ = std::memcmp(&before, &control_, sizeof before) == 0 ? idle_ + 1 : 0;
-    if (idle_ == kMostIdle) {
-        return Error{Status::internal,
-                     "the device makes no progress: " + std::to_string(kMostIdle) +
-                         " submissions have changed nothing"};
+    if (idle_ == kMaxIdle) {
+        return Error{Status::internal, "the device makes no progress: " + std::to_string(kMaxIdle) +
+                                           " submissions have changed nothing"};
     }
     return Done{};
 }
@@ -165,7 +163,7 @@ Result<Done> Submissions::check_progress(const gpu::ControlRec& before) {
 Progress Submissions::how_far() const {
     const double all = of_.stages.candidates();
     // A large disk may take as long as all others.
-    const double stepped = all_steps_ > 0 ? std::min(kMostExpected, steps_ / all_steps_) : 0;
+    const double stepped = all_steps_ > 0 ? std::min(kMaxExpected, steps_ / all_steps_) : 0;
     const double decided = std::max(job().decided(control_), stepped * all);
     return {static_cast<std::uint32_t>(std::min(decided, all)), static_cast<std::uint32_t>(all),
             control_.accepted - std::min(control_.accepted, of_.avoided), control_.disks,

@@ -6,7 +6,7 @@
 #include <string>
 #include <tuple>
 
-#include "engine/domain/given.hpp"
+#include "engine/domain/existing.hpp"
 #include "engine/update/mesh_part.hpp"
 #include "engine/update/update_checks.hpp"
 #include "support/invalid.hpp"

@@ -38,7 +38,7 @@ class FaceReach {
 
   private:
     struct Box {
-        std::array<double, kMostDimensions> low, high;
+        std::array<double, kMaxDimensions> low, high;
         void add(const Box& other, std::uint32_t dimension);
     };
     Box box_of(std::uint32_t face) const;

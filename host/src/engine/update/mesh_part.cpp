@@ -52,7 +52,7 @@ Result<MeshPart> MeshPart::prepare(const MeshView& mesh, const SampleParams& par
                                    std::vector<std::uint32_t> faces, const ThreadOptions& threads) {
     MeshPart part;
     part.params_ = params;
-    part.params_.given = {};
+    part.params_.existing = {};
     part.params_.avoid = {};
     part.faces_ = std::move(faces);
     auto prepared = prepare_shape(mesh, part.faces_, threads);

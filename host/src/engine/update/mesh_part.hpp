@@ -31,7 +31,7 @@ class MeshPart {
     std::optional<std::uint32_t> find(std::uint32_t face) const;
 
     /// Returns the parameters of the whole for the part: with its radii, keys and mask, and without
-    /// given samples and points to avoid. They refer to the part.
+    /// existing samples and points to avoid. They refer to the part.
     SampleParams params() const;
 
   private:

@@ -42,7 +42,7 @@ Changes changes_between(const Darts& old, const Darts& now, bool has_keys) {
 Region::Region(Runner& runner, const EditedSurface& surface)
     : runner_(runner), surface_(surface), reach_(kReach * surface.params.min_distance),
       faces_(surface.faces, surface.mesh) {
-    for (const Sample& sample : surface.params.given) {
+    for (const Sample& sample : surface.params.existing) {
         given_[sample.face].push_back(sample);
     }
 }
@@ -123,12 +123,12 @@ Result<std::vector<bool>> Region::accept(const MeshPart& part, const std::vector
     for (const Entry& entry : entries) {
         points.push_back(entry.dart.point);
     }
-    std::vector<Sample> given;
+    std::vector<Sample> existing;
     for (std::uint32_t f = 0; f < part.faces().size(); ++f) {
         if (const auto own = given_.find(part.faces()[f]); own != given_.end()) {
             for (Sample sample : own->second) {
                 sample.face = f;
-                given.push_back(sample);
+                existing.push_back(sample);
             }
         }
     }
@@ -136,7 +136,7 @@ Result<std::vector<bool>> Region::accept(const MeshPart& part, const std::vector
     SampleParams params = part.params();
     params.face_keys = {};
     params.face_mask = {};
-    params.given = given;
+    params.existing = existing;
     std::vector<KeepOut> avoided = avoided_;
     for (KeepOut& one : avoided) {
         one.center.face = *part.find(one.center.face);
@@ -152,7 +152,7 @@ Result<std::vector<bool>> Region::accept(const MeshPart& part, const std::vector
     }
     report.run.add(set->report);
     report.run.guard = std::max(report.run.guard, set->report.guard);
-    const auto places = places_of(std::span(set->samples).subspan(set->given), points);
+    const auto places = places_of(std::span(set->samples).subspan(set->existing), points);
     if (!places) {
         return places.error();
     }

@@ -17,7 +17,7 @@ Result<Done> check_kind(const SampleParams& params) {
     const auto refuse = [](const std::string& what) {
         return invalid(what + " cannot be updated; sample the surface again");
     };
-    if (params.throws != 0) {
+    if (params.darts != 0) {
         return refuse("a number of darts");
     }
     if (params.stop_count != 0) {
@@ -59,8 +59,8 @@ Result<Done> check_places(const LiveMesh& faces, const SampleParams& params) {
                                  ", which there is not",
                              i);
     };
-    for (std::size_t i = 0; i < params.given.size(); ++i) {
-        if (auto checked = check("given sample ", i, params.given[i].face); !checked) {
+    for (std::size_t i = 0; i < params.existing.size(); ++i) {
+        if (auto checked = check("existing sample ", i, params.existing[i].face); !checked) {
             return checked;
         }
     }
@@ -79,11 +79,11 @@ Result<Done> check_places(const LiveMesh& faces, const SampleParams& params) {
 }
 
 double density_of(const SampleParams& params) {
-    return params.radii != nullptr ? params.radii->least_density() : 0;
+    return params.radii != nullptr ? params.radii->min_density() : 0;
 }
 
 Result<Done> check_same(const SampleParams& params, const JobFrame& frame, std::uint64_t seed,
-                        bool has_keys, double least_density) {
+                        bool has_keys, double min_density) {
     if (auto checked = check_kind(params); !checked) {
         return checked;
     }
@@ -98,7 +98,7 @@ Result<Done> check_same(const SampleParams& params, const JobFrame& frame, std::
         return invalid(has_keys ? "the faces of the samples have keys, these have none"
                                 : "the faces of the samples have no keys, these have");
     }
-    if (density_of(params) != least_density) {
+    if (density_of(params) != min_density) {
         return invalid("the edit changes the density at which radii are largest, and so all "
                        "radii; sample the surface again");
     }
@@ -138,10 +138,11 @@ Result<Done> check_start(const SurfaceJob& job, const JobFrame& frame,
         return invalid("the minimum distance exceeds the surface, so an edit may change all "
                        "samples; sample the surface again");
     }
-    const std::size_t given = params.given.size();
-    if (samples.size() < given ||
-        !std::ranges::equal(samples.first(given), params.given, {}, order_of, order_of)) {
-        return invalid("the samples must begin with the " + std::to_string(given) + " given ones");
+    const std::size_t existing = params.existing.size();
+    if (samples.size() < existing ||
+        !std::ranges::equal(samples.first(existing), params.existing, {}, order_of, order_of)) {
+        return invalid("the samples must begin with the " + std::to_string(existing) +
+                       " existing ones");
     }
     return Done{};
 }

@@ -9,12 +9,12 @@
 
 #include <geodisk/update.hpp>
 
-#include "engine/domain/given.hpp"
+#include "engine/domain/existing.hpp"
 #include "engine/update/live_mesh.hpp"
 
 namespace geodisk {
 
-/// Returns what tells given samples apart.
+/// Returns what tells existing samples apart.
 inline auto order_of(const Sample& sample) {
     const auto [second, third] = rounded_weights(sample.weights);
     return std::tuple(sample.face, second, third);
@@ -24,18 +24,18 @@ inline auto order_of_avoided(const KeepOut& avoided) {
     return std::tuple_cat(order_of(avoided.center), std::tuple(avoided.radius));
 }
 
-/// Returns RadiusField::least_density() of the parameters, or 0.
+/// Returns RadiusField::min_density() of the parameters, or 0.
 double density_of(const SampleParams& params);
 
 /// Checks the sizes of what the parameters say of faces.
 Result<Done> check_sizes(const MeshView& mesh, const SampleParams& params);
 
-/// Checks that given samples and points to avoid are in faces that take part.
+/// Checks that existing samples and points to avoid are in faces that take part.
 Result<Done> check_places(const LiveMesh& faces, const SampleParams& params);
 
 /// Checks that parameters are those of an updater, but for what an edit may change.
 Result<Done> check_same(const SampleParams& params, const JobFrame& frame, std::uint64_t seed,
-                        bool has_keys, double least_density);
+                        bool has_keys, double min_density);
 
 /// Checks a job and the samples that an updater begins with.
 Result<Done> check_start(const SurfaceJob& job, const JobFrame& frame,

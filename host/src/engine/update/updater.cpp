@@ -12,7 +12,7 @@
 #include <geodisk/domain.hpp>
 
 #include "engine/domain/check_frame.hpp"
-#include "engine/domain/given.hpp"
+#include "engine/domain/existing.hpp"
 #include "engine/update/dart_set.hpp"
 #include "engine/update/face_set.hpp"
 #include "engine/update/live_mesh.hpp"
@@ -27,7 +27,7 @@
 namespace geodisk {
 namespace {
 
-/// Returns what only one of two lists has: of given samples, or of points to avoid.
+/// Returns what only one of two lists has: of existing samples, or of points to avoid.
 template <class Place, class Order>
 std::vector<Place> difference_of(std::vector<Place> a, std::vector<Place> b, const Order& order) {
     std::ranges::sort(a, {}, order);
@@ -51,12 +51,12 @@ struct Updater::Impl {
     ThreadOptions threads;
     std::uint64_t seed;
     bool has_keys;
-    double least_density; ///< RadiusField::least_density().
+    double min_density; ///< RadiusField::min_density().
     std::uint32_t dimension;
     std::size_t vertices; ///< Number of vertices.
     LiveMesh faces;
     DartSet darts;
-    std::vector<Sample> given{};
+    std::vector<Sample> existing{};
     std::vector<KeepOut> avoid{};
     std::vector<Sample> samples{};
     // Edits that are not yet decided.
@@ -65,7 +65,7 @@ struct Updater::Impl {
     std::size_t dropped = 0;                ///< Samples of those faces that are gone already.
     double avoided = 0; ///< Largest radius of the points to avoid there that are gone.
 
-    /// Makes the state of a surface whose samples, but for the given ones, are found.
+    /// Makes the state of a surface whose samples, but for the existing ones, are found.
     static Result<std::unique_ptr<Impl>> make(const SurfaceJob& job, const JobFrame& frame,
                                               std::vector<NumberedSample> samples,
                                               const ThreadOptions& threads);
@@ -96,7 +96,7 @@ Result<std::unique_ptr<Updater::Impl>> Updater::Impl::make(const SurfaceJob& job
                                             .threads = threads,
                                             .seed = params.seed,
                                             .has_keys = !params.face_keys.empty(),
-                                            .least_density = density_of(params),
+                                            .min_density = density_of(params),
                                             .dimension = mesh.dimension,
                                             .vertices = mesh.vertex_count(),
                                             .faces = LiveMesh(mesh),
@@ -107,7 +107,7 @@ Result<std::unique_ptr<Updater::Impl>> Updater::Impl::make(const SurfaceJob& job
 
 Result<Done> Updater::Impl::check_same_job(const MeshView& mesh, const SampleParams& params,
                                            std::span<const std::uint32_t> changed) const {
-    if (auto checked = check_same(params, frame, seed, has_keys, least_density); !checked) {
+    if (auto checked = check_same(params, frame, seed, has_keys, min_density); !checked) {
         return checked;
     }
     if (auto checked = check_sizes(mesh, params); !checked) {
@@ -184,7 +184,7 @@ Result<Changes> Updater::Impl::decide_all(Runner& runner, const MeshView& mesh,
         return set.error();
     }
     std::vector<NumberedSample> found;
-    for (std::size_t i = set->given; i < set->samples.size(); ++i) {
+    for (std::size_t i = set->existing; i < set->samples.size(); ++i) {
         found.push_back({set->samples[i], i});
     }
     const auto all = DartSet::find(mesh, params, *other, std::move(found), threads);
@@ -201,7 +201,7 @@ Result<Changes> Updater::Impl::decide_all(Runner& runner, const MeshView& mesh,
 
 void Updater::Impl::set_samples() {
     samples.clear();
-    for (const Sample& sample : given) {
+    for (const Sample& sample : existing) {
         const auto [second, third] = rounded_weights(sample.weights);
         samples.push_back({sample.face, {1 - second - third, second, third}});
     }
@@ -223,7 +223,7 @@ Result<Updater> Updater::create(const MeshView& mesh, const SampleParams& params
             return checked.error();
         }
         std::vector<NumberedSample> found;
-        for (std::size_t i = params.given.size(); i < samples.size(); ++i) {
+        for (std::size_t i = params.existing.size(); i < samples.size(); ++i) {
             if (samples[i].face >= mesh.face_count()) {
                 return no_face(i, samples[i].face, mesh.face_count());
             }
@@ -233,7 +233,7 @@ Result<Updater> Updater::create(const MeshView& mesh, const SampleParams& params
         if (!impl) {
             return impl.error();
         }
-        (*impl)->given.assign(params.given.begin(), params.given.end());
+        (*impl)->existing.assign(params.existing.begin(), params.existing.end());
         (*impl)->avoid.assign(params.avoid.begin(), params.avoid.end());
         (*impl)->set_samples();
         return Updater(std::move(*impl));
@@ -251,7 +251,7 @@ Result<Updater> Updater::create(const SurfaceJob& before, const SurfaceJob& afte
             return checked.error();
         }
         FaceMatch match = match_faces(before, after);
-        std::vector<Sample> given;
+        std::vector<Sample> existing;
         std::vector<NumberedSample> kept;
         std::size_t dropped = 0;
         for (std::size_t i = 0; i < samples.size(); ++i) {
@@ -259,12 +259,12 @@ Result<Updater> Updater::create(const SurfaceJob& before, const SurfaceJob& afte
             if (sample.face >= match.kept.size()) {
                 return no_face(i, sample.face, match.kept.size());
             }
-            const bool is_given = i < before.params.given.size();
+            const bool is_given = i < before.params.existing.size();
             sample.face = match.kept[sample.face];
             if (sample.face == kNoFace) {
                 dropped += is_given ? 0 : 1;
             } else if (is_given) {
-                given.push_back(sample);
+                existing.push_back(sample);
             } else {
                 kept.push_back({sample, i});
             }
@@ -282,7 +282,7 @@ Result<Updater> Updater::create(const SurfaceJob& before, const SurfaceJob& afte
                 (*impl)->avoided = std::max((*impl)->avoided, one.radius);
             }
         }
-        (*impl)->given = std::move(given);
+        (*impl)->existing = std::move(existing);
         (*impl)->undecided = std::move(match.changed);
         (*impl)->dropped = dropped;
         (*impl)->set_samples();
@@ -309,8 +309,8 @@ Result<UpdateReport> Updater::update(Runner& runner, const MeshView& mesh,
         if (auto checked = check_places(own.faces, params); !checked) {
             return checked.error();
         }
-        std::vector<Sample> given(params.given.begin(), params.given.end());
-        for (const Sample& sample : difference_of(own.given, given, order_of)) {
+        std::vector<Sample> existing(params.existing.begin(), params.existing.end());
+        for (const Sample& sample : difference_of(own.existing, existing, order_of)) {
             own.sources.insert(sample.face);
         }
         std::vector<KeepOut> avoid(params.avoid.begin(), params.avoid.end());
@@ -334,7 +334,7 @@ Result<UpdateReport> Updater::update(Runner& runner, const MeshView& mesh,
         own.dropped = 0;
         report.added = static_cast<std::uint32_t>(changes->added.size());
         own.darts.replace(changes->removed, changes->added, own.has_keys);
-        own.given = std::move(given);
+        own.existing = std::move(existing);
         own.avoid = std::move(avoid);
         own.avoided = 0;
         own.set_samples();
@@ -348,8 +348,8 @@ std::span<const Sample> Updater::samples() const noexcept {
     return impl_->samples;
 }
 
-std::size_t Updater::given() const noexcept {
-    return impl_->given.size();
+std::size_t Updater::existing() const noexcept {
+    return impl_->existing.size();
 }
 
 const JobFrame& Updater::frame() const noexcept {

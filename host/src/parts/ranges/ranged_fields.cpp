@@ -51,7 +51,7 @@ std::vector<float> factors_of(Talk& talk, const MeshRange& range, const VertexNu
     bool are_well = true;
     for (std::size_t at = 0; at < range.values.size(); ++at) {
         const double g = is_used[at] != 0 ? range.values[at] : 1;
-        are_well = are_well && g >= RadiusField::kLeastFactor && g <= 1;
+        are_well = are_well && g >= RadiusField::kMinFactor && g <= 1;
         factors.push_back(static_cast<float>(g));
     }
     check(talk, are_well ? nullptr : "a radius factor is not from 0.001 to 1");
@@ -145,7 +145,7 @@ std::vector<std::uint8_t> mask_for(Talk& talk, const MeshRange& range,
 /// What one process adds to the fields of the whole.
 struct Share {
     double largest_area = 0;
-    float largest_density = 0, least_factor = 1;
+    float largest_density = 0, min_factor = 1;
     std::uint64_t left_out = 0, digest = 0;
 };
 
@@ -170,8 +170,7 @@ Share measure(const MeshRange& range, std::uint64_t first, const VertexRadii& ra
                 whole.push_back(mean.over(faces.areas[whole.size()]));
             });
             share.largest_density = std::max(share.largest_density, block->largest_density());
-            share.least_factor =
-                std::min(share.least_factor, static_cast<float>(block->least_factor()));
+            share.min_factor = std::min(share.min_factor, static_cast<float>(block->min_factor()));
         }
         for (std::size_t face = begin; face < end; ++face) {
             const auto in_block = static_cast<std::uint32_t>(face - begin);
@@ -215,7 +214,7 @@ RangedFields RangedFields::create(Talk& talk, const MeshRange& range, RangeFaces
     for (const Share& one : talk.all(own)) {
         all.largest_area = std::max(all.largest_area, one.largest_area);
         all.largest_density = std::max(all.largest_density, one.largest_density);
-        all.least_factor = std::min(all.least_factor, one.least_factor);
+        all.min_factor = std::min(all.min_factor, one.min_factor);
         all.left_out += one.left_out;
         all.digest += one.digest;
     }
@@ -234,7 +233,7 @@ RangedFields RangedFields::create(Talk& talk, const MeshRange& range, RangeFaces
     }
     if (fields.kind_ != RadiusKind::same) {
         fields.outline_ = RadiusPieces::outline(
-            {fields.areas_.whole, unit.least_density(), all.largest_density, all.least_factor});
+            {fields.areas_.whole, unit.min_density(), all.largest_density, all.min_factor});
     }
     return fields;
 }

@@ -72,7 +72,7 @@ struct Request {
     std::uint32_t vertex, rings;
 };
 
-constexpr std::uint32_t kMostRings = 64;
+constexpr std::uint32_t kMaxRings = 64;
 // Ways along edges are longer than distances, by about so much.
 constexpr double kShorter = 0.75;
 // Lower bounds are shorter still where angles are obtuse, and now and then far too short where the
@@ -115,7 +115,7 @@ class Halo {
                 break;
             }
         }
-        rings_ = rings_ > 0 ? std::min(kMostRings, 2 * rings_) : kFirstRings;
+        rings_ = rings_ > 0 ? std::min(kMaxRings, 2 * rings_) : kFirstRings;
         return has_grown;
     }
 
@@ -290,18 +290,18 @@ class Halo {
     std::uint32_t rings_from(double length) const {
         return rings_ > 0 ? rings_
                           : 1 + static_cast<std::uint32_t>(
-                                    std::min<double>(kMostRings, (reach_ - length) / mean_edge_));
+                                    std::min<double>(kMaxRings, (reach_ - length) / mean_edge_));
     }
 
     /// Finds the own faces that another process asks for, and vertices of which these are all.
     void answer(const std::vector<Request>& requests, std::vector<WholeFace>& faces,
                 std::vector<std::uint32_t>& complete) const {
-        ByProcess<std::uint32_t> by_rings(kMostRings + 2);
+        ByProcess<std::uint32_t> by_rings(kMaxRings + 2);
         for (const Request& request : requests) {
-            by_rings[std::min(request.rings, kMostRings + 1)].push_back(request.vertex);
+            by_rings[std::min(request.rings, kMaxRings + 1)].push_back(request.vertex);
         }
         std::unordered_set<std::uint32_t> vertices, sent;
-        for (std::uint32_t rings = kMostRings + 1; rings > 0; --rings) {
+        for (std::uint32_t rings = kMaxRings + 1; rings > 0; --rings) {
             for (const std::uint32_t vertex : by_rings[rings]) {
                 if (!vertices.insert(vertex).second) {
                     continue;

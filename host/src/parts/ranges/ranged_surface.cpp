@@ -132,7 +132,7 @@ Result<JobFrame> RangedSurface::frame(const SampleParams& params) const {
     if (frame) {
         const Stages stages = stages_in(*frame, own);
         const double most = std::max(stages.expected(0), stages.expected(kLastOtherStage));
-        if (!(fields_.largest_area() / fields_.areas().taken * most <= kMostPerFace)) {
+        if (!(fields_.largest_area() / fields_.areas().taken * most <= kMaxPerFace)) {
             return needs_whole("a face alone expects too many candidates");
         }
     }
@@ -140,11 +140,11 @@ Result<JobFrame> RangedSurface::frame(const SampleParams& params) const {
 }
 
 Result<std::unique_ptr<Part>> RangedSurface::part(Exchange& exchange, const SampleParams& params,
-                                                  const JobFrame& frame, double most_candidates,
+                                                  const JobFrame& frame, double max_candidates,
                                                   const CheckpointTerms& checkpoints) const {
     return caught([&]() -> Result<std::unique_ptr<Part>> {
         Talk talk(exchange);
-        auto part = std::make_unique<Part>(part_for(params, frame, most_candidates, checkpoints));
+        auto part = std::make_unique<Part>(part_for(params, frame, max_candidates, checkpoints));
         const KnownSurface known = this->known();
         const std::vector<HaloFace> halo = find_halo(talk, known, 2 * part->reach);
         std::vector<WholeFace> faces;

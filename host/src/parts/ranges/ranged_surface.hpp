@@ -63,10 +63,10 @@ class GEODISK_API RangedSurface {
     Result<JobFrame> frame(const SampleParams& params) const;
 
     /// Returns the part of this process for a job in such a frame. All processes call it. At most
-    /// so many candidates are expected to be drawn at a time, of all. It has no settled samples
+    /// so many candidates are expected to be drawn at a time, of all. It has no existing samples
     /// yet. Errors, the same on all: those of the exchange.
     Result<std::unique_ptr<Part>> part(Exchange& exchange, const SampleParams& params,
-                                       const JobFrame& frame, double most_candidates,
+                                       const JobFrame& frame, double max_candidates,
                                        const CheckpointTerms& checkpoints) const;
 
     /// Returns the places and radii of own faces, given in ascending order. All processes call it,

@@ -1,4 +1,4 @@
-#include "geodisk/inputs/given_input.hpp"
+#include "geodisk/inputs/existing_input.hpp"
 
 #include <cmath>
 #include <string>
@@ -14,26 +14,26 @@
 namespace geodisk::tools {
 namespace {
 
-void check_count(const SampleJob& job, std::size_t given) {
+void check_count(const SampleJob& job, std::size_t existing) {
     const double wanted =
         job.method.stop_count != 0 ? job.method.stop_count : job.wanted_count.samples;
-    if (wanted > 0 && static_cast<double>(given) >= wanted) {
-        fail_usage("--count: " + counted(given, "sample", "samples") + " of --existing count " +
-                   "too, so ask for more than " + grouped(given));
+    if (wanted > 0 && static_cast<double>(existing) >= wanted) {
+        fail_usage("--count: " + counted(existing, "sample", "samples") + " of --existing count " +
+                   "too, so ask for more than " + grouped(existing));
     }
 }
 
 /// Takes the points to avoid that matter. Throws UserError if they leave no room, unless there are
 /// samples to keep.
 void take_avoided(const Avoided& avoided, const MeshInput& mesh, bool keeps_samples,
-                  GivenInput& given) {
+                  ExistingInput& existing) {
     CoveredParts covered = covered_parts(mesh.sampled(), avoided.disks);
     if (!avoided.empty() && !keeps_samples && covered.cover_all(mesh.sampled(), mesh.face_mask)) {
         fail_usage("--avoid: the points leave no room for samples; lower their radii");
     }
-    given.points_to_avoid = avoided.points;
-    given.lines_to_avoid = avoided.length;
-    given.avoided = std::move(covered.needed);
+    existing.points_to_avoid = avoided.points;
+    existing.lines_to_avoid = avoided.length;
+    existing.avoided = std::move(covered.needed);
 }
 
 /// Says that a file of points of an option has none.
@@ -130,28 +130,28 @@ Avoided load_avoided(const ConstraintOptions& options, const MeshOptions& of_mes
     return avoided;
 }
 
-GivenInput load_given(const SampleJob& job, const MeshInput& mesh, ProgressLine& progress) {
-    GivenInput given;
+ExistingInput load_existing(const SampleJob& job, const MeshInput& mesh, ProgressLine& progress) {
+    ExistingInput existing;
     const ConstraintOptions& options = job.constraints;
-    take_avoided(load_avoided(options, job.mesh, mesh, given.warnings, progress), mesh,
-                 !options.existing.empty(), given);
+    take_avoided(load_avoided(options, job.mesh, mesh, existing.warnings, progress), mesh,
+                 !options.existing.empty(), existing);
     if (options.existing.empty()) {
-        return given;
+        return existing;
     }
     const HeaderEntries additions = job.mesh.additions();
     const SampleFile file =
         read_samples_silently_on(options.existing, job.mesh.mesh, mesh, &additions,
-                                 options.tolerance, given.warnings, progress);
+                                 options.tolerance, existing.warnings, progress);
     warn_if_empty(file, options.existing, "has no samples to keep, so --existing does nothing",
-                  given.warnings);
+                  existing.warnings);
     check_count(job, file.rows.size());
     for (const SampleRow& row : file.rows) {
-        given.samples.push_back(mesh.sampled_of(row));
+        existing.samples.push_back(mesh.sampled_of(row));
     }
     if (job.classes.count > 1 && !file.rows.empty()) {
-        given.classes = classes_in(options.existing, file, job.classes.count, given.warnings);
+        existing.classes = classes_in(options.existing, file, job.classes.count, existing.warnings);
     }
-    return given;
+    return existing;
 }
 
 } // namespace geodisk::tools

@@ -25,16 +25,16 @@ std::vector<Sample> first_of(const SampleSet& set, std::size_t count) {
     return {set.samples.begin(), set.samples.begin() + static_cast<std::ptrdiff_t>(count)};
 }
 
-/// Checks that a run with given samples is the twin's, also if it has little room.
+/// Checks that a run with existing samples is the twin's, also if it has little room.
 void check_as_twin(const PreparedMesh& mesh, SampleParams params,
                    const std::vector<Sample>& given) {
-    params.given = given;
+    params.existing = given;
     RunnerOptions narrow;
     narrow.plan.slots = 16;
     narrow.plan.stages = 1;
     for (const RunnerOptions& options : {RunnerOptions(), narrow}) {
         const SampleSet set = sample(mesh, params, options);
-        CHECK(set.given == given.size());
+        CHECK(set.existing == given.size());
         CHECK(points_of(set) == float_set(mesh, params, set.report.plan.error_bound));
         CHECK(set.samples.size() > given.size());
     }
@@ -69,7 +69,7 @@ double smallest_distance(const TestMesh& mesh, const std::vector<Point>& points,
 std::string refusal(const PreparedMesh& mesh, const Sample& wrong, std::uint32_t stop_count = 0) {
     const std::vector<Sample> given{{0, {0.5f, 0.25f, 0.25f}}, wrong};
     SampleParams params = params_for(mesh, 100);
-    params.given = given;
+    params.existing = given;
     params.stop_count = stop_count;
     const auto domain = Domain::surface(mesh, params);
     REQUIRE_FALSE(domain);
@@ -79,19 +79,19 @@ std::string refusal(const PreparedMesh& mesh, const Sample& wrong, std::uint32_t
 
 } // namespace
 
-TEST_SUITE("given") {
+TEST_SUITE("existing") {
     TEST_CASE("a run goes on from its own first samples") {
         const PreparedMesh mesh = prepared(knot());
         const RadiusField radii = radius_field(mesh, wavy_factors(knot(), 0.3));
         for (const RadiusField* const field : {static_cast<const RadiusField*>(nullptr), &radii}) {
             SampleParams params = params_for(mesh, 200, 1, field);
             const SampleSet whole = sample(mesh, params);
-            CHECK(whole.given == 0);
+            CHECK(whole.existing == 0);
             for (const std::size_t count : {std::size_t{1}, whole.samples.size()}) {
                 const std::vector<Sample> given = first_of(whole, count);
-                params.given = given;
+                params.existing = given;
                 const SampleSet again = sample(mesh, params);
-                CHECK(again.given == count);
+                CHECK(again.existing == count);
                 CHECK(points_of(again) == points_of(whole));
             }
         }
@@ -109,7 +109,7 @@ TEST_SUITE("given") {
         const RadiusField radii = radius_field(mesh, wavy_factors(knot(), 0.3));
         check_as_twin(mesh, params_for(mesh, 200, 1, &radii), given);
         SampleParams darts = params_for(mesh, 200);
-        darts.throws = 3000;
+        darts.darts = 3000;
         check_as_twin(mesh, darts, given);
         // More than the surface holds otherwise.
         check_as_twin(mesh, params_for(mesh, 20),
@@ -121,7 +121,7 @@ TEST_SUITE("given") {
         const SampleSet first = sample(mesh, params_for(mesh, 30, 7));
         const std::vector<Sample>& given = first.samples;
         SampleParams params = params_for(mesh, 200);
-        params.given = given;
+        params.existing = given;
         params.stop_count = static_cast<std::uint32_t>(given.size()) + 10;
         CHECK(sample(mesh, params).samples.size() == given.size() + 10);
         params.stop_count = static_cast<std::uint32_t>(given.size());
@@ -135,7 +135,7 @@ TEST_SUITE("given") {
         const std::vector<Sample> given{{3, {0.333333343f, 0.333333343f, 0.333333343f}},
                                         {4, {0.000001f, 1.000003f, -0.000001f}}};
         SampleParams params = params_for(mesh, 100);
-        params.given = given;
+        params.existing = given;
         const SampleSet set = sample(mesh, params);
         for (std::size_t i = 0; i < given.size(); ++i) {
             const auto& weights = set.samples[i].weights;
@@ -152,13 +152,13 @@ TEST_SUITE("given") {
         const PreparedMesh mesh = prepared(knot());
         const std::vector<Sample> given = sample(mesh, params_for(mesh, 30, 7)).samples;
         SampleParams params = params_for(mesh, 200);
-        params.given = given;
+        params.existing = given;
         const Domain domain = expect(Domain::surfaces(std::vector<SurfacePart>{
             {&ball, params_for(ball, 100)}, {&mesh, params}, {&mesh, params_for(mesh, 200)}}));
         Context& context = shared_context();
         Runner runner = expect(Runner::create(context.device(), context.queue()));
         const SampleSet set = expect(runner.sample_and_wait(domain));
-        CHECK(set.given == given.size());
+        CHECK(set.existing == given.size());
         Points of_second;
         const std::uint32_t first = domain.first_faces()[1], last = domain.first_faces()[2];
         for (const SamplePoint& point : points_of(set)) {
@@ -181,15 +181,15 @@ TEST_SUITE("given") {
         };
         const SampleSet whole = run();
         const std::vector<Sample> given = first_of(whole, 50);
-        params.given = given;
+        params.existing = given;
         CHECK(points_of(run()) == points_of(whole));
     }
 
-    TEST_CASE("a recorded job uploads those of its domain, and set_settled() replaces them") {
+    TEST_CASE("a recorded job uploads those of its domain, and set_existing() replaces them") {
         const PreparedMesh mesh = prepared(knot());
         SampleParams params = params_for(mesh, 100);
         const std::vector<Sample> given = sample(mesh, params_for(mesh, 30, 7)).samples;
-        params.given = given;
+        params.existing = given;
         const Points wanted = points_of(sample(mesh, params));
         DeviceRun run(mesh, params);
         REQUIRE(run.follow_all().next == Next::complete);
@@ -198,7 +198,7 @@ TEST_SUITE("given") {
         REQUIRE(run.follow_all().next == Next::complete);
         params.seed = 2;
         CHECK(ready_points(run) == points_of(sample(mesh, params)));
-        expect(run.job().set_settled({}));
+        expect(run.job().set_existing({}));
         run.job().set_seed(1);
         REQUIRE(run.follow_all().next == Next::complete);
         CHECK(ready_points(run) == points_of(sample(mesh, params_for(mesh, 100))));
@@ -255,12 +255,12 @@ TEST_SUITE("given") {
             return smallest_distance(terrain, all, distance);
         };
         CHECK(add_east() < distance);
-        params.given = given;
+        params.existing = given;
         CHECK(add_east() >= distance);
         CHECK(all.size() > before + 100);
     }
 
-    TEST_CASE("given samples far closer than the distance reject as if each had a whole disk") {
+    TEST_CASE("existing samples far closer than the distance reject as if each had a whole disk") {
         const PreparedMesh mesh = prepared(knot());
         SampleParams params = params_for(mesh, 60);
         // On half of the knot: others have room there is, and the border crosses faces.
@@ -268,7 +268,7 @@ TEST_SUITE("given") {
         std::erase_if(dense, [&](const Sample& s) { return s.face > mesh.face_count() / 2; });
         REQUIRE(dense.size() > 400);
         check_as_twin(mesh, params, dense);
-        params.given = dense;
+        params.existing = dense;
         const SampleSet set = sample(mesh, params);
         RunnerOptions groups;
         groups.plan.disks_by = DisksBy::groups;
@@ -278,11 +278,11 @@ TEST_SUITE("given") {
         for (const Sample& s : dense) {
             avoid.push_back({s, params.min_distance});
         }
-        params.given = {};
+        params.existing = {};
         params.avoid = avoid;
         const SampleSet others = sample(mesh, params);
         const Points all = points_of(set);
-        const auto first_new = all.begin() + static_cast<std::ptrdiff_t>(set.given);
+        const auto first_new = all.begin() + static_cast<std::ptrdiff_t>(set.existing);
         CHECK(Points(first_new, all.end()) == points_of(others));
         CHECK(set.report.disks == others.report.disks);
         CHECK(set.report.windows < others.report.windows / 2);
@@ -362,18 +362,18 @@ TEST_SUITE("given") {
         std::vector<KeepOut> avoid{{{40, {0.5f, 0.25f, 0.25f}}, 1e30}};
         params.avoid = avoid;
         CHECK(sample(mesh, params).samples.empty());
-        params.given = given;
+        params.existing = given;
         CHECK(points_of(sample(mesh, params)) == points_of(first));
         avoid[0].radius = 2 * params.min_distance;
-        params.given = {};
+        params.existing = {};
         params.stop_count = 20;
         const SampleSet some = sample(mesh, params);
         CHECK(some.samples.size() == 20);
         CHECK(some.report.candidates > 20);
         CHECK(points_of(some) == float_set(mesh, params, some.report.plan.error_bound));
-        // Another set of settled samples takes the place of the points.
+        // Another set of existing samples takes the place of the points.
         DeviceRun run(mesh, params);
-        expect(run.job().set_settled({}));
+        expect(run.job().set_existing({}));
         REQUIRE(run.follow_all().next == Next::complete);
         params.avoid = {};
         CHECK(ready_points(run) == points_of(sample(mesh, params)));
@@ -425,21 +425,22 @@ TEST_SUITE("given") {
         CHECK_FALSE(Domain::surface_in_space(knot().view(), mesh, params, Metric::euclidean));
     }
 
-    TEST_CASE("given samples that cannot be are refused, by their number") {
+    TEST_CASE("existing samples that cannot be are refused, by their number") {
         TestMesh flat = flat_grid(4, 4, 1, 1);
         flat.add_triangle(0, 0, 1);
         const PreparedMesh mesh = prepared(flat);
         const auto has = [](const std::string& text, const char* part) {
             return text.find(part) != std::string::npos;
         };
-        CHECK(has(refusal(mesh, {33, {1, 0, 0}}), "given sample 1 is in face 33"));
+        CHECK(has(refusal(mesh, {33, {1, 0, 0}}), "existing sample 1 is in face 33"));
         CHECK(has(refusal(mesh, {32, {1, 0, 0}}), "face 32, which repeats a vertex"));
         const float nan = std::numeric_limits<float>::quiet_NaN();
         for (const Sample& wrong : {Sample{0, {1, 1, 0}}, Sample{0, {1.5f, -0.5f, 0}},
                                     Sample{0, {nan, 0, 0}}, Sample{0, {0, 0, 0}}}) {
-            CHECK(has(refusal(mesh, wrong), "given sample 1 has weights"));
+            CHECK(has(refusal(mesh, wrong), "existing sample 1 has weights"));
         }
-        CHECK(has(refusal(mesh, {0, {1, 0, 0}}, 1), "2 given samples, more than the stop count"));
+        CHECK(
+            has(refusal(mesh, {0, {1, 0, 0}}, 1), "2 existing samples, more than the stop count"));
     }
 }
 

@@ -1,4 +1,4 @@
-#include "engine/domain/given.hpp"
+#include "engine/domain/existing.hpp"
 
 #include <algorithm>
 #include <array>
@@ -16,7 +16,7 @@ namespace geodisk {
 namespace {
 
 // Smallest radius of a point to avoid, in units of the job: far below the guard.
-constexpr double kLeastRadius = 0x1p-20;
+constexpr double kMinRadius = 0x1p-20;
 // Error of weights that other programs rounded.
 constexpr double kWeightTolerance = 1e-5;
 
@@ -53,10 +53,10 @@ std::array<float, 2> rounded_weights(const float (&weights)[3]) {
     return {static_cast<float>(second * 0x1p-24), static_cast<float>(third * 0x1p-24)};
 }
 
-Result<Done> check_given(const PreparedMesh& mesh, const SampleParams& params) {
-    for (std::size_t i = 0; i < params.given.size(); ++i) {
-        if (const std::string fault = fault_of(params.given[i], mesh); !fault.empty()) {
-            return invalid("given sample " + std::to_string(i) + " " + fault);
+Result<Done> check_existing(const PreparedMesh& mesh, const SampleParams& params) {
+    for (std::size_t i = 0; i < params.existing.size(); ++i) {
+        if (const std::string fault = fault_of(params.existing[i], mesh); !fault.empty()) {
+            return invalid("existing sample " + std::to_string(i) + " " + fault);
         }
     }
     for (std::size_t i = 0; i < params.avoid.size(); ++i) {
@@ -70,20 +70,21 @@ Result<Done> check_given(const PreparedMesh& mesh, const SampleParams& params) {
                            ", which is not positive and finite");
         }
     }
-    if (params.stop_count != 0 && params.given.size() > params.stop_count) {
-        return invalid("there are " + std::to_string(params.given.size()) +
-                       " given samples, more than the stop count of " +
+    if (params.stop_count != 0 && params.existing.size() > params.stop_count) {
+        return invalid("there are " + std::to_string(params.existing.size()) +
+                       " existing samples, more than the stop count of " +
                        std::to_string(params.stop_count));
     }
     return Done{};
 }
 
-void add_given(const SampleParams& params, std::uint32_t first_face,
-               std::vector<gpu::SampleRec>& settled) {
-    for (std::size_t i = 0; i < params.given.size(); ++i) {
-        const Sample& sample = params.given[i];
+void add_existing(const SampleParams& params, std::uint32_t first_face,
+                  std::vector<gpu::SampleRec>& settled) {
+    for (std::size_t i = 0; i < params.existing.size(); ++i) {
+        const Sample& sample = params.existing[i];
         const auto [second, third] = rounded_weights(sample.weights);
-        const std::uint32_t order = params.given_classes.empty() ? 0 : params.given_classes[i];
+        const std::uint32_t order =
+            params.existing_classes.empty() ? 0 : params.existing_classes[i];
         settled.push_back({order, first_face + sample.face, second, third});
     }
 }
@@ -91,7 +92,7 @@ void add_given(const SampleParams& params, std::uint32_t first_face,
 void add_avoided(const PlacedSurface& surface, std::vector<gpu::SampleRec>& settled) {
     for (const auto& [center, radius] : surface.params.avoid) {
         const double length = working_distance(*surface.mesh, radius / surface.scale);
-        const auto ratio = static_cast<float>(std::max(length / surface.frame.unit, kLeastRadius));
+        const auto ratio = static_cast<float>(std::max(length / surface.frame.unit, kMinRadius));
         const auto [second, third] = rounded_weights(center.weights);
         settled.push_back({std::bit_cast<std::uint32_t>(ratio),
                            (surface.first_face + center.face) | gpu::kKeepsOut, second, third});

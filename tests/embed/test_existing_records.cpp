@@ -24,7 +24,7 @@ Records samples_of(const DeviceRun& run) {
 }
 
 Records run_with(DeviceRun& run, const Records& given) {
-    expect(run.job().set_settled(given));
+    expect(run.job().set_existing(given));
     run.write<gpu::SampleRec>(BufferRole::samples, given);
     REQUIRE(run.follow_all().next == Next::complete);
     return samples_of(run);
@@ -92,7 +92,7 @@ TEST_SUITE("settled") {
             RunPlan plan;
             DeviceRun whole(mesh, params, plan);
             check_prefixes(whole);
-            plan.slots = kLeastSlots;
+            plan.slots = kMinSlots;
             plan.stages = 1;
             DeviceRun parts(mesh, params, plan);
             parts.set_plan(tightened(parts.plan()));
@@ -131,8 +131,7 @@ TEST_SUITE("settled") {
         plan.stages = 2; // and again for the second stages.
         DeviceRun run(mesh, params, plan);
         const Records all = run_with(run, given);
-        CHECK(points_in(all) ==
-              settled_set(mesh, params, run.plan().error_bound, points_in(given)));
+        CHECK(points_in(all) == set_after(mesh, params, run.plan().error_bound, points_in(given)));
         CHECK(all.size() > given.size() + 50);
         std::vector<Point> added;
         for (std::size_t i = given.size(); i < all.size(); ++i) {
@@ -150,7 +149,7 @@ TEST_SUITE("settled") {
         CHECK(close == 0);
     }
 
-    TEST_CASE("settled samples count, and ask for room and for a guard that is wide enough") {
+    TEST_CASE("existing samples count, and ask for room and for a guard that is wide enough") {
         const PreparedMesh mesh = prepared(settled_knot());
         SampleParams params = params_for(mesh, 150);
         const Records given = sparse_samples(mesh, 40);
@@ -162,25 +161,24 @@ TEST_SUITE("settled") {
         DeviceRun run(mesh, params, plan);
         const Records all = run_with(run, given);
         CHECK(run.plan().sample_capacity > count + 10);
-        CHECK(points_in(all) ==
-              settled_set(mesh, params, run.plan().error_bound, points_in(given)));
+        CHECK(points_in(all) == set_after(mesh, params, run.plan().error_bound, points_in(given)));
         CHECK(all.size() == count + 10);
         params.stop_count = count;
         expect(run.job().renew(expect(Domain::surface(mesh, params)), run.plan()));
-        expect(run.job().set_settled(given));
+        expect(run.job().set_existing(given));
         const Advice last = run.follow_all();
         CHECK(last.next == Next::complete);
         CHECK(last.ready == count);
         CHECK(last.candidates == 0);
         CHECK(run.count());
 
-        // No candidate is left, so all window chains are of settled samples.
+        // No candidate is left, so all window chains are of existing samples.
         params.stop_count = 0;
         plan = {};
         plan.error_bound = 0x1p-30;
         DeviceRun narrow(mesh, params, plan);
         Records full = sparse_samples(mesh, 1'500);
-        expect(narrow.job().set_settled(std::span(full).first(100)));
+        expect(narrow.job().set_existing(std::span(full).first(100)));
         narrow.write<gpu::SampleRec>(BufferRole::samples, std::span(full).first(100));
         narrow.job().set_end_order(1);
         CHECK(narrow.follow_all().next == Next::paused);
@@ -188,14 +186,14 @@ TEST_SUITE("settled") {
         CHECK(narrow.control().longest_chain > 0);
     }
 
-    TEST_CASE("samples settled in place of many given ones have disks of their own") {
+    TEST_CASE("samples settled in place of many existing ones have disks of their own") {
         const PreparedMesh mesh = prepared(settled_knot());
         SampleParams params = params_for(mesh, 60);
         const Records few = sparse_samples(mesh, 20);
         DeviceRun plain(mesh, params);
         const Records expected = run_with(plain, few);
         const std::vector<Sample> many = sample(mesh, params_for(mesh, 1'000, 7)).samples;
-        params.given = many;
+        params.existing = many;
         RunPlan plan;
         plan.sample_capacity = 4'000;
         DeviceRun run(mesh, params, plan);
@@ -204,15 +202,15 @@ TEST_SUITE("settled") {
         CHECK(std::equal(all.begin(), all.end(), expected.begin(), same));
     }
 
-    TEST_CASE("settled samples that cannot be are refused, by their number") {
+    TEST_CASE("existing samples that cannot be are refused, by their number") {
         const PreparedMesh mesh = prepared(settled_knot());
         DeviceRun run(mesh, params_for(mesh, 100));
         const auto refused = [&](const gpu::SampleRec& wrong, const char* text) {
             const Records given = {{0, 3, 0.25f, 0.5f}, wrong};
-            const auto set = run.job().set_settled(given);
+            const auto set = run.job().set_existing(given);
             REQUIRE_FALSE(set);
             CHECK(set.error().status == Status::invalid_argument);
-            CHECK(set.error().message.find("settled sample 1") != std::string::npos);
+            CHECK(set.error().message.find("existing sample 1") != std::string::npos);
             CHECK(set.error().message.find(text) != std::string::npos);
         };
         refused({0, mesh.face_count(), 0, 0}, "is in face");
@@ -224,11 +222,11 @@ TEST_SUITE("settled") {
         const std::vector<float> factors(4, 1);
         classed.class_factors = factors;
         DeviceRun with_classes(mesh, classed);
-        CHECK(with_classes.job().set_settled(Records{{1, 3, 0.25f, 0.5f}}));
-        const auto third = with_classes.job().set_settled(Records{{2, 3, 0.25f, 0.5f}});
+        CHECK(with_classes.job().set_existing(Records{{1, 3, 0.25f, 0.5f}}));
+        const auto third = with_classes.job().set_existing(Records{{2, 3, 0.25f, 0.5f}});
         REQUIRE_FALSE(third);
-        CHECK(third.error().message == "settled sample 0 has class 2, but there are 2");
-        const auto many = run.job().set_settled(Records(run.plan().sample_capacity + 1));
+        CHECK(third.error().message == "existing sample 0 has class 2, but there are 2");
+        const auto many = run.job().set_existing(Records(run.plan().sample_capacity + 1));
         REQUIRE_FALSE(many);
         CHECK(many.error().message.find("sample_capacity") != std::string::npos);
         REQUIRE(run.follow_all().next == Next::complete);

@@ -14,7 +14,7 @@
 namespace geodisk::tools {
 
 /// The samples of --existing and the points of --avoid, and what is odd about them.
-struct GivenInput {
+struct ExistingInput {
     std::vector<Sample> samples;
     std::vector<std::uint8_t> classes; ///< Of the samples, if there are several.
     std::vector<KeepOut> avoided;      ///< All but disks on parts that another one covers.
@@ -33,6 +33,6 @@ Avoided load_avoided(const ConstraintOptions& options, const MeshOptions& of_mes
 /// Reads the samples of --existing, if there are any, and the points of --avoid. Throws UserError
 /// for a file without samples, for those that are not on the mesh, for no fewer than --count asks
 /// for, and where points to avoid leave no room and no sample is kept.
-GivenInput load_given(const SampleJob& job, const MeshInput& mesh, ProgressLine& progress);
+ExistingInput load_existing(const SampleJob& job, const MeshInput& mesh, ProgressLine& progress);
 
 } // namespace geodisk::tools
