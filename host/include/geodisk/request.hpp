@@ -175,11 +175,60 @@ class GEODISK_API RequestRun {
     std::unique_ptr<Impl> impl_;
 };
 
+/// A request, and the mesh that it is for. Both must outlive the run.
+struct MeshRequest {
+    const PreparedMesh* mesh = nullptr;
+    SampleRequest request{};
+};
+
+/// The runs of several requests. Runs along surfaces are joined into jobs of several surfaces, as
+/// Domain::surfaces() describes, as far as any device has room for; all others are jobs of their
+/// own. Used as RequestRun is:
+///
+///     while (const Domain* job = runs.job()) {
+///         auto set = runner.sample_and_wait(*job);
+///         ...
+///         runs.take(std::move(set).value());
+///     }
+///     auto found = std::move(runs).finish();
+class GEODISK_API RequestRuns {
+  public:
+    /// Makes the first job. Errors: those of RequestRun, naming the mesh by its place;
+    /// `invalid_argument` for a mesh that is null.
+    static Result<RequestRuns> create(std::span<const MeshRequest> requests) noexcept;
+
+    RequestRuns(RequestRuns&&) noexcept;
+    RequestRuns& operator=(RequestRuns&&) noexcept;
+    ~RequestRuns();
+
+    /// Returns what to sample next, valid until take(); null if all is done.
+    const Domain* job() const noexcept;
+    /// Takes the samples of the job. Errors: as create(). The runs have then ended.
+    Result<Done> take(SampleSet set) noexcept;
+    /// Returns the samples of each request. Reports are of whole jobs. All must have been taken.
+    std::vector<RequestedSet> finish() && noexcept;
+
+    struct Impl; ///< Internal.
+
+  private:
+    explicit RequestRuns(std::unique_ptr<Impl> impl) noexcept;
+    std::unique_ptr<Impl> impl_;
+};
+
 /// Samples what the request asks for, and waits. `progress` is called for each run anew.
 ///
 /// Errors: those of RequestRun, Runner::sample_and_wait() and farthest_order().
 GEODISK_API Result<RequestedSet> sample(Runner& runner, const PreparedMesh& mesh,
                                         const SampleRequest& request,
                                         const ProgressCallback& progress = {}) noexcept;
+
+/// Samples what several requests ask for, each as if alone but for the guard of a job, and waits.
+/// Much faster than one after another if the sets are small. `progress` is called for each job
+/// anew.
+///
+/// Errors: those of RequestRuns, Runner::sample_and_wait() and farthest_order().
+GEODISK_API Result<std::vector<RequestedSet>>
+sample(Runner& runner, std::span<const MeshRequest> requests,
+       const ProgressCallback& progress = {}) noexcept;
 
 } // namespace geodisk

@@ -46,7 +46,7 @@ class SurfaceSteps {
                                  std::span<const Sample> standing) const;
 
     /// Fails if no room is left for samples on faces beside those on features.
-    Result<Done> check_existing_records(std::size_t settled) const;
+    Result<Done> check_stop_count(std::size_t settled) const;
     /// Adds what is known of the features.
     void describe(RequestedSet& found, std::size_t settled) const;
 
@@ -197,7 +197,7 @@ Result<Domain> SurfaceSteps::domain(const SampleParams& params) const {
     return frame ? Domain::surface(mesh_, params, *frame) : frame.error();
 }
 
-Result<Done> SurfaceSteps::check_existing_records(std::size_t settled) const {
+Result<Done> SurfaceSteps::check_stop_count(std::size_t settled) const {
     const std::size_t existing = request_.params.existing.size();
     const std::uint32_t stop_count = request_.params.stop_count;
     if (request_.count == 0 && stop_count != 0 && settled > existing && settled >= stop_count) {
@@ -228,33 +228,6 @@ void add_seconds(RunSeconds& sum, const RunSeconds& other) {
     sum.upload += other.upload;
     sum.sample += other.sample;
     sum.readback += other.readback;
-}
-
-/// Puts the samples in farthest-point order, and leaves out those that are not to be kept.
-Result<Done> put_farthest_first(Runner& runner, const PreparedMesh& mesh, std::uint32_t keep,
-                                const ProgressCallback& progress, RequestedSet& found) {
-    if (found.set.samples.empty()) {
-        return Done{};
-    }
-    auto order = farthest_order(runner, mesh, found.set.samples, keep, progress);
-    if (!order) {
-        return order.error();
-    }
-    const auto chosen = [&](const auto& values) {
-        std::remove_cvref_t<decltype(values)> rows;
-        for (const std::uint32_t index : order->indices) {
-            if (index < values.size()) {
-                rows.push_back(values[index]);
-            }
-        }
-        return rows;
-    };
-    found.set.samples = chosen(found.set.samples);
-    found.set.classes = chosen(found.set.classes);
-    found.features = chosen(found.features);
-    found.ends = {found.set.samples.size()};
-    found.farthest = std::move(*order);
-    return Done{};
 }
 
 std::size_t count_of(const SampleSet& set, const Domain& domain) {
@@ -423,8 +396,7 @@ Result<Done> RequestRun::take(SampleSet set) noexcept {
         }
         if (run.step->is_on_features) {
             add_seconds(run.seconds, set.report.seconds);
-            if (const auto checked = run.surface->check_existing_records(set.samples.size());
-                !checked) {
+            if (const auto checked = run.surface->check_stop_count(set.samples.size()); !checked) {
                 run.step.reset();
                 return checked.error();
             }
@@ -451,34 +423,6 @@ Result<Done> RequestRun::take(SampleSet set) noexcept {
 
 RequestedSet RequestRun::finish() && noexcept {
     return std::move(impl_->best);
-}
-
-Result<RequestedSet> sample(Runner& runner, const PreparedMesh& mesh, const SampleRequest& request,
-                            const ProgressCallback& progress) noexcept {
-    return guarded([&]() -> Result<RequestedSet> {
-        auto run = RequestRun::create(mesh, request);
-        if (!run) {
-            return run.error();
-        }
-        while (const RequestStep* step = run->step()) {
-            auto set = runner.sample_and_wait(step->domain, progress);
-            if (!set) {
-                return set.error();
-            }
-            if (const auto taken = run->take(std::move(*set)); !taken) {
-                return taken.error();
-            }
-        }
-        RequestedSet found = std::move(*run).finish();
-        if (request.order != SampleOrder::farthest) {
-            return found;
-        }
-        if (const auto ordered = put_farthest_first(runner, mesh, request.keep, progress, found);
-            !ordered) {
-            return ordered.error();
-        }
-        return found;
-    });
 }
 
 } // namespace geodisk

@@ -1,0 +1,199 @@
+// Several requests whose runs share jobs. In each turn every request that is not done yet has one run.
+#include <algorithm>
+#include <deque>
+#include <string>
+#include <utility>
+
+#include <geodisk/request.hpp>
+
+#include "support/guard.hpp"
+#include "support/invalid.hpp"
+
+namespace geodisk {
+namespace {
+
+/// Bounds of a job of several surfaces, unless a single one has more: every device binds as much. A
+/// job of more is no faster, also on a wide device.
+constexpr std::size_t kJobFaces = std::size_t{1} << 18;
+constexpr double kJobCandidates = 0x1p21;
+
+Error on_mesh(std::size_t mesh, Error error) {
+    error.message = "mesh " + std::to_string(mesh) + ": " + error.message;
+    return error;
+}
+
+/// Returns true if the step may share a job. See Domain::surfaces().
+bool may_share(const RequestStep& step, const SampleRequest& request) {
+    const SampleParams& params = step.params;
+    return step.surface != nullptr && request.frame == nullptr && request.split_from == nullptr &&
+           params.darts == 0 && params.stop_count == 0 && params.class_factors.empty() &&
+           !params.maximal;
+}
+
+/// Returns the part of a set that is on one of several surfaces.
+std::vector<SampleSet> split(SampleSet all, std::span<const std::uint32_t> first_faces,
+                             std::span<const RequestStep* const> steps) {
+    std::vector<SampleSet> sets(steps.size());
+    for (std::size_t i = 0; i < sets.size(); ++i) {
+        sets[i].report = all.report;
+        sets[i].existing = steps[i]->params.existing.size();
+    }
+    for (Sample& sample : all.samples) {
+        const auto next = std::ranges::upper_bound(first_faces, sample.face);
+        const auto surface = static_cast<std::size_t>(next - first_faces.begin()) - 1;
+        sample.face -= first_faces[surface];
+        sets[surface].samples.push_back(sample);
+    }
+    return sets;
+}
+
+} // namespace
+
+struct RequestRuns::Impl {
+    explicit Impl(std::span<const MeshRequest> of) : requests(of.begin(), of.end()) {}
+
+    /// Makes the next job, if any run is left.
+    Result<Done> begin_job();
+    /// Moves the runs that can share a job with the first of `job` there.
+    void add_others();
+    Result<Done> take(SampleSet set);
+
+    const RequestStep& step(std::size_t i) const { return *runs[i].step(); }
+    bool shares(std::size_t i) const { return may_share(step(i), requests[i].request); }
+
+    std::vector<MeshRequest> requests;
+    std::vector<RequestRun> runs;   ///< One per request.
+    std::deque<std::size_t> turn;   ///< Requests whose run of this turn is still to come.
+    std::vector<std::size_t> job;   ///< Requests of the job in progress; empty if all is done.
+    std::optional<Domain> surfaces; ///< Of a job of several.
+};
+
+Result<Done> RequestRuns::Impl::begin_job() {
+    job.clear();
+    surfaces.reset();
+    if (turn.empty()) {
+        for (std::size_t i = 0; i < runs.size(); ++i) {
+            if (runs[i].step() != nullptr) {
+                turn.push_back(i);
+            }
+        }
+    }
+    if (turn.empty()) {
+        return Done{};
+    }
+    job.push_back(turn.front());
+    turn.pop_front();
+    if (!shares(job[0])) {
+        return Done{};
+    }
+    add_others();
+    if (job.size() == 1) {
+        return Done{};
+    }
+    std::vector<SurfacePart> parts;
+    for (const std::size_t i : job) {
+        parts.push_back({step(i).surface, step(i).params, 1});
+    }
+    auto made = Domain::surfaces(parts);
+    if (!made) {
+        return made.error();
+    }
+    surfaces = std::move(*made);
+    return Done{};
+}
+
+void RequestRuns::Impl::add_others() {
+    const bool radii_vary = step(job[0]).params.radii != nullptr;
+    std::size_t faces = step(job[0]).surface->face_count();
+    double candidates = step(job[0]).domain.stages().candidates();
+    std::deque<std::size_t> left;
+    for (const std::size_t i : turn) {
+        const bool fits =
+            shares(i) && (step(i).params.radii != nullptr) == radii_vary &&
+            faces + step(i).surface->face_count() <= kJobFaces &&
+            candidates + step(i).domain.stages().candidates() <= kJobCandidates;
+        if (!fits) {
+            left.push_back(i);
+            continue;
+        }
+        faces += step(i).surface->face_count();
+        candidates += step(i).domain.stages().candidates();
+        job.push_back(i);
+    }
+    turn = std::move(left);
+}
+
+Result<Done> RequestRuns::Impl::take(SampleSet set) {
+    std::vector<SampleSet> sets;
+    if (surfaces) {
+        std::vector<const RequestStep*> steps;
+        for (const std::size_t i : job) {
+            steps.push_back(runs[i].step());
+        }
+        sets = split(std::move(set), surfaces->first_faces(), steps);
+    } else {
+        sets.push_back(std::move(set));
+    }
+    for (std::size_t k = 0; k < job.size(); ++k) {
+        if (const auto taken = runs[job[k]].take(std::move(sets[k])); !taken) {
+            return on_mesh(job[k], taken.error());
+        }
+    }
+    return begin_job();
+}
+
+RequestRuns::RequestRuns(std::unique_ptr<Impl> impl) noexcept : impl_(std::move(impl)) {}
+RequestRuns::RequestRuns(RequestRuns&&) noexcept = default;
+RequestRuns& RequestRuns::operator=(RequestRuns&&) noexcept = default;
+RequestRuns::~RequestRuns() = default;
+
+Result<RequestRuns> RequestRuns::create(std::span<const MeshRequest> requests) noexcept {
+    return guarded([&]() -> Result<RequestRuns> {
+        auto impl = std::make_unique<Impl>(requests);
+        for (std::size_t i = 0; i < requests.size(); ++i) {
+            if (requests[i].mesh == nullptr) {
+                return on_mesh(i, invalid("there is no mesh"));
+            }
+            auto run = RequestRun::create(*requests[i].mesh, requests[i].request);
+            if (!run) {
+                return on_mesh(i, run.error());
+            }
+            impl->runs.push_back(std::move(*run));
+        }
+        if (const auto begun = impl->begin_job(); !begun) {
+            return begun.error();
+        }
+        return RequestRuns(std::move(impl));
+    });
+}
+
+const Domain* RequestRuns::job() const noexcept {
+    const Impl& runs = *impl_;
+    return runs.surfaces      ? &*runs.surfaces
+           : runs.job.empty() ? nullptr
+                              : &runs.step(runs.job[0]).domain;
+}
+
+Result<Done> RequestRuns::take(SampleSet set) noexcept {
+    return guarded([&]() -> Result<Done> {
+        if (impl_->job.empty()) {
+            return invalid("the requests have no job to take samples of");
+        }
+        auto taken = impl_->take(std::move(set));
+        if (!taken) {
+            impl_->job.clear();
+            impl_->surfaces.reset();
+        }
+        return taken;
+    });
+}
+
+std::vector<RequestedSet> RequestRuns::finish() && noexcept {
+    std::vector<RequestedSet> found;
+    for (RequestRun& run : impl_->runs) {
+        found.push_back(std::move(run).finish());
+    }
+    return found;
+}
+
+} // namespace geodisk
