@@ -200,4 +200,86 @@ TEST_CASE("a request is cancelled amid its runs") {
     CHECK(geodisk_poll(shared_sampler(), 0, &samples, nullptr) == GEODISK_INVALID_ARGUMENT);
 }
 
+TEST_CASE("several requests at once give what each gives alone, with and without waiting") {
+    CubeRequest a, b, c;
+    a.request.count = 90;
+    b.request.features = 30;
+    b.params.min_distance = 0.3;
+    c.params.min_distance = 0.3;
+    c.params.seed = 5;
+    const Owned<geodisk_samples> alone[] = {a.sample(), b.sample(), c.sample()};
+    std::vector<geodisk_mesh_request> requests;
+    for (const CubeRequest* const one : {&a, &b, &c}) {
+        requests.push_back({sizeof(geodisk_mesh_request), one->mesh.get(), &one->request});
+    }
+    const auto check = [&](std::vector<geodisk_samples*> made) {
+        for (std::size_t i = 0; i < made.size(); ++i) {
+            REQUIRE(made[i] != nullptr);
+            const Owned<geodisk_samples> own(made[i]);
+            CHECK(placed(own.get()) == placed(alone[i].get()));
+            CHECK(integers(own.get(), GEODISK_FACE) == integers(alone[i].get(), GEODISK_FACE));
+            CHECK(report_on(own.get()).min_distance == report_on(alone[i].get()).min_distance);
+        }
+    };
+    std::vector<geodisk_samples*> made(3);
+    REQUIRE(geodisk_sample_requests(shared_sampler(), requests.data(), 3, nullptr, nullptr,
+                                    made.data(), nullptr) == GEODISK_OK);
+    check(made);
+    REQUIRE(geodisk_start_requests(shared_sampler(), requests.data(), 3, nullptr) == GEODISK_OK);
+    do {
+        REQUIRE(geodisk_poll(shared_sampler(), 1000, made.data(), nullptr) == GEODISK_OK);
+        CHECK((made[0] == nullptr) == (made[2] == nullptr));
+    } while (made[0] == nullptr);
+    check(made);
+}
+
+TEST_CASE("what is wrong with one of several requests names it, and gives no samples") {
+    CubeRequest good, bad;
+    good.params.min_distance = bad.params.min_distance = 0.3;
+    good.request.params = &good.params;
+    bad.request.params = &bad.params;
+    geodisk_mesh_request requests[] = {
+        {sizeof(geodisk_mesh_request), good.mesh.get(), &good.request},
+        {sizeof(geodisk_mesh_request), bad.mesh.get(), &bad.request}};
+    geodisk_samples* made[2] = {};
+    const auto refusal = [&](std::size_t count = 2) {
+        auto error = sized<geodisk_error>();
+        CHECK(geodisk_sample_requests(shared_sampler(), requests, count, nullptr, nullptr, made,
+                                      &error) == GEODISK_INVALID_ARGUMENT);
+        CHECK(geodisk_start_requests(shared_sampler(), requests, count, nullptr) ==
+              GEODISK_INVALID_ARGUMENT);
+        CHECK(made[0] == nullptr);
+        CHECK(made[1] == nullptr);
+        return std::string(error.message);
+    };
+    CHECK(refusal(0) == "there are no requests");
+    bad.params.min_distance = -1;
+    CHECK(refusal().starts_with("mesh 1: "));
+    requests[1].request = nullptr;
+    CHECK(refusal() == "requests[1]: request is NULL");
+    requests[1].mesh = nullptr;
+    CHECK(refusal().starts_with("requests[1]: "));
+    requests[1].struct_size = 3;
+    CHECK(refusal().starts_with("requests[1]"));
+    // A full disk everywhere leaves no room for a count: found after the first job.
+    const geodisk_surface_point center{0, {1, 0, 0}};
+    const double radius = 100;
+    requests[1] = {sizeof(geodisk_mesh_request), bad.mesh.get(), &bad.request};
+    bad.params.min_distance = 0;
+    bad.params.avoid = &center;
+    bad.params.avoid_radii = &radius;
+    bad.params.avoid_count = 1;
+    bad.request.count = 20;
+    REQUIRE(geodisk_start_requests(shared_sampler(), requests, 2, nullptr) == GEODISK_OK);
+    auto error = sized<geodisk_error>();
+    geodisk_status status = GEODISK_OK;
+    while (status == GEODISK_OK) {
+        status = geodisk_poll(shared_sampler(), 1000, made, &error);
+        REQUIRE(made[0] == nullptr);
+    }
+    CHECK(status == GEODISK_INVALID_ARGUMENT);
+    CHECK(std::string(error.message).starts_with("mesh 1: count: found no room"));
+    CHECK(geodisk_poll(shared_sampler(), 0, made, nullptr) == GEODISK_INVALID_ARGUMENT);
+}
+
 } // namespace geodisk::test

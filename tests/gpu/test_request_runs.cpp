@@ -23,8 +23,8 @@ Runner runner_of_requests() {
 /// Requests of many kinds on a few meshes, and what they refer to.
 struct ManyRequests {
     TestMesh cube = builtin("cube", 3);
-    PreparedMesh sphere = prepared(builtin("icosphere", 3)), knot = prepared(builtin("torus-knot", 8)),
-                 box = prepared(cube);
+    PreparedMesh sphere = prepared(builtin("icosphere", 3)),
+                 knot = prepared(builtin("torus-knot", 8)), box = prepared(cube);
     MeshView view = cube.view();
     RadiusField radii = radius_field(sphere, std::vector<double>(sphere.vertex_count(), 0.5));
     std::array<Sample, 2> existing{{{0, {1, 0, 0}}, {9, {0.5F, 0.25F, 0.25F}}}};

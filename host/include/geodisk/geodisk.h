@@ -528,6 +528,7 @@ GEODISK_C_API geodisk_status geodisk_sample_request(geodisk_sampler *sampler,
                                                     geodisk_progress_fn progress, void *user,
                                                     geodisk_samples **samples,
                                                     geodisk_error *error);
+
 /* Begins to serve a request without waiting, and copies what it refers to. Call geodisk_poll until
  * it ends. Not for GEODISK_ORDER_FARTHEST: call geodisk_farthest_order on the samples. */
 GEODISK_C_API geodisk_status geodisk_start_request(geodisk_sampler *sampler,
@@ -535,12 +536,35 @@ GEODISK_C_API geodisk_status geodisk_start_request(geodisk_sampler *sampler,
                                                    const geodisk_request *request,
                                                    geodisk_error *error);
 
+/* A request, and the mesh that it is for. */
+typedef struct geodisk_mesh_request {
+    size_t struct_size;
+    const geodisk_mesh *mesh;
+    const geodisk_request *request;
+} geodisk_mesh_request;
+
+/* Samples what `count` requests ask for, at least one, each as geodisk_sample_request does. Their runs
+ * share jobs where they may, which is much faster if the sets are small. All elements of `requests`
+ * have the struct_size of the first one. Writes `count` handles to `samples`; a failure of one is a
+ * failure of all. Reports are of whole jobs. */
+GEODISK_C_API geodisk_status geodisk_sample_requests(geodisk_sampler *sampler,
+                                                     const geodisk_mesh_request *requests,
+                                                     size_t count, geodisk_progress_fn progress,
+                                                     void *user, geodisk_samples **samples,
+                                                     geodisk_error *error);
+
+/* Begins to serve requests without waiting, as geodisk_start_request does. geodisk_poll then takes
+ * room for `count` handles. */
+GEODISK_C_API geodisk_status geodisk_start_requests(geodisk_sampler *sampler,
+                                                    const geodisk_mesh_request *requests,
+                                                    size_t count, geodisk_error *error);
+
 /* Begins a run without waiting. Call geodisk_poll until it ends. */
 GEODISK_C_API geodisk_status geodisk_start(geodisk_sampler *sampler, const geodisk_domain *domain,
                                            geodisk_error *error);
 /* Waits for the latest submission, at most this many milliseconds. Once it has ended, submits the
- * next one. Writes the samples to `samples` when the run is complete, else NULL. A failure ends the
- * run. */
+ * next one. Writes the samples to `samples` when the run is complete, else NULL; those of several
+ * requests as geodisk_sample_requests does. A failure ends the run. */
 GEODISK_C_API geodisk_status geodisk_poll(geodisk_sampler *sampler, uint32_t milliseconds,
                                           geodisk_samples **samples, geodisk_error *error);
 

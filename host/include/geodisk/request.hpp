@@ -193,8 +193,8 @@ struct MeshRequest {
 ///     auto found = std::move(runs).finish();
 class GEODISK_API RequestRuns {
   public:
-    /// Makes the first job. Errors: those of RequestRun, naming the mesh by its place;
-    /// `invalid_argument` for a mesh that is null.
+    /// Makes the first job. Errors: those of RequestRun, naming the mesh by its place if there are
+    /// several; `invalid_argument` for a mesh that is null.
     static Result<RequestRuns> create(std::span<const MeshRequest> requests) noexcept;
 
     RequestRuns(RequestRuns&&) noexcept;

@@ -1,5 +1,6 @@
 #include "c/c_request.hpp"
 
+#include <string>
 #include <utility>
 
 #include "c/c_call.hpp"
@@ -61,6 +62,35 @@ Result<std::shared_ptr<RequestState>> request_of(const geodisk_mesh* mesh,
         wanted.view = &state->view;
     }
     return state;
+}
+
+Result<std::shared_ptr<RequestsState>> requests_of(const geodisk_mesh_request* requests,
+                                                   std::size_t count) {
+    if (requests == nullptr || count == 0) {
+        return wrong("there are no requests");
+    }
+    auto state = std::make_shared<RequestsState>();
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::string name = "requests[" + std::to_string(i) + "]";
+        const auto given = taken(element_of(requests, i), name.c_str());
+        if (!given) {
+            return given.error();
+        }
+        auto made = request_of(given->mesh, given->request);
+        if (!made) {
+            return count > 1 ? wrong(name + ": " + made.error().message) : made.error();
+        }
+        state->each.push_back(std::move(*made));
+    }
+    return state;
+}
+
+std::vector<MeshRequest> RequestsState::on_meshes() const {
+    std::vector<MeshRequest> requests;
+    for (const auto& one : each) {
+        requests.push_back({&one->of->parts[0].mesh->prepared, one->request});
+    }
+    return requests;
 }
 
 std::shared_ptr<const DomainState> at_found_distance(RequestState& state,

@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include <geodisk/geodisk.h>
 #include <geodisk/mesh_view.hpp>
@@ -12,17 +13,28 @@
 
 namespace geodisk::c {
 
-/// A request, what it refers to, and the run that serves it. Must not move.
+/// A request and what it refers to. Must not move.
 struct RequestState {
     std::shared_ptr<DomainState> of; ///< Its one surface.
     MeshView view;
     SampleRequest request;
-    std::optional<RequestRun> run; ///< If it was started.
+};
+
+/// Requests, and the runs that serve them.
+struct RequestsState {
+    std::vector<std::shared_ptr<RequestState>> each;
+    std::optional<RequestRuns> runs; ///< If they were started.
+
+    std::vector<MeshRequest> on_meshes() const;
 };
 
 /// Copies a request of the caller's.
 Result<std::shared_ptr<RequestState>> request_of(const geodisk_mesh* mesh,
                                                  const geodisk_request* given);
+
+/// Copies requests of the caller's.
+Result<std::shared_ptr<RequestsState>> requests_of(const geodisk_mesh_request* requests,
+                                                   std::size_t count);
 
 /// Returns the surface of a request at the distance that its samples were found at.
 std::shared_ptr<const DomainState> at_found_distance(RequestState& state,

@@ -1,7 +1,10 @@
 #include "c/c_sampler.hpp"
 
+#include <algorithm>
 #include <chrono>
+#include <memory>
 #include <utility>
+#include <vector>
 
 #include "c/c_call.hpp"
 #include "c/c_samples.hpp"
@@ -37,39 +40,83 @@ Result<Done> hand_over(const SamplerState& state, geodisk_samples made, geodisk_
     return Done{};
 }
 
-/// The samples of a request, with the surface at their distance.
-geodisk_samples samples_of(RequestState& request, RequestedSet found) {
-    SampleSet set = std::move(found.set);
-    found.set = {};
-    auto surface = at_found_distance(request, found);
-    return {std::move(surface), std::move(set), std::move(found)};
+/// Hands over the samples of requests, each with its surface at their distance.
+Result<Done> hand_over(const SamplerState& state, RequestsState& requests,
+                       std::vector<RequestedSet> found, geodisk_samples** samples) {
+    if (const auto checked = state.device->check_validation(); !checked) {
+        return checked.error();
+    }
+    std::vector<std::unique_ptr<geodisk_samples>> made;
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        SampleSet set = std::move(found[i].set);
+        found[i].set = {};
+        auto surface = at_found_distance(*requests.each[i], found[i]);
+        made.emplace_back(
+            new geodisk_samples{std::move(surface), std::move(set), std::move(found[i])});
+    }
+    for (std::size_t i = 0; i < made.size(); ++i) {
+        samples[i] = made[i].release();
+    }
+    return Done{};
 }
 
-/// Begins the next run of the request in progress. Returns true if there is one.
-Result<bool> start_step(SamplerState& state) {
-    const RequestStep* const step = state.requested->run->step();
-    if (step == nullptr) {
+/// Samples what requests ask for, and waits.
+Result<Done> serve(SamplerState& state, RequestsState& requests, geodisk_progress_fn progress,
+                   void* user, geodisk_samples** samples) {
+    state.is_cancelled = false;
+    auto found = sample(state.runner, requests.on_meshes(), state.callback(progress, user));
+    return found ? hand_over(state, requests, std::move(*found), samples) : found.error();
+}
+
+/// Begins the next job of the requests in progress. Returns true if there is one.
+Result<bool> start_job(SamplerState& state) {
+    const Domain* const job = state.requested->runs->job();
+    if (job == nullptr) {
         return false;
     }
     const auto go_on = [&state](const Progress&) { return !state.is_cancelled; };
-    if (const auto started = state.runner.start(step->domain, go_on); !started) {
+    if (const auto started = state.runner.start(*job, go_on); !started) {
         return started.error();
     }
     return true;
 }
 
-/// Takes the samples of a run of the request in progress. Returns the samples if it was the last
-/// one.
-Result<std::optional<RequestedSet>> go_on(SamplerState& state, SampleSet set) {
-    RequestRun& run = *state.requested->run;
-    if (const auto taken = run.take(std::move(set)); !taken) {
+/// Begins to serve requests.
+Result<Done> start(SamplerState& state, std::shared_ptr<RequestsState> requests) {
+    for (const auto& one : requests->each) {
+        if (one->request.order == SampleOrder::farthest) {
+            return wrong("request->order: call geodisk_farthest_order on the samples");
+        }
+    }
+    auto runs = RequestRuns::create(requests->on_meshes());
+    if (!runs) {
+        return runs.error();
+    }
+    requests->runs.emplace(std::move(*runs));
+    state.is_cancelled = false;
+    state.requested = std::move(requests);
+    if (const auto started = start_job(state); !started) {
+        state.requested = nullptr;
+        return started.error();
+    }
+    return Done{};
+}
+
+/// Takes the samples of a job of the requests in progress. Returns true if it was the last one.
+Result<bool> take(SamplerState& state, SampleSet set) {
+    if (const auto taken = state.requested->runs->take(std::move(set)); !taken) {
         return taken.error();
     }
-    const auto is_started = start_step(state);
-    if (!is_started) {
-        return is_started.error();
+    const auto is_started = start_job(state);
+    return is_started ? Result<bool>(!*is_started) : is_started.error();
+}
+
+/// Waits for the latest submission of the requests in progress. Returns true once all are done.
+Result<bool> poll(SamplerState& state, Result<std::optional<SampleSet>> polled) {
+    if (!polled) {
+        return polled.error();
     }
-    return *is_started ? std::optional<RequestedSet>() : std::move(run).finish();
+    return *polled ? take(state, std::move(**polled)) : Result<bool>(false);
 }
 
 RunnerOptions options_of(const geodisk_sampler_options& given) {
@@ -162,28 +209,37 @@ geodisk_status geodisk_poll(geodisk_sampler* sampler, uint32_t milliseconds,
             return wrong("the sampler has no run in progress");
         }
         auto polled = state.runner.poll(std::chrono::milliseconds(milliseconds));
-        if (polled && !*polled) {
-            *samples = nullptr;
-            return Done{};
-        }
-        if (const auto domain = std::exchange(state.running, nullptr)) {
+        if (!state.requested) {
+            if (polled && !*polled) {
+                *samples = nullptr;
+                return Done{};
+            }
+            const auto domain = std::exchange(state.running, nullptr);
             return polled ? hand_over(state, {domain, std::move(**polled)}, samples)
                           : polled.error();
         }
-        auto found = polled ? go_on(state, std::move(**polled)) : polled.error();
-        if (found && !*found) {
-            *samples = nullptr;
+        const auto is_done = poll(state, std::move(polled));
+        if (is_done && !*is_done) {
+            std::fill_n(samples, state.requested->each.size(), nullptr);
             return Done{};
         }
-        const auto request = std::exchange(state.requested, nullptr);
-        return found ? hand_over(state, samples_of(*request, std::move(**found)), samples)
-                     : found.error();
+        const auto requests = std::exchange(state.requested, nullptr);
+        return is_done ? hand_over(state, *requests, std::move(*requests->runs).finish(), samples)
+                       : is_done.error();
     });
 }
 
 geodisk_status geodisk_sample_request(geodisk_sampler* sampler, const geodisk_mesh* mesh,
                                       const geodisk_request* request, geodisk_progress_fn progress,
                                       void* user, geodisk_samples** samples, geodisk_error* error) {
+    const geodisk_mesh_request one{sizeof one, mesh, request};
+    return geodisk_sample_requests(sampler, &one, 1, progress, user, samples, error);
+}
+
+geodisk_status geodisk_sample_requests(geodisk_sampler* sampler,
+                                       const geodisk_mesh_request* requests, size_t count,
+                                       geodisk_progress_fn progress, void* user,
+                                       geodisk_samples** samples, geodisk_error* error) {
     return with_sampler(sampler, error, [&](SamplerState& state) -> Result<Done> {
         if (samples == nullptr) {
             return wrong("samples is NULL");
@@ -191,45 +247,26 @@ geodisk_status geodisk_sample_request(geodisk_sampler* sampler, const geodisk_me
         if (state.is_busy()) {
             return run_in_progress();
         }
-        const auto wanted = request_of(mesh, request);
-        if (!wanted) {
-            return wanted.error();
-        }
-        state.is_cancelled = false;
-        auto found = sample(state.runner, (*wanted)->of->parts[0].mesh->prepared,
-                            (*wanted)->request, state.callback(progress, user));
-        if (!found) {
-            return found.error();
-        }
-        return hand_over(state, samples_of(**wanted, std::move(*found)), samples);
+        const auto wanted = requests_of(requests, count);
+        return wanted ? serve(state, **wanted, progress, user, samples) : wanted.error();
     });
 }
 
 geodisk_status geodisk_start_request(geodisk_sampler* sampler, const geodisk_mesh* mesh,
                                      const geodisk_request* request, geodisk_error* error) {
+    const geodisk_mesh_request one{sizeof one, mesh, request};
+    return geodisk_start_requests(sampler, &one, 1, error);
+}
+
+geodisk_status geodisk_start_requests(geodisk_sampler* sampler,
+                                      const geodisk_mesh_request* requests, size_t count,
+                                      geodisk_error* error) {
     return with_sampler(sampler, error, [&](SamplerState& state) -> Result<Done> {
         if (state.is_busy()) {
             return run_in_progress();
         }
-        const auto wanted = request_of(mesh, request);
-        if (!wanted) {
-            return wanted.error();
-        }
-        if ((*wanted)->request.order == SampleOrder::farthest) {
-            return wrong("request->order: call geodisk_farthest_order on the samples");
-        }
-        auto run = RequestRun::create((*wanted)->of->parts[0].mesh->prepared, (*wanted)->request);
-        if (!run) {
-            return run.error();
-        }
-        (*wanted)->run.emplace(std::move(*run));
-        state.is_cancelled = false;
-        state.requested = *wanted;
-        if (const auto started = start_step(state); !started) {
-            state.requested = nullptr;
-            return started.error();
-        }
-        return Done{};
+        const auto wanted = requests_of(requests, count);
+        return wanted ? start(state, *wanted) : wanted.error();
     });
 }
 

@@ -27,7 +27,7 @@ struct SamplerState {
     std::atomic<bool> is_cancelled = false;
     std::shared_ptr<const DomainState> running; ///< Domain of the run in progress, if one was
                                                 ///< started.
-    std::shared_ptr<RequestState> requested;    ///< The request in progress, likewise.
+    std::shared_ptr<RequestsState> requested;   ///< The requests in progress, likewise.
     std::shared_ptr<NeighbourSearch> searching; ///< The search in progress, likewise.
 
     bool is_busy() const { return running || requested || searching; }

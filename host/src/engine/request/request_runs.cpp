@@ -1,4 +1,5 @@
-// Several requests whose runs share jobs. In each turn every request that is not done yet has one run.
+// Several requests whose runs share jobs. In each turn every request that is not done yet has one
+// run.
 #include <algorithm>
 #include <deque>
 #include <string>
@@ -17,8 +18,11 @@ namespace {
 constexpr std::size_t kJobFaces = std::size_t{1} << 18;
 constexpr double kJobCandidates = 0x1p21;
 
-Error on_mesh(std::size_t mesh, Error error) {
-    error.message = "mesh " + std::to_string(mesh) + ": " + error.message;
+/// Names the mesh of an error, unless there is only one.
+Error on_mesh(std::size_t mesh, std::size_t meshes, Error error) {
+    if (meshes > 1) {
+        error.message = "mesh " + std::to_string(mesh) + ": " + error.message;
+    }
     return error;
 }
 
@@ -108,10 +112,9 @@ void RequestRuns::Impl::add_others() {
     double candidates = step(job[0]).domain.stages().candidates();
     std::deque<std::size_t> left;
     for (const std::size_t i : turn) {
-        const bool fits =
-            shares(i) && (step(i).params.radii != nullptr) == radii_vary &&
-            faces + step(i).surface->face_count() <= kJobFaces &&
-            candidates + step(i).domain.stages().candidates() <= kJobCandidates;
+        const bool fits = shares(i) && (step(i).params.radii != nullptr) == radii_vary &&
+                          faces + step(i).surface->face_count() <= kJobFaces &&
+                          candidates + step(i).domain.stages().candidates() <= kJobCandidates;
         if (!fits) {
             left.push_back(i);
             continue;
@@ -136,7 +139,7 @@ Result<Done> RequestRuns::Impl::take(SampleSet set) {
     }
     for (std::size_t k = 0; k < job.size(); ++k) {
         if (const auto taken = runs[job[k]].take(std::move(sets[k])); !taken) {
-            return on_mesh(job[k], taken.error());
+            return on_mesh(job[k], runs.size(), taken.error());
         }
     }
     return begin_job();
@@ -152,11 +155,11 @@ Result<RequestRuns> RequestRuns::create(std::span<const MeshRequest> requests) n
         auto impl = std::make_unique<Impl>(requests);
         for (std::size_t i = 0; i < requests.size(); ++i) {
             if (requests[i].mesh == nullptr) {
-                return on_mesh(i, invalid("there is no mesh"));
+                return on_mesh(i, requests.size(), invalid("there is no mesh"));
             }
             auto run = RequestRun::create(*requests[i].mesh, requests[i].request);
             if (!run) {
-                return on_mesh(i, run.error());
+                return on_mesh(i, requests.size(), run.error());
             }
             impl->runs.push_back(std::move(*run));
         }
