@@ -1,7 +1,5 @@
 """Many meshes as one job: the samples of each by itself."""
 
-import importlib
-
 import numpy as np
 import pytest
 
@@ -24,20 +22,6 @@ def test_each_gets_its_own_samples():
         assert np.array_equal(samples.radius, alone.radius)
     assert found[2].polygon_index is not None and found[0].polygon_index is None
     assert geodisk.sample_many([], min_distance=1) == []
-
-
-@pytest.mark.parametrize("limit, value", [("_RUN_FACES", 2 * len(FACES)), ("_RUN_CANDIDATES", 300)])
-def test_many_take_several_jobs(monkeypatch, limit, value):
-    many = importlib.import_module("geodisk._many")
-    jobs = []
-    make = many._domain
-    monkeypatch.setattr(many, "_domain", lambda group: jobs.append(len(group)) or make(group))
-    monkeypatch.setattr(many, limit, value)
-    meshes = [MESHES[0]] * 5
-    found = geodisk.sample_many(meshes, min_distance=0.6, seed=[1, 2, 1, 3, 1])
-    assert len(jobs) > 1 and sum(jobs) == 5
-    for seed, samples in zip([1, 2, 1, 3, 1], found):
-        assert same(samples, geodisk.sample(MESHES[0], min_distance=0.6, seed=seed))
 
 
 def test_a_mesh_of_a_later_job_is_named():
@@ -65,10 +49,35 @@ def test_counts_densities_and_keys():
     assert flat.points.shape[1] == 2 and flat.normals is None  # Of another dimension.
 
 
-def test_what_is_of_one_mesh_is_refused():
-    for name, value in (("classes", 2), ("maximal", True), ("stop_count", 9), ("order", "progressive")):
-        with pytest.raises(TypeError, match=f"takes no {name}; call sample.. for each mesh"):
-            geodisk.sample_many(MESHES, min_distance=0.5, **{name: value})
+@pytest.mark.parametrize(
+    "options",
+    [
+        {"min_distance": 0.3, "darts": 400},
+        {"min_distance": 0.3, "stop_count": 30},
+        {"min_distance": 0.5, "maximal": True},
+        {"count": 60, "exact": True},
+        {"count": [150, 30], "order": "progressive"},
+        {"count": [150, 200], "order": "progressive", "levels": 3, "level_factor": 1.5},
+        {"min_distance": 0.4, "order": "farthest"},
+        {"min_distance": 0.4, "classes": 2},
+        {"min_distance": 0.3, "metric": "euclidean"},
+        {"count": [60, 80], "features": 30},
+    ],
+)
+def test_all_parameters_are_those_of_sample(options):
+    meshes = [geodisk.Mesh(CUBE, SIDES), geodisk.Mesh(VERTICES, FACES)]
+    found = geodisk.sample_many(meshes, seed=[4, 4], **options)
+    for i, samples in enumerate(found):
+        own = {name: x[i] if isinstance(x, list) else x for name, x in options.items()}
+        alone = geodisk.sample(meshes[i], seed=4, **own)
+        assert np.array_equal(samples.points, alone.points)
+        assert samples.columns.keys() == alone.columns.keys()
+        assert all(np.array_equal(samples.columns[x], alone.columns[x]) for x in alone.columns)
+        for name in ("tries", "levels", "corners", "corners_left_out", "cut", "missing", "rho"):
+            assert samples.report.get(name) == alone.report.get(name)
+
+
+def test_what_is_wrong_is_refused():
     with pytest.raises(TypeError, match="unexpected keyword argument 'min_dist'"):
         geodisk.sample_many(MESHES, min_dist=0.5)
     with pytest.raises(geodisk.InvalidArgument, match="which needs a pool of 2e[+]10"):

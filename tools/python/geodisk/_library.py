@@ -22,20 +22,19 @@ from ._structs import (
     FarthestInfo,
     MeshInfo,
     MeshParams,
+    MeshRequest,
     NeighbourArrays,
     NeighbourParams,
     Oddity,
     Progress,
     RecordParams,
     Report,
-    Request,
     SampledSet,
     SamplerOptions,
     SourceArrays,
     SourceAttribute,
     SourceParams,
     SurfaceParams,
-    SurfacePart,
     UpdateInfo,
 )
 from ._wording import in_python
@@ -53,20 +52,12 @@ _FALLIBLE: dict[str, list[Any]] = {
     "geodisk_radii_create": [c_void_p, c_void_p, c_int32, c_size_t, _HANDLE],
     "geodisk_density_create": [c_void_p, c_void_p, c_int32, c_size_t, _HANDLE],
     "geodisk_domain_surface": [c_void_p, POINTER(SurfaceParams), _HANDLE],
-    "geodisk_domain_features": [
-        c_void_p,
-        POINTER(SurfaceParams),
-        c_double,
-        POINTER(c_size_t),
-        _HANDLE,
-    ],
-    "geodisk_domain_surfaces": [POINTER(SurfacePart), c_size_t, _HANDLE],
     "geodisk_domain_box": [POINTER(BoxParams), _HANDLE],
     "geodisk_distance_for_count": [c_void_p, c_void_p, c_void_p, c_double, POINTER(c_double)],
     "geodisk_box_distance_for_count": [POINTER(BoxParams), c_double, POINTER(c_double)],
     "geodisk_sampler_create": [c_void_p, POINTER(SamplerOptions), _HANDLE],
     "geodisk_start": [c_void_p, c_void_p],
-    "geodisk_start_request": [c_void_p, c_void_p, POINTER(Request)],
+    "geodisk_start_requests": [c_void_p, POINTER(MeshRequest), c_size_t],
     "geodisk_poll": [c_void_p, c_uint32, _HANDLE],
     "geodisk_sampler_progress": [c_void_p, POINTER(Progress)],
     "geodisk_find_neighbours": [
@@ -263,6 +254,13 @@ class Handle:
         self.value = c_void_p()
         if make is not None:
             call(make, *arguments, byref(self.value))
+
+    @classmethod
+    def of(cls, kind: str, value: int | None) -> Handle:
+        """Takes over an object that was made already."""
+        made = cls(kind)
+        made.value = c_void_p(value)
+        return made
 
     def abandon(self) -> None:
         """Never releases the object."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ctypes
 import dataclasses
 import math
-from typing import Any, Sequence
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -109,37 +109,6 @@ def first_of(samples: Samples, count: float) -> Samples:
         "rho": samples.report["rho"] * math.sqrt(len(kept) / max(1, len(samples))),
     }
     return dataclasses.replace(kept, report=report, _digest=None)
-
-
-def samples_of_parts(
-    handle: c.Handle, parts: Sequence[tuple[int, float, Surface, int]]
-) -> list[Samples]:
-    """Returns what a run gave on each of several surfaces, of their seeds and minimum distances.
-
-    The last number of a part is that of its existing samples.
-    """
-    report = report_of(handle)
-    del report["levels"], report["level_factor"]
-    columns = _columns_of(handle)
-    part = columns.pop("part")
-    assert part is not None
-    by_part = np.argsort(part, kind="stable")
-    ends = np.cumsum(np.bincount(part, minlength=len(parts)))
-    result = []
-    for (seed, distance, surface, existing), rows in zip(parts, np.split(by_part, ends[:-1])):
-        own = {name: None if x is None else x[rows] for name, x in columns.items()}
-        own["existing"] = _existing(len(rows), existing)
-        told = {**report, "options": ["sample_many"]}  # One surface alone has another frame.
-        result.append(_made(own, surface, told, distance, seed))
-    return result
-
-
-def places_of(handle: c.Handle) -> tuple[NDArray[Any], NDArray[Any]]:
-    """Returns the triangles and weights of samples on one surface."""
-    faces = copied(handle.value, s.FACE, np.uint32)
-    weights = copied(handle.value, s.BARYCENTRIC, np.float64)
-    assert faces is not None and weights is not None
-    return faces[:, 0], weights
 
 
 def report_of(handle: c.Handle) -> dict[str, Any]:

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import ctypes
-from ctypes import byref, c_double, c_int32
+from collections.abc import Sequence
+from ctypes import byref, c_double, c_int32, pointer
 from typing import Any, Callable
 
 import numpy as np
@@ -71,48 +72,54 @@ class Runs:
 
     def run(self, domain: c.Handle) -> c.Handle:
         """Returns the samples of a domain."""
-        return self._begun("geodisk_start", domain.value)
+        return self._begun(1, "geodisk_start", domain.value)[0]
 
-    def serve(self, mesh: c.Handle, request: s.Request) -> c.Handle:
-        """Returns the samples that a request asks for."""
-        return self._begun("geodisk_start_request", mesh.value, byref(request))
+    def serve(self, requests: Sequence[tuple[c.Handle, s.Request]]) -> list[c.Handle]:
+        """Returns the samples that each request asks for, of a mesh."""
+        given = (s.MeshRequest * len(requests))()
+        for one, (mesh, request) in zip(given, requests):
+            one.struct_size = ctypes.sizeof(s.MeshRequest)
+            one.mesh, one.request = mesh.value, pointer(request)
+        return self._begun(len(given), "geodisk_start_requests", given, len(given))
 
-    def _begun(self, start: str, *arguments: Any) -> c.Handle:
-        """Returns the samples of a run that a function of the library begins."""
+    def _begun(self, sets: int, start: str, *arguments: Any) -> list[c.Handle]:
+        """Returns the sets of samples of runs that a function of the library begins."""
         with sampler_on(self._device) as sampler:
             try:
                 c.call(start, sampler, *arguments)
-                return self._polled(sampler)
+                return self._polled(sampler, sets)
             except e.DeviceLost:
                 forget(self._device)
                 raise
             except BaseException:  # Ctrl-C, or what a callback raises.
-                _end(sampler)
+                _end(sampler, sets)
                 raise
 
-    def _polled(self, sampler: ctypes.c_void_p) -> c.Handle:
-        """Goes on with a run until its samples are there. Python acts on signals in between."""
-        samples = c.Handle("samples")
+    def _polled(self, sampler: ctypes.c_void_p, sets: int) -> list[c.Handle]:
+        """Goes on until the samples are there. Python acts on signals in between."""
+        made = (ctypes.c_void_p * sets)()
         progress = s.Progress()
-        while not samples.value:
-            c.call("geodisk_poll", sampler, _PATIENCE, byref(samples.value))
-            if self._report and not samples.value:
+        while not made[0]:
+            c.call("geodisk_poll", sampler, _PATIENCE, made)
+            if self._report and not made[0]:
                 c.call("geodisk_sampler_progress", sampler, byref(progress))
                 part = progress.decided / max(1, progress.candidates)
                 if stops(self._report(part, progress.accepted)):
                     raise e.Cancelled(STOPPED, "cancelled")
-        return samples
+        return [c.Handle.of("samples", value) for value in made]
 
 
-def _end(sampler: ctypes.c_void_p) -> None:
+def _end(sampler: ctypes.c_void_p, sets: int) -> None:
     """Stops the run in progress, if there is one."""
-    rest = c.Handle("samples")
+    made = (ctypes.c_void_p * sets)()
     c.cancel(sampler)
     try:
-        while not rest.value:
-            c.call("geodisk_poll", sampler, _PATIENCE, byref(rest.value))
+        while not made[0]:
+            c.call("geodisk_poll", sampler, _PATIENCE, made)
     except e.Error:  # Cancelled; or it had ended.
-        pass
+        return
+    for value in made:
+        c.Handle.of("samples", value)  # Is released at once.
 
 
 class CountSearch:

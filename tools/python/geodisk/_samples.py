@@ -317,8 +317,7 @@ class Samples:
     def _is_whole(self) -> bool:
         """Whether these are all of their set, in any order."""
         faces, weights = self.face_index, self.barycentric
-        is_alone = "sample_many" not in self.report.get("options", [])
-        if is_alone and self.report.get("samples", len(self)) != len(self):
+        if self.report.get("samples", len(self)) != len(self):
             return False
         return self._digest is None or (
             faces is not None and weights is not None and self._digest == digest_of(faces, weights)

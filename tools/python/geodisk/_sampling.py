@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import ctypes
-import dataclasses
 import os
-from ctypes import byref, c_double, pointer
+from ctypes import byref, c_double
 from typing import Sequence
 
 import numpy as np
@@ -15,22 +14,18 @@ from . import _errors as e
 from . import _library as c
 from . import _structs as s
 from ._arrays import real
-from ._classes import Classes, ClassesLike
+from ._classes import ClassesLike
 from ._devices import DeviceLike
-from ._existing import AvoidLike, ExistingLike, avoided_of, existing_of
-from ._farthest import put_farthest_first
-from ._features import degrees_of
-from ._job import Job, JobFrame
-from ._levels import levels_of
-from ._mesh import keys_of, mask_of, mesh_of
-from ._oddities import oddities_of_set, warn, warn_of_whole_mask
+from ._existing import AvoidLike, ExistingLike
+from ._mesh import Mesh, mesh_of
+from ._oddities import oddities_of_set, warn
 from ._protocols import Faces, MeshLike
-from ._radii import radii_of
 from ._record import Record, recorded
-from ._results import first_of, report_of, samples_of
+from ._results import first_of, samples_of
 from ._running import ProgressCallback, Runs, sampled
 from ._samples import Samples
-from ._values import check_exact, check_pool, choice, distance_of, flag, integer
+from ._values import check_exact, check_pool, distance_of, flag, integer
+from ._wanted import Wanted
 
 
 def sample(
@@ -197,124 +192,43 @@ def sample(
     >>> bool(samples.face_index.max() < 4)
     True
     """
-    darts = integer(darts, "darts", 2**32 - 1)
-    kinds = None if classes is None else Classes(classes)
-    if kinds is not None and kinds.largest is not None:
-        if [min_distance, radius, count] != [None] * 3:
-            raise e.invalid("a table of classes takes no min_distance, radius or count")
-        min_distance = kinds.largest
-    distance = given = distance_of(min_distance, radius, count, darts)
-    seed = integer(seed, "seed", 2**64 - 1)
-    stop_count = integer(stop_count, "stop_count", 2**32 - 1)
-    check_exact(exact, count, stop_count)
-    check_pool(count, pool_ratio, darts)
-    choice(metric, "metric", s.METRICS)
-    choice(order, "order", ("dart", "progressive", "farthest"))
     record = Record(texture, normals, frames)
-    mesh = mesh_of(
-        vertices, faces, edge_lengths, weld, keep_seams, columns, mesh_format, attributes, record,
-        allow_outside,
-    )
-    if order == "farthest" and existing is not None:
-        raise e.invalid("order='farthest' takes no existing samples, which come first")
-    maximal = flag(maximal, "maximal")
-    in_levels = levels_of(order, levels, level_factor, metric, darts)
-    if in_levels is not None and (classes is not None or features is not None or maximal):
-        raise e.invalid("order='progressive' takes no classes, features and maximal")
-    if maximal and (exact or (count is not None and stop_count)):
-        raise e.invalid("maximal leaves no gaps, exact and stop_count drop the last samples")
-    if features is not None and density is not None:
-        raise e.invalid("features take no density; give radius_factor to vary the distance")
-    radii = radii_of(mesh, density, radius_factor)
-    part = 1.0 if radii is None else radii.distance_part
-    keys = None if face_keys is None else keys_of(mesh, face_keys)
-    mask = None if face_mask is None else mask_of(mesh._surface, face_mask)
-    warn_of_whole_mask(mask)
-    kept = existing_of(mesh._surface, existing)
-    points, point_radii = avoided_of(mesh._surface, avoid)
-    if count is not None and len(kept) >= count:
-        raise e.invalid(f"count is {count}, but {len(kept)} existing samples count too")
-    params = s.SurfaceParams(
-        seed=seed,
-        pool_ratio=float(pool_ratio),
-        darts=darts,
-        radii=None if radii is None else radii.handle.value,
-        face_keys=None if keys is None else keys.ctypes.data,
-        face_mask=None if mask is None else mask.ctypes.data,
-        metric=s.METRICS[metric],
-        existing=kept.ctypes.data,
-        existing_count=len(kept),
-        avoid=points.ctypes.data,
-        avoid_radii=point_radii.ctypes.data,
-        avoid_count=len(points),
-        is_maximal=int(maximal),
-    )
-    if kinds is not None and kinds.count > 1:
-        own_classes = kinds.existing_of(existing, len(kept))
-        params.class_factors = kinds.factors.ctypes.data
-        params.class_count = kinds.count
-        params.existing_classes = own_classes.ctypes.data
 
-    degrees = 0.0 if features is None else degrees_of(features)
-    if features is not None and kinds is not None:
-        raise e.invalid("features take no classes")
-    params.stop_count = stop_count
-    params.min_distance = 0.0 if distance is None else distance / part
-    request = s.Request(
-        params=pointer(params),
-        count=0.0 if count is None else count,
-        is_exact=int(exact),
-        order=s.ORDERS["dart" if in_levels is None else "progressive"],
-        features=degrees,
-    )
-    if in_levels is not None:
-        request.levels, request.level_factor = in_levels.count, in_levels.factor
-    with Runs(device, progress) as runs:
-        made = runs.serve(mesh._handle, request)
-    run_distance = report_of(made)["min_distance"]
-    samples = samples_of(made, seed, mesh._surface, given=given, distance_part=part, classes=kinds)
-    warn(
-        oddities_of_set(
-            samples, mesh._handle, count, stop_count, darts, mask, len(kept), len(points) > 0
+    def read_mesh() -> Mesh:
+        return mesh_of(
+            vertices, faces, edge_lengths, weld, keep_seams, columns, mesh_format, attributes,
+            record, allow_outside,
         )
+
+    wanted = Wanted(
+        read_mesh,
+        min_distance=min_distance,
+        radius=radius,
+        count=count,
+        exact=exact,
+        seed=seed,
+        density=density,
+        radius_factor=radius_factor,
+        pool_ratio=pool_ratio,
+        darts=darts,
+        stop_count=stop_count,
+        maximal=maximal,
+        order=order,
+        levels=levels,
+        level_factor=level_factor,
+        face_keys=face_keys,
+        face_mask=face_mask,
+        existing=existing,
+        avoid=avoid,
+        classes=classes,
+        features=features,
+        metric=metric,
     )
-    chosen = {
-        "pool_ratio": pool_ratio != 20,
-        "darts": darts,
-        "stop_count": stop_count,
-        "exact": exact,
-        "density": density is not None,
-        "radius_factor": radius_factor is not None,
-        "face_keys": face_keys is not None,
-        "face_mask": face_mask is not None,
-        "metric": metric != "geodesic",
-        "classes": classes is not None,
-        "features": features is not None,
-        "order": order != "dart",
-        "maximal": maximal,
-        "existing": existing is not None,
-        "avoid": avoid is not None,
-    }
-    samples.report["options"] = [name for name, is_chosen in chosen.items() if is_chosen]
-    job = Job(
-        run_distance,
-        pool_ratio,
-        density,
-        radius_factor,
-        face_keys,
-        face_mask,
-        existing,
-        avoid,
-        mesh._source,
-    )
-    frame = None
-    if samples.min_distance / part != run_distance:  # What files say is rounded.
-        params.min_distance, params.existing_count, params.stop_count = run_distance, 0, 0
-        frame = JobFrame.found("geodisk_job_frame_of", mesh._handle.value, byref(params))
-    samples = dataclasses.replace(samples, _job=job, _frame=frame)
-    if order == "farthest":
-        samples = put_farthest_first(mesh._handle, mesh._surface, samples, device, progress)
-    return recorded(samples, mesh, record)
+    with Runs(device, progress) as runs:
+        (made,) = runs.serve([(wanted.mesh._handle, wanted.request)])
+    samples = wanted.samples_of(made, device, progress)
+    wanted.warn(samples)
+    return recorded(samples, wanted.mesh, record)
 
 
 def sample_box(

@@ -193,6 +193,14 @@ class Request(_Sized):
     ]
 
 
+class MeshRequest(_Sized):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("mesh", c_void_p),
+        ("request", POINTER(Request)),
+    ]
+
+
 class Report(_Sized):
     _fields_ = [
         ("struct_size", c_size_t),
@@ -303,15 +311,6 @@ class FarthestInfo(_Sized):
         ("cover", c_double),
         ("error", c_double),
         ("searches", c_uint32),
-    ]
-
-
-class SurfacePart(_Sized):
-    _fields_ = [
-        ("struct_size", c_size_t),
-        ("mesh", c_void_p),
-        ("params", POINTER(SurfaceParams)),
-        ("scale", c_double),
     ]
 
 

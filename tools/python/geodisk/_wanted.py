@@ -1,0 +1,215 @@
+"""What is asked for on one mesh: checked, as the library takes it, and the samples that it gets."""
+
+from __future__ import annotations
+
+import dataclasses
+from ctypes import byref, pointer
+from typing import Callable
+
+from numpy.typing import ArrayLike
+
+from . import _errors as e
+from . import _library as c
+from . import _structs as s
+from ._classes import Classes, ClassesLike
+from ._devices import DeviceLike
+from ._existing import AvoidLike, ExistingLike, avoided_of, existing_of
+from ._farthest import put_farthest_first
+from ._features import degrees_of
+from ._job import Job, JobFrame
+from ._levels import levels_of
+from ._mesh import Mesh, keys_of, mask_of
+from ._oddities import oddities_of_set, warn, warn_of_whole_mask
+from ._radii import radii_of
+from ._results import report_of, samples_of
+from ._running import ProgressCallback
+from ._samples import Samples
+from ._values import check_exact, check_pool, choice, distance_of, flag, integer
+
+
+class Wanted:
+    """Samples of one mesh that are asked for. Parameters are those of :func:`sample`."""
+
+    def __init__(
+        self,
+        read_mesh: Callable[[], Mesh],
+        *,
+        min_distance: float | None,
+        radius: float | None,
+        count: float | None,
+        exact: bool,
+        seed: int,
+        density: ArrayLike | None,
+        radius_factor: ArrayLike | None,
+        pool_ratio: float,
+        darts: int,
+        stop_count: int,
+        maximal: bool,
+        order: str,
+        levels: int | None,
+        level_factor: float | None,
+        face_keys: ArrayLike | None,
+        face_mask: ArrayLike | None,
+        existing: ExistingLike | None,
+        avoid: AvoidLike | None,
+        classes: ClassesLike | None,
+        features: float | None,
+        metric: str,
+    ) -> None:
+        darts = integer(darts, "darts", 2**32 - 1)
+        kinds = None if classes is None else Classes(classes)
+        if kinds is not None and kinds.largest is not None:
+            if [min_distance, radius, count] != [None] * 3:
+                raise e.invalid("a table of classes takes no min_distance, radius or count")
+            min_distance = kinds.largest
+        distance = distance_of(min_distance, radius, count, darts)
+        seed = integer(seed, "seed", 2**64 - 1)
+        stop_count = integer(stop_count, "stop_count", 2**32 - 1)
+        check_exact(exact, count, stop_count)
+        check_pool(count, pool_ratio, darts)
+        choice(metric, "metric", s.METRICS)
+        choice(order, "order", ("dart", "progressive", "farthest"))
+        if order == "farthest" and existing is not None:
+            raise e.invalid("order='farthest' takes no existing samples, which come first")
+        maximal = flag(maximal, "maximal")
+        in_levels = levels_of(order, levels, level_factor, metric, darts)
+        if in_levels is not None and (classes is not None or features is not None or maximal):
+            raise e.invalid("order='progressive' takes no classes, features and maximal")
+        if maximal and (exact or (count is not None and stop_count)):
+            raise e.invalid("maximal leaves no gaps, exact and stop_count drop the last samples")
+        if features is not None and density is not None:
+            raise e.invalid("features take no density; give radius_factor to vary the distance")
+        if features is not None and kinds is not None:
+            raise e.invalid("features take no classes")
+        degrees = 0.0 if features is None else degrees_of(features)
+
+        self.mesh = mesh = read_mesh()
+        radii = radii_of(mesh, density, radius_factor)
+        keys = None if face_keys is None else keys_of(mesh, face_keys)
+        mask = None if face_mask is None else mask_of(mesh._surface, face_mask)
+        warn_of_whole_mask(mask)
+        kept = existing_of(mesh._surface, existing)
+        points, point_radii = avoided_of(mesh._surface, avoid)
+        if count is not None and len(kept) >= count:
+            raise e.invalid(f"count is {count}, but {len(kept)} existing samples count too")
+        part = 1.0 if radii is None else radii.distance_part
+        self._params = params = s.SurfaceParams(
+            min_distance=0.0 if distance is None else distance / part,
+            seed=seed,
+            pool_ratio=float(pool_ratio),
+            darts=darts,
+            stop_count=stop_count,
+            radii=None if radii is None else radii.handle.value,
+            face_keys=None if keys is None else keys.ctypes.data,
+            face_mask=None if mask is None else mask.ctypes.data,
+            metric=s.METRICS[metric],
+            existing=kept.ctypes.data,
+            existing_count=len(kept),
+            avoid=points.ctypes.data,
+            avoid_radii=point_radii.ctypes.data,
+            avoid_count=len(points),
+            is_maximal=int(maximal),
+        )
+        own_classes = None
+        if kinds is not None and kinds.count > 1:
+            own_classes = kinds.existing_of(existing, len(kept))
+            params.class_factors = kinds.factors.ctypes.data
+            params.class_count = kinds.count
+            params.existing_classes = own_classes.ctypes.data
+        #: As the library takes it.
+        self.request = s.Request(
+            params=pointer(params),
+            count=0.0 if count is None else count,
+            is_exact=int(exact),
+            order=s.ORDERS["dart" if in_levels is None else "progressive"],
+            features=degrees,
+        )
+        if in_levels is not None:
+            self.request.levels, self.request.level_factor = in_levels.count, in_levels.factor
+
+        self._kept_alive = radii, keys, kept, points, point_radii, own_classes
+        self._distance, self._part, self._seed, self._mask = distance, part, seed, mask
+        self._count, self._stop_count, self._darts = count, stop_count, darts
+        self._existing, self._avoids, self._classes = len(kept), len(points) > 0, kinds
+        self._is_farthest = order == "farthest"
+        chosen = {
+            "pool_ratio": pool_ratio != 20,
+            "darts": darts,
+            "stop_count": stop_count,
+            "exact": exact,
+            "density": density is not None,
+            "radius_factor": radius_factor is not None,
+            "face_keys": face_keys is not None,
+            "face_mask": face_mask is not None,
+            "metric": metric != "geodesic",
+            "classes": classes is not None,
+            "features": features is not None,
+            "order": order != "dart",
+            "maximal": maximal,
+            "existing": existing is not None,
+            "avoid": avoid is not None,
+        }
+        self._options = [name for name, is_chosen in chosen.items() if is_chosen]
+        self._job = Job(
+            None,
+            pool_ratio,
+            density,
+            radius_factor,
+            face_keys,
+            face_mask,
+            existing,
+            avoid,
+            mesh._source,
+        )
+
+    def samples_of(
+        self,
+        made: c.Handle,
+        device: DeviceLike | None,
+        progress: bool | ProgressCallback,
+        is_alone: bool = True,
+    ) -> Samples:
+        """Returns the samples that were made, in the order asked for.
+
+        Those of a job of several meshes are decided by its guard, and cannot be updated.
+        """
+        run_distance = report_of(made)["min_distance"]
+        samples = samples_of(
+            made,
+            self._seed,
+            self.mesh._surface,
+            given=self._distance,
+            distance_part=self._part,
+            classes=self._classes,
+            _job=dataclasses.replace(self._job, distance=run_distance) if is_alone else None,
+            _frame=self._frame_at(run_distance) if is_alone else None,
+        )
+        samples.report["options"] = self._options if is_alone else ["sample_many"]
+        if self._is_farthest:
+            samples = put_farthest_first(
+                self.mesh._handle, self.mesh._surface, samples, device, progress
+            )
+        return samples
+
+    def _frame_at(self, run_distance: float) -> JobFrame | None:
+        """Returns the frame of a run whose distance samples say rounded, else None."""
+        told = run_distance * self._part if self._distance is None else self._distance
+        if told / self._part == run_distance:
+            return None
+        params = s.SurfaceParams.from_buffer_copy(self._params)
+        params.min_distance, params.existing_count, params.stop_count = run_distance, 0, 0
+        return JobFrame.found("geodisk_job_frame_of", self.mesh._handle.value, byref(params))
+
+    def warn(self, samples: Samples, prefix: str = "") -> None:
+        """Shows warnings about the samples that were made."""
+        found = oddities_of_set(
+            samples,
+            self.mesh._handle,
+            self._count,
+            self._stop_count,
+            self._darts,
+            self._mask,
+            self._existing,
+            self._avoids,
+        )
+        warn([e.GeodiskWarning(f"{prefix}{one}", one.kind, one.count) for one in found])
