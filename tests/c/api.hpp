@@ -32,7 +32,6 @@ struct Release {
         geodisk_frame_neighbours_release(object);
     }
     void operator()(geodisk_placement* object) const { geodisk_placement_release(object); }
-    void operator()(geodisk_count_search* object) const { geodisk_count_search_release(object); }
     void operator()(geodisk_updater* object) const { geodisk_updater_release(object); }
 };
 template <class Object>

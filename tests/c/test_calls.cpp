@@ -233,7 +233,6 @@ TEST_CASE("wrong arguments are told of") {
     Release()(static_cast<geodisk_domain*>(nullptr));
     Release()(static_cast<geodisk_sampler*>(nullptr));
     Release()(static_cast<geodisk_samples*>(nullptr));
-    Release()(static_cast<geodisk_count_search*>(nullptr));
 }
 
 TEST_CASE("a surface in a frame") {

@@ -154,6 +154,10 @@ TEST_CASE("a request of the farthest order tells how far each sample is from tho
                                  cover.size(), nullptr) == GEODISK_OK);
     CHECK(cover == found.farthest->distances);
     CHECK(report_on(samples.get()).cover == found.farthest->cover);
+    CHECK(found.unkept > 0);
+    cube.params.stop_count = 20;
+    CHECK(report_on(cube.sample().get()).missing == 0); // 10 of 20 are left out.
+    cube.params.stop_count = 0;
     CHECK(geodisk_start_request(shared_sampler(), cube.mesh.get(), &cube.request, nullptr) ==
           GEODISK_INVALID_ARGUMENT);
 }
@@ -280,6 +284,53 @@ TEST_CASE("what is wrong with one of several requests names it, and gives no sam
     CHECK(status == GEODISK_INVALID_ARGUMENT);
     CHECK(std::string(error.message).starts_with("mesh 1: count: found no room"));
     CHECK(geodisk_poll(shared_sampler(), 0, made, nullptr) == GEODISK_INVALID_ARGUMENT);
+}
+
+TEST_CASE("a request in a box is that of C++, with and without waiting") {
+    BoxRequest wanted;
+    wanted.params.extents = {1, 2};
+    wanted.params.is_periodic = true;
+    wanted.params.seed = 9;
+    wanted.count = 80;
+    wanted.is_exact = true;
+    Runner runner = expect(Runner::create(shared_context().device(), shared_context().queue()));
+    const RequestedSet found = expect(geodisk::sample(runner, wanted));
+    const double extents[] = {1, 2};
+    auto params = sized<geodisk_box_params>();
+    params.extents = extents;
+    params.dimension = 2;
+    params.is_periodic = 1;
+    params.seed = 9;
+    auto request = sized<geodisk_box_request>();
+    request.params = &params;
+    request.count = 80;
+    request.is_exact = 1;
+    geodisk_samples* made = nullptr;
+    REQUIRE(geodisk_sample_box_request(shared_sampler(), &request, nullptr, nullptr, &made,
+                                       nullptr) == GEODISK_OK);
+    const Owned<geodisk_samples> waited(made);
+    REQUIRE(geodisk_start_box_request(shared_sampler(), &request, nullptr) == GEODISK_OK);
+    made = nullptr;
+    while (made == nullptr) {
+        REQUIRE(geodisk_poll(shared_sampler(), 1000, &made, nullptr) == GEODISK_OK);
+    }
+    const Owned<geodisk_samples> polled(made);
+    for (const auto* const samples : {waited.get(), polled.get()}) {
+        REQUIRE(geodisk_samples_count(samples) == 80);
+        std::vector<double> points(2 * 80);
+        REQUIRE(geodisk_samples_copy(samples, GEODISK_POSITION, GEODISK_FLOAT64, points.data(), 0,
+                                     80, nullptr) == GEODISK_OK);
+        CHECK(points == found.set.points);
+        CHECK(report_on(samples).min_distance == found.min_distance);
+        CHECK(report_on(samples).cut == found.cut);
+        CHECK(report_on(samples).tries == found.tries);
+        CHECK(report_on(samples).missing == 0);
+    }
+    auto error = sized<geodisk_error>();
+    request.params = nullptr;
+    CHECK(geodisk_start_box_request(shared_sampler(), &request, &error) ==
+          GEODISK_INVALID_ARGUMENT);
+    CHECK(std::string(error.message) == "params is NULL");
 }
 
 } // namespace geodisk::test

@@ -496,54 +496,6 @@ TEST_CASE("meshes of lengths, welded and saved ones") {
     CHECK(none == nullptr);
 }
 
-TEST_CASE("a search finds the distance of a count") {
-    const auto mesh = mesh_of(sampled_knot());
-    const auto search = owned<geodisk_count_search>([](auto** made, geodisk_error* error) {
-        return geodisk_count_search_create(200, made, error);
-    });
-    double distance = 3; // Far off.
-    std::size_t best = 0;
-    for (int tries = 0; distance > 0; ++tries) {
-        REQUIRE(tries < 10);
-        const std::size_t count = geodisk_samples_count(
-            sample(shared_sampler(), surface_of(mesh.get(), distance).get()).get());
-        std::int32_t is_nearest = 0;
-        REQUIRE(geodisk_count_search_note(search.get(), distance, count, &distance, &is_nearest,
-                                          nullptr) == GEODISK_OK);
-        best = is_nearest != 0 ? count : best;
-    }
-    CHECK(best >= 190);
-    CHECK(best <= 210);
-}
-
-TEST_CASE("an exact search finds a distance with enough samples") {
-    const auto mesh = mesh_of(sampled_knot());
-    const auto search = owned<geodisk_count_search>([](auto** made, geodisk_error* error) {
-        return geodisk_count_search_create_exact(200, made, error);
-    });
-    double distance = 0;
-    REQUIRE(geodisk_distance_for_count(mesh.get(), nullptr, nullptr, 200, &distance, nullptr) ==
-            GEODISK_OK);
-    std::size_t best = 0;
-    int tries = 0;
-    for (; distance > 0; ++tries) {
-        const std::size_t count = geodisk_samples_count(
-            sample(shared_sampler(), surface_of(mesh.get(), distance).get()).get());
-        std::int32_t is_nearest = 0;
-        REQUIRE(geodisk_count_search_note(search.get(), distance, count, &distance, &is_nearest,
-                                          nullptr) == GEODISK_OK);
-        best = is_nearest != 0 ? count : best;
-    }
-    CHECK(tries <= 6);
-    CHECK(best >= 200);
-    CHECK(best <= 202);
-    geodisk_count_search* none = nullptr;
-    CHECK(geodisk_count_search_create_exact(0, &none, nullptr) == GEODISK_INVALID_ARGUMENT);
-    CHECK(geodisk_count_search_create_exact(1, nullptr, nullptr) == GEODISK_INVALID_ARGUMENT);
-    CHECK(geodisk_count_search_create_exact(std::uint64_t{1} << 32, &none, nullptr) ==
-          GEODISK_INVALID_ARGUMENT);
-}
-
 TEST_CASE("levels have distances and seeds of their own") {
     const auto mesh = mesh_of(sampled_knot());
     auto params = sized<geodisk_surface_params>();

@@ -284,18 +284,6 @@ class Program {
         double distance = 0;
         geodisk_distance_for_count(meshes_.any(bytes_), radii_.any(bytes_), nullptr,
                                    bytes_.number(), &distance, e);
-        geodisk_count_search* search = nullptr;
-        if (bytes_.below(2) == 0) {
-            geodisk_count_search_create(bytes_.number(), &search, e);
-        } else {
-            geodisk_count_search_create_exact(bytes_.next<std::uint16_t>(), &search, e);
-        }
-        std::int32_t nearest = 0;
-        for (int i = 0; i < 3; ++i) {
-            geodisk_count_search_note(search, bytes_.number(), bytes_.next<std::uint16_t>(),
-                                      &distance, &nearest, e);
-        }
-        geodisk_count_search_release(search);
     }
 
     void save_and_load(geodisk_error* e) {

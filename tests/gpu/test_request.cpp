@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -213,6 +214,66 @@ TEST_SUITE("request") {
         }
     }
 
+    TEST_CASE("a box takes the distance that gives a count, exactly or about") {
+        Runner runner = request_runner();
+        BoxRequest request;
+        request.params.extents = {1, 2, 0.5};
+        request.params.seed = 3;
+        request.count = 90;
+        request.is_exact = true;
+        const RequestedSet found = expect(sample(runner, request));
+        CHECK(found.set.points.size() == 3 * 90);
+        CountSearch search = CountSearch::exact(90);
+        BoxParams box = request.params;
+        box.min_distance = distance_for_count(box, 90);
+        std::vector<double> best;
+        double distance = 0;
+        for (std::optional<double> next = box.min_distance; next;) {
+            box.min_distance = *next;
+            const auto set = expect(runner.sample_and_wait(expect(Domain::box(box))));
+            next = search.note(box.min_distance, set.points.size() / 3);
+            if (search.is_nearest()) {
+                best = set.points;
+                distance = box.min_distance;
+            }
+        }
+        CHECK(found.tries == search.tries());
+        CHECK(found.min_distance == distance);
+        CHECK(found.cut == best.size() / 3 - 90);
+        best.resize(3 * 90);
+        CHECK(found.set.points == best);
+
+        request.is_exact = false;
+        request.params.stop_count = 20; // After the search, which it must not mislead.
+        CHECK(expect(sample(runner, request)).set.points.size() == 3 * 20);
+        request.is_exact = true;
+        CHECK(sample(runner, request).error().message.starts_with("is_exact and stop_count"));
+        request.params.stop_count = 0;
+        request.params.darts = 100;
+        CHECK(sample(runner, request).error().message.starts_with("is_exact and darts"));
+        request = {};
+        CHECK_FALSE(sample(runner, request)); // No distance.
+        request.count = 0.5;
+        CHECK(sample(runner, request).error().message.starts_with("count is 0.5"));
+    }
+
+    TEST_CASE("a first distance far above the mesh is no lack of room") {
+        const PreparedMesh mesh = prepared(builtin("cube", 3));
+        Runner runner = request_runner();
+        SampleRequest request;
+        request.count = 100;
+        request.params.min_distance = 1e6;
+        const std::size_t found = expect(sample(runner, mesh, request)).set.samples.size();
+        CHECK(found >= 95);
+        CHECK(found <= 105);
+        BoxRequest box;
+        box.count = 100;
+        box.params.min_distance = 1e6;
+        const std::size_t points = expect(sample(runner, box)).set.points.size() / 2;
+        CHECK(points >= 95);
+        CHECK(points <= 105);
+    }
+
     TEST_CASE("a count with no room for it is refused") {
         const PreparedMesh mesh = prepared(builtin("icosphere", 2));
         Runner runner = request_runner();
@@ -279,7 +340,16 @@ TEST_SUITE("request") {
         request = {};
         request.params.min_distance = 0.3;
         request.keep = 5;
-        CHECK(refusal(request).starts_with("keep is for"));
+        CHECK(refusal(request) == "keep is for the farthest order");
+        request.keep = 0;
+        request.levels.count = 3;
+        CHECK(refusal(request) == "levels are for the progressive order");
+        request.levels = Levels{0, 3.0};
+        CHECK(refusal(request) == "levels are for the progressive order");
+        request.levels = Levels{0};
+        request.count = 1e12;
+        CHECK(refusal(request).starts_with("count is 1e+12, more than 4294967295"));
+        request.count = 0;
         request.keep = 0;
         request.features = 30;
         CHECK(refusal(request).starts_with("features needs the coordinates"));

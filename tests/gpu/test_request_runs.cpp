@@ -131,7 +131,7 @@ TEST_SUITE("request") {
         }
         CHECK(jobs < 25); // Of the levels 5 to 7, and of tries about as many.
         CHECK_FALSE(runs.take({}));
-        CHECK(expect(RequestRuns::create({})).job() == nullptr);
+        CHECK(expect(RequestRuns::create(std::span<const MeshRequest>())).job() == nullptr);
     }
 
     TEST_CASE("what is wrong with one of several requests names its mesh") {

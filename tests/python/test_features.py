@@ -3,9 +3,15 @@
 import geodisk
 import numpy as np
 import pytest
+from meshes import FACES, VERTICES
 
 CORNERS = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)], float)
 SIDES = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]]
+
+
+def test_a_mesh_without_features_is_warned_of():
+    with pytest.warns(geodisk.GeodiskWarning, match="turns by more than 150 degrees .* no features"):
+        geodisk.sample(VERTICES, FACES, min_distance=0.5, features=150)
 
 
 def test_a_cube_has_its_corners_and_edges(tmp_path):

@@ -264,17 +264,10 @@ SampleResult sample_mesh(const SampleJob& job, const MeshInput& mesh, RunDevice&
         faces.push_back(mesh.sampled_of(row).face);
     }
     result.bare = parts_without(mesh.sampled(), faces, params.face_mask);
-    result.warnings = run_warnings(job, mesh, result);
+    result.warnings = run_warnings(job, mesh, result, found.lacks_features);
     result.warnings.insert(result.warnings.begin(), given.warnings.begin(), given.warnings.end());
     if (update && update->warning()) {
         result.warnings.push_back(*update->warning());
-    }
-    if (found.lacks_features) {
-        result.warnings.push_back({"no_features", 1, "",
-                                   "no edge where samples may lie turns by more than " +
-                                       rounded(*job.features, 6) +
-                                       " degrees or is a border, so there are no features",
-                                   job.mesh.mesh});
     }
     if (result.existing > 0) {
         note_existing(job, mesh, result, progress);

@@ -63,6 +63,13 @@ std::string no_room_text(const SampledSet& set) {
 std::vector<MeshWarning> set_warnings(const SampledSet& set) {
     std::vector<MeshWarning> warnings;
     check_count(set, warnings);
+    if (set.lacks_features > 0) {
+        warnings.push_back({"no_features", 1, "",
+                            "no edge where samples may lie turns by more than " +
+                                rounded(set.lacks_features, 6) +
+                                " degrees or is a border, so there are no features",
+                            ""});
+    }
     if (set.samples == set.existing && (set.existing > 0 || set.avoids)) {
         warnings.push_back({"no_new_samples", 1, "", no_room_text(set), ""});
         return warnings;

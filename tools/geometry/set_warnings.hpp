@@ -20,12 +20,13 @@ struct SampledSet {
     std::uint64_t cut = 0;        ///< Samples of the run that an exact count left out.
     std::uint32_t stop_count = 0; ///< Samples to stop at, or 0.
     bool has_darts = false;       ///< The number of darts was given.
+    double lacks_features = 0;    ///< Angle in degrees of features that were not found, or 0.
     std::string domain = "mesh";  ///< What has the room for samples.
     BareParts bare{};
 };
 
-/// Returns warnings about a count that was missed, a set without new samples, parts of the area
-/// without samples, and a distance that leaves one sample to each part.
+/// Returns warnings about a count that was missed, features that were not found, a set without new
+/// samples, parts of the area without samples, and a distance that leaves one sample to each part.
 std::vector<MeshWarning> set_warnings(const SampledSet& set);
 
 } // namespace geodisk::tools

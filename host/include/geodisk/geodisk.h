@@ -559,6 +559,27 @@ GEODISK_C_API geodisk_status geodisk_start_requests(geodisk_sampler *sampler,
                                                     const geodisk_mesh_request *requests,
                                                     size_t count, geodisk_error *error);
 
+/* What is to be sampled in a box, in one run or several. */
+typedef struct geodisk_box_request {
+    size_t struct_size;
+    /* The run at one distance. With `count`, its distance is the first one to try, or 0 for
+     * geodisk_box_distance_for_count. */
+    const geodisk_box_params *params;
+    double count;     /* Not 0: find the distance for about so many samples. */
+    int32_t is_exact; /* Not 0: return exactly `count` samples. */
+} geodisk_box_request;
+
+/* Samples what the request asks for, as geodisk_sample_request does. */
+GEODISK_C_API geodisk_status geodisk_sample_box_request(geodisk_sampler *sampler,
+                                                        const geodisk_box_request *request,
+                                                        geodisk_progress_fn progress, void *user,
+                                                        geodisk_samples **samples,
+                                                        geodisk_error *error);
+/* Begins to serve the request without waiting, as geodisk_start_request does. */
+GEODISK_C_API geodisk_status geodisk_start_box_request(geodisk_sampler *sampler,
+                                                       const geodisk_box_request *request,
+                                                       geodisk_error *error);
+
 /* Begins a run without waiting. Call geodisk_poll until it ends. */
 GEODISK_C_API geodisk_status geodisk_start(geodisk_sampler *sampler, const geodisk_domain *domain,
                                            geodisk_error *error);
@@ -1254,32 +1275,6 @@ GEODISK_C_API geodisk_status geodisk_frame_neighbours_describe(
 GEODISK_C_API void geodisk_frame_neighbours_release(geodisk_frame_neighbours *frames);
 
 /* ---- Finding a distance by a count ------------------------------------------------------------- */
-
-/* Searches for the distance that gives about a wanted number of samples, by trial. Begin with
- * geodisk_distance_for_count. Keep the set of the best try. Sample without stop_count during the
- * search, or the counts are too low. */
-typedef struct geodisk_count_search geodisk_count_search;
-
-/* Starts a search for about `wanted` samples, 1 to 4294967295. */
-GEODISK_C_API geodisk_status geodisk_count_search_create(double wanted,
-                                                         geodisk_count_search **search,
-                                                         geodisk_error *error);
-/* Starts a search for at least `count` samples, 1 to 4294967295, and at most 1 % more. Keep the
- * first `count` samples of the best try: exactly so many, which keep its distance. */
-GEODISK_C_API geodisk_status geodisk_count_search_create_exact(uint64_t count,
-                                                               geodisk_count_search **search,
-                                                               geodisk_error *error);
-/* Records the number of samples that a distance gave. Writes to `next` the distance to try next, or
- * 0 when the search has ended: the count is within 5 % of `wanted` or differs by one, a larger
- * distance gives no fewer samples, or this was the seventh try. An exact search ends with the sixth
- * try, or the twelfth while none has given enough, or once smaller distances give none, or give no
- * more and over 2^17 samples would be expected. Writes to `is_nearest` whether this try is the
- * best so far. No try of an exact search is if all give too few. */
-GEODISK_C_API geodisk_status geodisk_count_search_note(geodisk_count_search *search,
-                                                       double distance, uint64_t count,
-                                                       double *next, int32_t *is_nearest,
-                                                       geodisk_error *error);
-GEODISK_C_API void geodisk_count_search_release(geodisk_count_search *search);
 
 #ifdef __cplusplus
 }

@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include <geodisk/box.hpp>
 #include <geodisk/domain.hpp>
 #include <geodisk/export.hpp>
 #include <geodisk/farthest.hpp>
@@ -32,8 +33,8 @@ enum class SampleOrder : std::uint8_t {
 
 /// A set of samples to make on a surface. All that it points to must outlive the run.
 struct SampleRequest {
-    /// The run at one distance. With `count`, its distance is the first one to try, or 0 for
-    /// distance_for_count().
+    /// The run at one distance. With `count`, its distance is the first one to try, at most that
+    /// for one sample, or 0 for distance_for_count().
     SampleParams params;
     /// Number of samples, at least 1, for which a distance is found by trial (CountSearch); 0 if
     /// `params` tell the distance.
@@ -57,6 +58,15 @@ struct SampleRequest {
     /// Mesh that the sampled one was split from, on whose faces samples will be told; or null. The
     /// guard then allows for the steps of weights there.
     const PreparedMesh* split_from = nullptr;
+};
+
+/// A set of samples to make in a box.
+struct BoxRequest {
+    /// The run at one distance. With `count`, its distance is the first one to try, or 0 for
+    /// distance_for_count().
+    BoxParams params;
+    double count = 0;      ///< As SampleRequest::count.
+    bool is_exact = false; ///< As SampleRequest::is_exact.
 };
 
 /// Fields of a request that may exclude each other.
@@ -113,6 +123,7 @@ struct RequestedSet {
     bool lacks_features = false;
     /// For SampleOrder::farthest, in which `set` then is.
     std::optional<FarthestOrder> farthest{};
+    std::size_t unkept = 0; ///< Samples that `keep` leaves out.
 };
 
 /// One run of a request.
@@ -121,6 +132,7 @@ struct RequestStep {
     SampleParams params{}; ///< Of a surface. Refer to the request, or to its run.
     /// Mesh of the domain, if it is one surface by distances along it; else null.
     const PreparedMesh* surface = nullptr;
+    bool may_share = false;      ///< Domain::surfaces() may join it with others.
     double expected = 0;         ///< About how many samples there will be.
     std::uint32_t attempt = 0;   ///< Number of the distance that is tried.
     std::uint32_t level = 0;     ///< Level that it samples.
@@ -147,7 +159,10 @@ class GEODISK_API RequestRun {
     static Result<RequestRun> create(const PreparedMesh& mesh,
                                      const SampleRequest& request) noexcept;
 
-    /// Makes the step at a distance, for what is no single surface.
+    /// Makes the first step of a set in a box. Errors: as above, and those of Domain::box().
+    static Result<RequestRun> create(const BoxRequest& request) noexcept;
+
+    /// Makes the step at a distance, for what is neither a single surface nor a box.
     using StepAt = std::function<Result<RequestStep>(double min_distance)>;
     /// Makes the run of another domain, at this distance, or at one found for a count, from this
     /// one on.
@@ -196,6 +211,8 @@ class GEODISK_API RequestRuns {
     /// Makes the first job. Errors: those of RequestRun, naming the mesh by its place if there are
     /// several; `invalid_argument` for a mesh that is null.
     static Result<RequestRuns> create(std::span<const MeshRequest> requests) noexcept;
+    /// Goes on with runs of any kind.
+    static Result<RequestRuns> create(std::vector<RequestRun> runs) noexcept;
 
     RequestRuns(RequestRuns&&) noexcept;
     RequestRuns& operator=(RequestRuns&&) noexcept;
@@ -220,6 +237,11 @@ class GEODISK_API RequestRuns {
 /// Errors: those of RequestRun, Runner::sample_and_wait() and farthest_order().
 GEODISK_API Result<RequestedSet> sample(Runner& runner, const PreparedMesh& mesh,
                                         const SampleRequest& request,
+                                        const ProgressCallback& progress = {}) noexcept;
+
+/// Samples what the request asks for in a box, and waits. Errors: those of RequestRun and
+/// Runner::sample_and_wait().
+GEODISK_API Result<RequestedSet> sample(Runner& runner, const BoxRequest& request,
                                         const ProgressCallback& progress = {}) noexcept;
 
 /// Samples what several requests ask for, each as if alone but for the guard of a job, and waits.

@@ -112,6 +112,19 @@ Result<Done> keep(Result<Domain> made, std::shared_ptr<DomainState> state,
     return Done{};
 }
 
+Result<Done> check_count(double count) {
+    if (!(count >= 1) || !(count <= kMaxCandidates)) {
+        return wrong("count is not from 1 to 4294967295");
+    }
+    return Done{};
+}
+
+double factor_of(double factor) {
+    return factor == 0 ? kLevelFactor : factor;
+}
+
+} // namespace
+
 Result<BoxParams> box_of(const geodisk_box_params* params) {
     const auto given = taken(params, "params");
     if (!given) {
@@ -135,19 +148,6 @@ Result<BoxParams> box_of(const geodisk_box_params* params) {
     box.stop_count = given->stop_count;
     return box;
 }
-
-Result<Done> check_count(double count) {
-    if (!(count >= 1) || !(count <= kMaxCandidates)) {
-        return wrong("count is not from 1 to 4294967295");
-    }
-    return Done{};
-}
-
-double factor_of(double factor) {
-    return factor == 0 ? kLevelFactor : factor;
-}
-
-} // namespace
 
 Result<Metric> metric_of(geodisk_metric metric) {
     if (metric != GEODISK_EUCLIDEAN && metric != GEODISK_APPROXIMATE) {

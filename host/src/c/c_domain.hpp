@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include <geodisk/box.hpp>
 #include <geodisk/domain.hpp>
 #include <geodisk/geodisk.h>
 
@@ -30,6 +31,9 @@ struct Part {
 /// its parameters refer to its data.
 Result<geodisk_surface_params> fill_part(const geodisk_mesh* mesh,
                                          const geodisk_surface_params* params, Part& part);
+
+/// Copies the parameters of a box.
+Result<BoxParams> box_of(const geodisk_box_params* params);
 
 /// Returns a metric through space. Errors: for none of the three, and for geodesic distances.
 Result<Metric> metric_of(geodisk_metric metric);

@@ -93,11 +93,64 @@ std::vector<MeshRequest> RequestsState::on_meshes() const {
     return requests;
 }
 
-std::shared_ptr<const DomainState> at_found_distance(RequestState& state,
-                                                     const RequestedSet& found) {
+Result<std::shared_ptr<RequestsState>> requests_of(const geodisk_box_request* request) {
+    const auto given = taken(request, "request");
+    if (!given) {
+        return given.error();
+    }
+    auto box = box_of(given->params);
+    if (!box) {
+        return box.error();
+    }
+    auto one = std::make_shared<RequestState>();
+    one->of = std::make_shared<DomainState>();
+    one->box = {std::move(*box), given->count, given->is_exact != 0};
+    auto state = std::make_shared<RequestsState>();
+    state->each.push_back(std::move(one));
+    return state;
+}
+
+Result<RequestRuns> RequestsState::begin() const {
+    if (!each[0]->of->is_box()) {
+        return RequestRuns::create(on_meshes());
+    }
+    auto run = RequestRun::create(each[0]->box);
+    if (!run) {
+        return run.error();
+    }
+    std::vector<RequestRun> all;
+    all.push_back(std::move(*run));
+    return RequestRuns::create(std::move(all));
+}
+
+Result<std::vector<RequestedSet>> RequestsState::sample(Runner& runner,
+                                                        const ProgressCallback& progress) const {
+    if (!each[0]->of->is_box()) {
+        return geodisk::sample(runner, on_meshes(), progress);
+    }
+    auto found = geodisk::sample(runner, each[0]->box, progress);
+    if (!found) {
+        return found.error();
+    }
+    std::vector<RequestedSet> all;
+    all.push_back(std::move(*found));
+    return all;
+}
+
+Result<std::shared_ptr<const DomainState>> at_found_distance(RequestState& state,
+                                                             const RequestedSet& found) {
     state.of->min_distance = found.min_distance;
-    state.of->parts[0].params.min_distance = found.min_distance;
-    return state.of;
+    if (!state.of->is_box()) {
+        state.of->parts[0].params.min_distance = found.min_distance;
+        return std::shared_ptr<const DomainState>(state.of);
+    }
+    state.box.params.min_distance = found.min_distance;
+    auto domain = Domain::box(state.box.params);
+    if (!domain) {
+        return domain.error();
+    }
+    state.of->domain = std::move(*domain);
+    return std::shared_ptr<const DomainState>(state.of);
 }
 
 } // namespace geodisk::c

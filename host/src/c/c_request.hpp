@@ -15,16 +15,24 @@ namespace geodisk::c {
 
 /// A request and what it refers to. Must not move.
 struct RequestState {
-    std::shared_ptr<DomainState> of; ///< Its one surface.
+    std::shared_ptr<DomainState> of; ///< Its one surface, or a box.
     MeshView view;
-    SampleRequest request;
+    SampleRequest request; ///< Of a surface.
+    BoxRequest box;        ///< Of a box.
 };
 
 /// Requests, and the runs that serve them.
 struct RequestsState {
-    std::vector<std::shared_ptr<RequestState>> each;
-    std::optional<RequestRuns> runs; ///< If they were started.
+    std::vector<std::shared_ptr<RequestState>> each; ///< On surfaces; or one in a box.
+    std::optional<RequestRuns> runs;                 ///< If they were started.
 
+    /// Makes the runs.
+    Result<RequestRuns> begin() const;
+    /// Samples what is asked for, and waits.
+    Result<std::vector<RequestedSet>> sample(Runner& runner,
+                                             const ProgressCallback& progress) const;
+
+  private:
     std::vector<MeshRequest> on_meshes() const;
 };
 
@@ -36,8 +44,11 @@ Result<std::shared_ptr<RequestState>> request_of(const geodisk_mesh* mesh,
 Result<std::shared_ptr<RequestsState>> requests_of(const geodisk_mesh_request* requests,
                                                    std::size_t count);
 
-/// Returns the surface of a request at the distance that its samples were found at.
-std::shared_ptr<const DomainState> at_found_distance(RequestState& state,
-                                                     const RequestedSet& found);
+/// Copies a request of the caller's for a box.
+Result<std::shared_ptr<RequestsState>> requests_of(const geodisk_box_request* request);
+
+/// Returns the surface or box of a request at the distance that its samples were found at.
+Result<std::shared_ptr<const DomainState>> at_found_distance(RequestState& state,
+                                                             const RequestedSet& found);
 
 } // namespace geodisk::c

@@ -40,7 +40,7 @@ Result<Done> hand_over(const SamplerState& state, geodisk_samples made, geodisk_
     return Done{};
 }
 
-/// Hands over the samples of requests, each with its surface at their distance.
+/// Hands over the samples of requests, each with its surface or box at their distance.
 Result<Done> hand_over(const SamplerState& state, RequestsState& requests,
                        std::vector<RequestedSet> found, geodisk_samples** samples) {
     if (const auto checked = state.device->check_validation(); !checked) {
@@ -50,9 +50,11 @@ Result<Done> hand_over(const SamplerState& state, RequestsState& requests,
     for (std::size_t i = 0; i < found.size(); ++i) {
         SampleSet set = std::move(found[i].set);
         found[i].set = {};
-        auto surface = at_found_distance(*requests.each[i], found[i]);
-        made.emplace_back(
-            new geodisk_samples{std::move(surface), std::move(set), std::move(found[i])});
+        auto of = at_found_distance(*requests.each[i], found[i]);
+        if (!of) {
+            return of.error();
+        }
+        made.emplace_back(new geodisk_samples{std::move(*of), std::move(set), std::move(found[i])});
     }
     for (std::size_t i = 0; i < made.size(); ++i) {
         samples[i] = made[i].release();
@@ -64,7 +66,7 @@ Result<Done> hand_over(const SamplerState& state, RequestsState& requests,
 Result<Done> serve(SamplerState& state, RequestsState& requests, geodisk_progress_fn progress,
                    void* user, geodisk_samples** samples) {
     state.is_cancelled = false;
-    auto found = sample(state.runner, requests.on_meshes(), state.callback(progress, user));
+    auto found = requests.sample(state.runner, state.callback(progress, user));
     return found ? hand_over(state, requests, std::move(*found), samples) : found.error();
 }
 
@@ -88,7 +90,7 @@ Result<Done> start(SamplerState& state, std::shared_ptr<RequestsState> requests)
             return wrong("request->order: call geodisk_farthest_order on the samples");
         }
     }
-    auto runs = RequestRuns::create(requests->on_meshes());
+    auto runs = requests->begin();
     if (!runs) {
         return runs.error();
     }
@@ -117,6 +119,34 @@ Result<bool> poll(SamplerState& state, Result<std::optional<SampleSet>> polled) 
         return polled.error();
     }
     return *polled ? take(state, std::move(**polled)) : Result<bool>(false);
+}
+
+/// Samples what the requests that `copy()` returns ask for, and waits.
+template <class Copy>
+geodisk_status sample_all(geodisk_sampler* sampler, const Copy& copy, geodisk_progress_fn progress,
+                          void* user, geodisk_samples** samples, geodisk_error* error) {
+    return with_sampler(sampler, error, [&](SamplerState& state) -> Result<Done> {
+        if (samples == nullptr) {
+            return wrong("samples is NULL");
+        }
+        if (state.is_busy()) {
+            return run_in_progress();
+        }
+        const auto wanted = copy();
+        return wanted ? serve(state, **wanted, progress, user, samples) : wanted.error();
+    });
+}
+
+/// Begins to serve the requests that `copy()` returns.
+template <class Copy>
+geodisk_status start_all(geodisk_sampler* sampler, const Copy& copy, geodisk_error* error) {
+    return with_sampler(sampler, error, [&](SamplerState& state) -> Result<Done> {
+        if (state.is_busy()) {
+            return run_in_progress();
+        }
+        const auto wanted = copy();
+        return wanted ? start(state, *wanted) : wanted.error();
+    });
 }
 
 RunnerOptions options_of(const geodisk_sampler_options& given) {
@@ -240,16 +270,8 @@ geodisk_status geodisk_sample_requests(geodisk_sampler* sampler,
                                        const geodisk_mesh_request* requests, size_t count,
                                        geodisk_progress_fn progress, void* user,
                                        geodisk_samples** samples, geodisk_error* error) {
-    return with_sampler(sampler, error, [&](SamplerState& state) -> Result<Done> {
-        if (samples == nullptr) {
-            return wrong("samples is NULL");
-        }
-        if (state.is_busy()) {
-            return run_in_progress();
-        }
-        const auto wanted = requests_of(requests, count);
-        return wanted ? serve(state, **wanted, progress, user, samples) : wanted.error();
-    });
+    return sample_all(
+        sampler, [&] { return requests_of(requests, count); }, progress, user, samples, error);
 }
 
 geodisk_status geodisk_start_request(geodisk_sampler* sampler, const geodisk_mesh* mesh,
@@ -261,13 +283,22 @@ geodisk_status geodisk_start_request(geodisk_sampler* sampler, const geodisk_mes
 geodisk_status geodisk_start_requests(geodisk_sampler* sampler,
                                       const geodisk_mesh_request* requests, size_t count,
                                       geodisk_error* error) {
-    return with_sampler(sampler, error, [&](SamplerState& state) -> Result<Done> {
-        if (state.is_busy()) {
-            return run_in_progress();
-        }
-        const auto wanted = requests_of(requests, count);
-        return wanted ? start(state, *wanted) : wanted.error();
-    });
+    return start_all(
+        sampler, [&] { return requests_of(requests, count); }, error);
+}
+
+geodisk_status geodisk_sample_box_request(geodisk_sampler* sampler,
+                                          const geodisk_box_request* request,
+                                          geodisk_progress_fn progress, void* user,
+                                          geodisk_samples** samples, geodisk_error* error) {
+    return sample_all(
+        sampler, [&] { return requests_of(request); }, progress, user, samples, error);
+}
+
+geodisk_status geodisk_start_box_request(geodisk_sampler* sampler,
+                                         const geodisk_box_request* request, geodisk_error* error) {
+    return start_all(
+        sampler, [&] { return requests_of(request); }, error);
 }
 
 geodisk_status geodisk_sampler_progress(geodisk_sampler* sampler, geodisk_progress* progress,

@@ -279,7 +279,8 @@ geodisk_report report_of(const geodisk_samples& samples) {
     const std::uint64_t wanted = domain                    ? Domain::Impl::of(*domain).stop_count
                                  : samples.found.tries > 0 ? samples.of->parts[0].params.stop_count
                                                            : 0;
-    report.missing = static_cast<std::uint32_t>(wanted - std::min(wanted, report.samples));
+    const std::uint64_t made = report.samples + found.unkept;
+    report.missing = static_cast<std::uint32_t>(wanted - std::min(wanted, made));
     report.existing = static_cast<std::uint32_t>(samples.set.existing);
     report.maximal_rounds = run.maximal.rounds;
     report.is_certified = run.maximal.certified ? 1 : 0;

@@ -6,7 +6,7 @@
 namespace geodisk::tools {
 
 std::vector<MeshWarning> run_warnings(const SampleJob& job, const MeshInput& mesh,
-                                      const SampleResult& result) {
+                                      const SampleResult& result, bool lacks_features) {
     std::vector<MeshWarning> warnings =
         set_warnings({.samples = result.count(),
                       .existing = result.existing,
@@ -16,6 +16,7 @@ std::vector<MeshWarning> run_warnings(const SampleJob& job, const MeshInput& mes
                       .cut = result.done.cut,
                       .stop_count = job.method.stop_count,
                       .has_darts = job.method.darts > 0,
+                      .lacks_features = lacks_features ? *job.features : 0,
                       .bare = result.bare});
     for (MeshWarning& warning : warnings) {
         warning.file = job.mesh.mesh;

@@ -10,7 +10,7 @@ namespace geodisk::tools {
 
 /// Returns the warnings of set_warnings() about the samples of a job.
 std::vector<MeshWarning> run_warnings(const SampleJob& job, const MeshInput& mesh,
-                                      const SampleResult& result);
+                                      const SampleResult& result, bool lacks_features = false);
 
 /// Prints the warnings.
 void print_warnings(const std::vector<MeshWarning>& warnings);

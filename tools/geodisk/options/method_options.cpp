@@ -148,19 +148,6 @@ Method parse_method(const MethodOptions& options, const std::string& count) {
     return method;
 }
 
-CountSearch WantedCount::search() const {
-    return is_exact ? CountSearch::exact(static_cast<std::uint64_t>(samples))
-                    : CountSearch(samples);
-}
-
-void WantedCount::check_reached(std::uint64_t most, double min_distance) const {
-    if (is_exact && static_cast<double>(most) < samples) {
-        fail_usage("--exact: no distance tried gave more than " + grouped(most) + " of " +
-                   grouped(static_cast<std::uint64_t>(samples)) + " samples, down to " +
-                   rounded(min_distance, 6) + "; lower --count, or leave more room for samples");
-    }
-}
-
 WantedCount parse_wanted_count(const MethodOptions& options, const std::string& count,
                                double pool_ratio) {
     if (options.exact && count.empty()) {

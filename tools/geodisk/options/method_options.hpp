@@ -7,7 +7,6 @@
 #include <utility>
 #include <vector>
 
-#include <geodisk/count_search.hpp>
 #include <geodisk/levels.hpp>
 #include <geodisk/params.hpp>
 
@@ -75,11 +74,6 @@ Method parse_method(const MethodOptions& options, const std::string& count);
 struct WantedCount {
     double samples = 0; ///< Of --count; 0 if the distance is given.
     bool is_exact = false;
-
-    CountSearch search() const;
-    /// Throws UserError(usage) if the runs at all distances tried gave at most `most` samples, too
-    /// few for an exact count.
-    void check_reached(std::uint64_t most, double min_distance) const;
 };
 
 /// Returns what --count asks for, where it chooses the distance, with `pool_ratio` candidates per

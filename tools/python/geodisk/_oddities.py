@@ -39,6 +39,7 @@ def oddities_of_set(
     mask: NDArray[np.uint8] | None = None,
     existing: int = 0,
     avoids: bool = False,
+    lacks_features: float = 0,
 ) -> tuple[GeodiskWarning, ...]:
     """Returns what the program prints about samples on a mesh, or in a box."""
     faces = None if samples.face_index is None else np.ascontiguousarray(samples.face_index)
@@ -54,6 +55,7 @@ def oddities_of_set(
         face_mask=None if mask is None else mask.ctypes.data,
         existing=existing,
         avoids=int(avoids),
+        lacks_features=lacks_features,
     )
     found = c.Handle("warnings", "geodisk_warnings_of_set", ctypes.byref(params))
     return tuple(GeodiskWarning(*one) for one in _listed(found))

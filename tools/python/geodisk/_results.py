@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import ctypes
-import dataclasses
-import math
 from typing import Any
 
 import numpy as np
@@ -94,21 +92,6 @@ def _level_distances(report: dict[str, Any]) -> tuple[float, ...]:
         distances.append(report["min_distance"] * scale)
         scale *= report["level_factor"]
     return tuple(reversed(distances))
-
-
-def first_of(samples: Samples, count: float) -> Samples:
-    """Returns the first `count` samples of a run, or all if there are fewer; and all for 0."""
-    if not count:
-        return samples
-    kept = samples[: int(count)]
-    report = {
-        **samples.report,
-        "samples": len(kept),
-        "cut": len(samples) - len(kept),
-        "missing": int(count) - len(kept),
-        "rho": samples.report["rho"] * math.sqrt(len(kept) / max(1, len(samples))),
-    }
-    return dataclasses.replace(kept, report=report, _digest=None)
 
 
 def report_of(handle: c.Handle) -> dict[str, Any]:

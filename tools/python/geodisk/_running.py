@@ -1,10 +1,10 @@
-"""Runs on a device: progress, interruption, and the search for a count."""
+"""Runs on a device: progress and interruption."""
 
 from __future__ import annotations
 
 import ctypes
 from collections.abc import Sequence
-from ctypes import byref, c_double, c_int32, pointer
+from ctypes import byref, pointer
 from typing import Any, Callable
 
 import numpy as np
@@ -82,6 +82,10 @@ class Runs:
             one.mesh, one.request = mesh.value, pointer(request)
         return self._begun(len(given), "geodisk_start_requests", given, len(given))
 
+    def serve_box(self, request: s.BoxRequest) -> c.Handle:
+        """Returns the samples that a request asks for in a box."""
+        return self._begun(1, "geodisk_start_box_request", byref(request))[0]
+
     def _begun(self, sets: int, start: str, *arguments: Any) -> list[c.Handle]:
         """Returns the sets of samples of runs that a function of the library begins."""
         with sampler_on(self._device) as sampler:
@@ -120,52 +124,3 @@ def _end(sampler: ctypes.c_void_p, sets: int) -> None:
         return
     for value in made:
         c.Handle.of("samples", value)  # Is released at once.
-
-
-class CountSearch:
-    """Finds the distance that gives about so many samples, or at least as many if exact."""
-
-    def __init__(self, count: float, first: float, exact: bool = False) -> None:
-        if exact:
-            made = c.Handle("count_search", "geodisk_count_search_create_exact", int(count))
-        else:
-            made = c.Handle("count_search", "geodisk_count_search_create", float(count))
-        self._search = made
-        self._count, self._most = count, 0
-        self.next = first  #: The distance to try, or 0 when the search has ended.
-        self.best: Any = None  #: What was noted with the nearest count.
-
-    def note(self, found: Any, count: int) -> None:
-        """Notes the samples that the distance gave."""
-        distance, nearest = c_double(), c_int32()
-        self._most = max(self._most, count)
-        c.call(
-            "geodisk_count_search_note",
-            self._search.value,
-            self.next,
-            count,
-            byref(distance),
-            byref(nearest),
-        )
-        if nearest.value:
-            self.best = found
-        if distance.value == 0 and self.best is None:
-            raise e.invalid(
-                f"no distance tried gave more than {self._most} of {self._count} samples, down to "
-                f"{self.next:.6g}; lower count, or leave more room for samples"
-            )
-        self.next = distance.value
-
-
-def sampled(
-    runs: Runs, domain_at: Callable[[float], c.Handle], first: float, count: float | None, exact: bool
-) -> c.Handle:
-    """Returns samples at the first distance, or at the one that a search for the count ends with."""
-    if count is None:
-        return runs.run(domain_at(first))
-    search = CountSearch(count, first, exact)
-    while search.next > 0:
-        found = runs.run(domain_at(search.next))
-        search.note(found, c.samples_count(found.value))
-    best: c.Handle = search.best
-    return best

@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import ctypes
 import os
-from ctypes import byref, c_double
+from ctypes import c_double, pointer
 from typing import Sequence
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _errors as e
-from . import _library as c
 from . import _structs as s
 from ._arrays import real
 from ._classes import ClassesLike
@@ -21,8 +20,8 @@ from ._mesh import Mesh, mesh_of
 from ._oddities import oddities_of_set, warn
 from ._protocols import Faces, MeshLike
 from ._record import Record, recorded
-from ._results import first_of, samples_of
-from ._running import ProgressCallback, Runs, sampled
+from ._results import samples_of
+from ._running import ProgressCallback, Runs
 from ._samples import Samples
 from ._values import check_exact, check_pool, distance_of, flag, integer
 from ._wanted import Wanted
@@ -279,23 +278,17 @@ def sample_box(
         extents=sides.ctypes.data_as(ctypes.POINTER(c_double)),
         dimension=len(sides),
         is_periodic=int(periodic),
+        min_distance=0.0 if distance is None else distance,
         seed=seed,
         pool_ratio=float(pool_ratio),
         darts=darts,
+        stop_count=stop_count,
     )
-
-    def domain_at(at: float) -> c.Handle:
-        params.min_distance = at
-        params.stop_count = stop_count if count is None else 0  # Or it would miss the count.
-        return c.Handle("domain", "geodisk_domain_box", byref(params))
-
-    if distance is None:
-        found = c_double()
-        c.call("geodisk_box_distance_for_count", byref(params), float(count or 0), byref(found))
-        distance = found.value
+    request = s.BoxRequest(
+        params=pointer(params), count=0.0 if count is None else count, is_exact=int(exact)
+    )
     with Runs(device, progress) as runs:
-        made = sampled(runs, domain_at, distance, count, exact)
+        made = runs.serve_box(request)
     samples = samples_of(made, seed, extents=tuple(sides.tolist()), periodic=periodic)
-    samples = first_of(samples, count if exact and count else stop_count)
     warn(oddities_of_set(samples, None, count, stop_count, darts))
     return samples

@@ -152,6 +152,15 @@ class BoxParams(_Sized):
     ]
 
 
+class BoxRequest(_Sized):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("params", POINTER(BoxParams)),
+        ("count", c_double),
+        ("is_exact", c_int32),
+    ]
+
+
 class SamplerOptions(_Sized):
     _fields_ = [
         ("struct_size", c_size_t),
@@ -403,6 +412,7 @@ class SampledSet(_Sized):
         ("face_mask", c_void_p),
         ("existing", c_size_t),
         ("avoids", c_int32),
+        ("lacks_features", c_double),
     ]
 
 

@@ -131,7 +131,7 @@ class Wanted:
         self._distance, self._part, self._seed, self._mask = distance, part, seed, mask
         self._count, self._stop_count, self._darts = count, stop_count, darts
         self._existing, self._avoids, self._classes = len(kept), len(points) > 0, kinds
-        self._is_farthest = order == "farthest"
+        self._is_farthest, self._degrees = order == "farthest", degrees
         chosen = {
             "pool_ratio": pool_ratio != 20,
             "darts": darts,
@@ -211,5 +211,6 @@ class Wanted:
             self._mask,
             self._existing,
             self._avoids,
+            self._degrees if samples.report["lacks_features"] else 0,
         )
         warn([e.GeodiskWarning(f"{prefix}{one}", one.kind, one.count) for one in found])

@@ -145,6 +145,7 @@ typedef struct geodisk_sampled_set {
     const uint8_t *face_mask; /* As in geodisk_surface_params. */
     size_t existing;          /* Those of the samples that existed before, the first. */
     int32_t avoids;           /* Not 0 if there are points to avoid. */
+    double lacks_features;    /* Angle in degrees of features that were not found, or 0. */
 } geodisk_sampled_set;
 
 /* Lists what the program prints about the samples. */

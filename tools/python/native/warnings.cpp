@@ -67,7 +67,8 @@ std::vector<MeshWarning> warnings_of_set(const geodisk_sampled_set& given) {
                    .wanted_count = given.wanted_count,
                    .cut = given.cut,
                    .stop_count = given.stop_count,
-                   .has_darts = given.darts > 0};
+                   .has_darts = given.darts > 0,
+                   .lacks_features = given.lacks_features};
     if (given.mesh == nullptr) {
         set.domain = "box";
         return set_warnings(set);

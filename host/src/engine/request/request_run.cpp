@@ -22,6 +22,32 @@ constexpr double kMaximalFactor = 0.778 / 0.721;
 /// Samples on curves per minimum distance along them (measured).
 constexpr double kCurveSamples = 0.75;
 
+/// Fails for fields that exclude each other, and for a count out of range.
+Result<Done> check_rules(const SampleRequest& request) {
+    if (const RequestRule* rule = broken_rule(request)) {
+        return invalid(std::string(to_string(rule->field)) + " and " + to_string(rule->other) +
+                       " exclude each other: " + rule->reason);
+    }
+    const double count = request.count;
+    if (count != 0 && !(count >= 1 && std::isfinite(count))) {
+        return invalid("count is " + number_text(count) + ", not a number of samples");
+    }
+    if (count > kMaxCandidates) {
+        return invalid("count is " + number_text(count) + ", more than " +
+                       std::to_string(kMaxCandidates));
+    }
+    if (request.is_exact && (count == 0 || count != std::floor(count))) {
+        return invalid("is_exact needs a whole number of samples as count");
+    }
+    return Done{};
+}
+
+/// Returns about how many samples a run gives where so many fit.
+double expected_of(double room, std::uint32_t stop_count) {
+    return stop_count != 0 ? std::min<double>(std::max(1.0, room), stop_count)
+                           : std::max(1.0, room);
+}
+
 /// Makes the steps of a request on a surface.
 class SurfaceSteps {
   public:
@@ -63,28 +89,24 @@ class SurfaceSteps {
 };
 
 Result<Done> SurfaceSteps::prepare() {
-    if (const RequestRule* rule = broken_rule(request_)) {
-        return invalid(std::string(to_string(rule->field)) + " and " + to_string(rule->other) +
-                       " exclude each other: " + rule->reason);
-    }
-    const double count = request_.count;
-    if (count != 0 && !(count >= 1 && std::isfinite(count))) {
-        return invalid("count is " + number_text(count) + ", not a number of samples");
-    }
     const std::size_t existing = request_.params.existing.size();
-    if (count != 0 && static_cast<double>(existing) >= count) {
-        return invalid("count is " + number_text(count) + ", but " + std::to_string(existing) +
-                       " existing samples count too");
+    if (const auto checked = check_rules(request_); !checked) {
+        return checked;
     }
-    if (request_.is_exact && (count == 0 || count != std::floor(count))) {
-        return invalid("is_exact needs a whole number of samples as count");
+    if (request_.count != 0 && static_cast<double>(existing) >= request_.count) {
+        return invalid("count is " + number_text(request_.count) + ", but " +
+                       std::to_string(existing) + " existing samples count too");
     }
     if (request_.keep != 0 && request_.order != SampleOrder::farthest) {
-        return invalid("keep is for SampleOrder::farthest");
+        return invalid("keep is for the farthest order");
+    }
+    const Levels& levels = request_.levels;
+    if (!has_levels() && (levels.count != 0 || levels.factor != Levels{0}.factor)) {
+        return invalid("levels are for the progressive order");
     }
     if ((request_.features != 0 || request_.metric) && request_.view == nullptr) {
         return invalid(std::string(request_.metric ? "metric" : "features") +
-                       " needs the coordinates of the mesh: view is null");
+                       " needs the coordinates of the mesh, which the request does not have");
     }
     if (request_.features != 0) {
         auto found = Features::find(*request_.view, mesh_, request_.features);
@@ -114,7 +136,10 @@ std::size_t SurfaceSteps::sampled_corners() const {
 Result<double> SurfaceSteps::first_distance() const {
     const SampleParams& params = request_.params;
     if (request_.count == 0 || params.min_distance != 0) {
-        return params.min_distance;
+        // From far above the mesh, the first tries would all give one sample.
+        return request_.count != 0 && params.min_distance > 0
+                   ? std::min(params.min_distance, distance_for_count(mesh_, params, 1))
+                   : params.min_distance;
     }
     SampleParams any = params;
     any.min_distance = 1; // Is not looked at, but checked.
@@ -173,12 +198,12 @@ Result<RequestStep> SurfaceSteps::on_faces(double distance, const Levels& levels
     if (!made) {
         return made.error();
     }
-    const double room =
-        std::max(1.0, expected_count(effective_area(mesh_, params), params.min_distance));
-    const double expected =
-        params.stop_count != 0 ? std::min<double>(room, params.stop_count) : room;
     RequestStep step{std::move(*made), params, request_.metric ? nullptr : &mesh_};
-    step.expected = expected;
+    step.may_share = step.surface != nullptr && request_.frame == nullptr &&
+                     request_.split_from == nullptr && params.darts == 0 &&
+                     params.stop_count == 0 && params.class_factors.empty() && !params.maximal;
+    step.expected = expected_of(expected_count(effective_area(mesh_, params), params.min_distance),
+                                params.stop_count);
     step.level = level;
     return step;
 }
@@ -223,6 +248,17 @@ void SurfaceSteps::describe(RequestedSet& found, std::size_t settled) const {
     found.lacks_features = !has_features_;
 }
 
+Result<RequestStep> box_step(const BoxParams& box) {
+    auto domain = Domain::box(box);
+    if (!domain) {
+        return domain.error();
+    }
+    RequestStep step{std::move(*domain)};
+    step.params.min_distance = box.min_distance;
+    step.expected = expected_of(expected_count(box), box.stop_count);
+    return step;
+}
+
 void add_seconds(RunSeconds& sum, const RunSeconds& other) {
     sum.compile += other.compile;
     sum.upload += other.upload;
@@ -246,8 +282,8 @@ void cut_to(SampleSet& set, std::size_t dimension, std::size_t count) {
 } // namespace
 
 struct RequestRun::Impl {
-    Impl(double distance, double wanted, bool exact)
-        : tries(distance, wanted, exact), count(wanted), is_exact(exact) {}
+    Impl(double distance, double wanted, bool exact, std::uint32_t stop = 0)
+        : tries(distance, wanted, exact), count(wanted), is_exact(exact), stop_count(stop) {}
 
     /// Makes the first step at the distance that the tries have come to.
     Result<Done> begin_try();
@@ -259,15 +295,15 @@ struct RequestRun::Impl {
 
     /// Returns how many samples of a try are kept, at most.
     std::size_t max_kept() const {
-        const std::uint32_t stop = surface ? surface->request().params.stop_count : 0;
-        return is_exact                  ? static_cast<std::size_t>(count)
-               : count != 0 && stop != 0 ? stop
-                                         : std::numeric_limits<std::size_t>::max();
+        return is_exact                        ? static_cast<std::size_t>(count)
+               : count != 0 && stop_count != 0 ? stop_count
+                                               : std::numeric_limits<std::size_t>::max();
     }
 
     Tries tries;
     double count;
     bool is_exact;
+    std::uint32_t stop_count;
     std::optional<SurfaceSteps> surface;
     StepAt step_at; ///< Without a surface.
     std::optional<RequestStep> step;
@@ -363,8 +399,39 @@ Result<RequestRun> RequestRun::create(const PreparedMesh& mesh,
         if (!distance) {
             return distance.error();
         }
-        auto impl = std::make_unique<Impl>(*distance, request.count, request.is_exact);
+        auto impl = std::make_unique<Impl>(*distance, request.count, request.is_exact,
+                                           request.params.stop_count);
         impl->surface.emplace(std::move(steps));
+        if (const auto begun = impl->begin_try(); !begun) {
+            return begun.error();
+        }
+        return RequestRun(std::move(impl));
+    });
+}
+
+Result<RequestRun> RequestRun::create(const BoxRequest& request) noexcept {
+    return guarded([&]() -> Result<RequestRun> {
+        SampleRequest alike; // With the fields that a box has too.
+        alike.count = request.count;
+        alike.is_exact = request.is_exact;
+        alike.params.darts = request.params.darts;
+        alike.params.stop_count = request.params.stop_count;
+        if (const auto checked = check_rules(alike); !checked) {
+            return checked.error();
+        }
+        double first = request.params.min_distance;
+        if (request.count != 0) {
+            const double most = distance_for_count(request.params, first == 0 ? request.count : 1);
+            first = first == 0 || first > most ? most : first;
+        }
+        auto impl = std::make_unique<Impl>(first, request.count, request.is_exact,
+                                           request.params.stop_count);
+        impl->step_at = [box = request.params,
+                         has_count = request.count != 0](double distance) mutable {
+            box.min_distance = distance;
+            box.stop_count = has_count ? 0 : box.stop_count;
+            return box_step(box);
+        };
         if (const auto begun = impl->begin_try(); !begun) {
             return begun.error();
         }

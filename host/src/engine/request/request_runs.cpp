@@ -26,14 +26,6 @@ Error on_mesh(std::size_t mesh, std::size_t meshes, Error error) {
     return error;
 }
 
-/// Returns true if the step may share a job. See Domain::surfaces().
-bool may_share(const RequestStep& step, const SampleRequest& request) {
-    const SampleParams& params = step.params;
-    return step.surface != nullptr && request.frame == nullptr && request.split_from == nullptr &&
-           params.darts == 0 && params.stop_count == 0 && params.class_factors.empty() &&
-           !params.maximal;
-}
-
 /// Returns the part of a set that is on one of several surfaces.
 std::vector<SampleSet> split(SampleSet all, std::span<const std::uint32_t> first_faces,
                              std::span<const RequestStep* const> steps) {
@@ -54,7 +46,7 @@ std::vector<SampleSet> split(SampleSet all, std::span<const std::uint32_t> first
 } // namespace
 
 struct RequestRuns::Impl {
-    explicit Impl(std::span<const MeshRequest> of) : requests(of.begin(), of.end()) {}
+    explicit Impl(std::vector<RequestRun> of) : runs(std::move(of)) {}
 
     /// Makes the next job, if any run is left.
     Result<Done> begin_job();
@@ -63,12 +55,10 @@ struct RequestRuns::Impl {
     Result<Done> take(SampleSet set);
 
     const RequestStep& step(std::size_t i) const { return *runs[i].step(); }
-    bool shares(std::size_t i) const { return may_share(step(i), requests[i].request); }
 
-    std::vector<MeshRequest> requests;
-    std::vector<RequestRun> runs;   ///< One per request.
-    std::deque<std::size_t> turn;   ///< Requests whose run of this turn is still to come.
-    std::vector<std::size_t> job;   ///< Requests of the job in progress; empty if all is done.
+    std::vector<RequestRun> runs;
+    std::deque<std::size_t> turn;   ///< Runs whose step of this turn is still to come.
+    std::vector<std::size_t> job;   ///< Runs of the job in progress; empty if all is done.
     std::optional<Domain> surfaces; ///< Of a job of several.
 };
 
@@ -87,7 +77,7 @@ Result<Done> RequestRuns::Impl::begin_job() {
     }
     job.push_back(turn.front());
     turn.pop_front();
-    if (!shares(job[0])) {
+    if (!step(job[0]).may_share) {
         return Done{};
     }
     add_others();
@@ -112,7 +102,7 @@ void RequestRuns::Impl::add_others() {
     double candidates = step(job[0]).domain.stages().candidates();
     std::deque<std::size_t> left;
     for (const std::size_t i : turn) {
-        const bool fits = shares(i) && (step(i).params.radii != nullptr) == radii_vary &&
+        const bool fits = step(i).may_share && (step(i).params.radii != nullptr) == radii_vary &&
                           faces + step(i).surface->face_count() <= kJobFaces &&
                           candidates + step(i).domain.stages().candidates() <= kJobCandidates;
         if (!fits) {
@@ -152,17 +142,23 @@ RequestRuns::~RequestRuns() = default;
 
 Result<RequestRuns> RequestRuns::create(std::span<const MeshRequest> requests) noexcept {
     return guarded([&]() -> Result<RequestRuns> {
-        auto impl = std::make_unique<Impl>(requests);
+        std::vector<RequestRun> runs;
         for (std::size_t i = 0; i < requests.size(); ++i) {
-            if (requests[i].mesh == nullptr) {
-                return on_mesh(i, requests.size(), invalid("there is no mesh"));
-            }
-            auto run = RequestRun::create(*requests[i].mesh, requests[i].request);
+            const auto& [mesh, request] = requests[i];
+            auto run = mesh != nullptr ? RequestRun::create(*mesh, request)
+                                       : Result<RequestRun>(invalid("there is no mesh"));
             if (!run) {
                 return on_mesh(i, requests.size(), run.error());
             }
-            impl->runs.push_back(std::move(*run));
+            runs.push_back(std::move(*run));
         }
+        return create(std::move(runs));
+    });
+}
+
+Result<RequestRuns> RequestRuns::create(std::vector<RequestRun> runs) noexcept {
+    return guarded([&]() -> Result<RequestRuns> {
+        auto impl = std::make_unique<Impl>(std::move(runs));
         if (const auto begun = impl->begin_job(); !begun) {
             return begun.error();
         }

@@ -28,6 +28,7 @@ Result<Done> put_farthest_first(Runner& runner, const PreparedMesh& mesh, std::u
         }
         return rows;
     };
+    found.unkept = found.set.samples.size() - order->indices.size();
     found.set.samples = chosen(found.set.samples);
     found.set.classes = chosen(found.set.classes);
     found.features = chosen(found.features);
@@ -44,28 +45,41 @@ Result<Done> complete(Runner& runner, const PreparedMesh& mesh, const SampleRequ
                : Done{};
 }
 
+/// Samples all steps of a run.
+Result<RequestedSet> finished(Runner& runner, Result<RequestRun> run,
+                              const ProgressCallback& progress) {
+    if (!run) {
+        return run.error();
+    }
+    while (const RequestStep* step = run->step()) {
+        auto set = runner.sample_and_wait(step->domain, progress);
+        if (!set) {
+            return set.error();
+        }
+        if (const auto taken = run->take(std::move(*set)); !taken) {
+            return taken.error();
+        }
+    }
+    return std::move(*run).finish();
+}
+
 } // namespace
 
 Result<RequestedSet> sample(Runner& runner, const PreparedMesh& mesh, const SampleRequest& request,
                             const ProgressCallback& progress) noexcept {
     return guarded([&]() -> Result<RequestedSet> {
-        auto run = RequestRun::create(mesh, request);
-        if (!run) {
-            return run.error();
+        auto found = finished(runner, RequestRun::create(mesh, request), progress);
+        if (!found) {
+            return found.error();
         }
-        while (const RequestStep* step = run->step()) {
-            auto set = runner.sample_and_wait(step->domain, progress);
-            if (!set) {
-                return set.error();
-            }
-            if (const auto taken = run->take(std::move(*set)); !taken) {
-                return taken.error();
-            }
-        }
-        RequestedSet found = std::move(*run).finish();
-        const auto completed = complete(runner, mesh, request, progress, found);
-        return completed ? Result<RequestedSet>(std::move(found)) : completed.error();
+        const auto completed = complete(runner, mesh, request, progress, *found);
+        return completed ? std::move(found) : completed.error();
     });
+}
+
+Result<RequestedSet> sample(Runner& runner, const BoxRequest& request,
+                            const ProgressCallback& progress) noexcept {
+    return guarded([&] { return finished(runner, RequestRun::create(request), progress); });
 }
 
 Result<std::vector<RequestedSet>> sample(Runner& runner, std::span<const MeshRequest> requests,
