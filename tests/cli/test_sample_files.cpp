@@ -7,6 +7,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include <geodisk/version.hpp>
+
 #include "cli/command.hpp"
 #include "files/sample_file.hpp"
 
@@ -205,6 +207,7 @@ TEST_CASE("header comments tell where the samples come from") {
         sample_cube(folder, output, {"-r", "0.125", "--seed", "0x10"});
         const tools::SampleHeader header = tools::read_samples(folder / output).header;
         CHECK(value_of(header, "version").starts_with("geodisk "));
+        CHECK(value_of(header, "sampling_version") == std::to_string(GEODISK_SAMPLING_VERSION));
         CHECK(value_of(header, "mesh") == "builtin:cube");
         CHECK(value_of(header, "min_distance") == "0.25");
         CHECK(value_of(header, "radius") == "0.125");

@@ -6,6 +6,8 @@
 #include <sstream>
 #include <string>
 
+#include <geodisk/version.hpp>
+
 #include "cli/command.hpp"
 #include "cli/json_file.hpp"
 
@@ -283,8 +285,25 @@ TEST_CASE("updates of other samples, meshes and kinds are refused") {
     other_frame.replace(other_frame.find("comment seed: 0"), 15,
                         "comment seed: 0\ncomment job_frame: 47");
     folder.write("frame.ply", other_frame);
-    refused(3, "frame.ply: its header has a wrong job_frame: a job frame has 64 bytes, there are 1",
+    refused(3,
+            "frame.ply: its header has a wrong job_frame: a job frame has 128 bytes, there are 1",
             {"-d", "3", "--from", "old.ply", "--update", "frame.ply"});
+    std::string other_sampling = bytes_of(folder / "a.ply");
+    const std::string own = "sampling_version: " + std::to_string(GEODISK_SAMPLING_VERSION);
+    REQUIRE(contains(other_sampling, own));
+    other_sampling.replace(other_sampling.find(own), own.size(), "sampling_version: 9");
+    folder.write("sampling.ply", other_sampling);
+    refused(3,
+            "sampling.ply: was made by sampling version 9, and this is 1, in which a seed gives "
+            "other sets; sample the mesh again",
+            {"-d", "3", "--from", "old.ply", "--update", "sampling.ply"});
+    for (const Arguments& reads :
+         {Arguments{"verify", "old.ply", "sampling.ply"},
+          Arguments{"sample", "old.ply", "-d", "2", "-o", "b.ply", "--existing", "sampling.ply"}}) {
+        const Outcome warned = run(folder, reads);
+        CHECK(warned.status == 0);
+        CHECK(contains(warned.err, "warning: sampling.ply: was made by sampling version 9"));
+    }
     write_hills(folder, "wide.ply", 0, 60);
     refused(3, "a.ply: sample ", {"-d", "3", "--from", "wide.ply", "--update", "a.ply"});
     refused(2, "--update: the minimum distance exceeds old.ply", joined(edit, {"-d", "900"}));

@@ -266,7 +266,7 @@ def test_transfers_keep_normals_and_frames(roof):
 
 
 @pytest.mark.filterwarnings("ignore::geodisk.MeshWarning")
-def test_what_cannot_be_updated_is_refused():
+def test_what_cannot_be_updated_is_refused(tmp_path):
     def refused(match, samples=SAMPLES, *arguments, kind=geodisk.InvalidArgument, **options):
         with pytest.raises(kind, match=match):
             geodisk.update(samples, *arguments, **options)
@@ -280,6 +280,17 @@ def test_what_cannot_be_updated_is_refused():
     refused("made with stop_count cannot", whole(stop_count=20), edited)
     many = geodisk.sample_many([(VERTICES, FACES)], min_distance=0.3)
     refused("made with sample_many cannot", many[0])
+    SAMPLES.save(tmp_path / "other.csv")
+    text = (tmp_path / "other.csv").read_text().replace("sampling_version: 1\n", "sampling_version: 7\n")
+    (tmp_path / "other.csv").write_text(text)
+    refused(
+        "made with sampling_version=7 cannot",
+        geodisk.read(tmp_path / "other.csv"),
+        VERTICES,
+        FACES,
+        vertices=VERTICES,
+        faces=FACES,
+    )
     refused("not made 0.2 apart", dataclasses.replace(SAMPLES, min_distance=0.2), edited)
     refused("made with maximal cannot", whole(maximal=True), edited)
     refused("made without density and radius_factor, so radius_factor changes all", SAMPLES,

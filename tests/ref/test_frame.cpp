@@ -16,6 +16,7 @@
 
 #include <geodisk/domain.hpp>
 #include <geodisk/job_frame.hpp>
+#include <geodisk/version.hpp>
 
 #include "engine/domain/stages.hpp"
 #include "engine/domain/tolerances.hpp"
@@ -327,10 +328,24 @@ TEST_CASE("frame: bytes give the same frame back") {
     frame.splits_once = true;
     const FrameBytes bytes = to_bytes(frame);
     CHECK(std::to_integer<char>(bytes[0]) == 'G');
-    CHECK(std::to_integer<int>(bytes[4]) == 1);
+    CHECK(std::to_integer<int>(bytes[4]) == 2);
     CHECK(std::to_integer<int>(bytes[15]) == 0x3f); // 1.0 is 0x3ff0000000000000.
     CHECK(std::to_integer<int>(bytes[14]) == 0xf0);
     CHECK(std::to_integer<int>(bytes[56]) == 4);
+    CHECK(std::to_integer<int>(bytes[60]) == GEODISK_SAMPLING_VERSION);
+    // With another version of the sampling, and the checksum that is right then.
+    FrameBytes other = bytes;
+    other[60] = std::byte{GEODISK_SAMPLING_VERSION + 1};
+    std::uint32_t sum = 0x811c9dc5u;
+    for (std::size_t i = 0; i < kJobFrameBytes - 4; ++i) {
+        sum = (sum ^ std::to_integer<std::uint32_t>(other[i])) * 0x01000193u;
+    }
+    for (std::size_t i = 0; i < 4; ++i) {
+        other[kJobFrameBytes - 4 + i] = static_cast<std::byte>(sum >> 8 * i & 0xffu);
+    }
+    const auto refused = frame_from_bytes(other);
+    REQUIRE_FALSE(refused);
+    CHECK(refused.error().message.starts_with("the job frame is of sampling version 2, and"));
 }
 
 TEST_CASE("frame: bad bytes are refused") {
@@ -338,11 +353,11 @@ TEST_CASE("frame: bad bytes are refused") {
     const JobFrame frame = frame_for(sphere, params_for(sphere, 100));
     const FrameBytes bytes = to_bytes(frame);
     for (std::size_t size = 0; size < bytes.size(); ++size) {
-        CHECK(contains(refusal(std::span(bytes).first(size)), "a job frame has 64 bytes"));
+        CHECK(contains(refusal(std::span(bytes).first(size)), "a job frame has 128 bytes"));
     }
     std::vector<std::byte> longer(bytes.begin(), bytes.end());
     longer.push_back({});
-    CHECK(contains(refusal(longer), "a job frame has 64 bytes, there are 65"));
+    CHECK(contains(refusal(longer), "a job frame has 128 bytes, there are 129"));
     // Any byte changed.
     for (std::size_t at = 0; at < bytes.size(); ++at) {
         FrameBytes changed = bytes;

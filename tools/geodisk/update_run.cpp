@@ -109,6 +109,9 @@ void check_kind(const SampleFile& file, const std::string& path) {
                                  ", which cannot be updated; sample the mesh again");
         }
     }
+    if (const std::string other = other_sampling_text(header); !other.empty()) {
+        fail_input(path, other + "; sample the mesh again");
+    }
     if (const std::string* const options = header.find("options")) {
         std::vector<std::string_view> names;
         split_tokens(*options, names);

@@ -93,6 +93,8 @@ GEODISK_C_API const char *geodisk_status_name(geodisk_status status);
 
 /* Returns the version of the library, "major.minor.patch". */
 GEODISK_C_API const char *geodisk_version(void);
+/* Returns the number of the rule that turns a seed into a set. It changes only when some set does. */
+GEODISK_C_API uint32_t geodisk_sampling_version(void);
 
 /* ---- Devices ----------------------------------------------------------------------------------- */
 
@@ -376,9 +378,10 @@ GEODISK_C_API geodisk_status geodisk_domain_features(const geodisk_mesh *mesh,
                                                      geodisk_domain **domain,
                                                      geodisk_error *error);
 
-/* Everything global about a job on a surface, as bytes that are the same on every machine. */
+/* Everything global about a job on a surface, as bytes that are the same on every machine. They tell
+ * their version and that of the sampling; later versions keep the size. */
 typedef struct geodisk_job_frame {
-    unsigned char bytes[64];
+    unsigned char bytes[128];
 } geodisk_job_frame;
 
 /* Derives the frame of a job, to sample parts of its mesh as the whole is sampled. */

@@ -53,14 +53,15 @@ GEODISK_API Result<JobFrame> frame_of(const PreparedMesh& mesh,
 GEODISK_API Result<JobFrame> frame_of(const PreparedMesh& mesh, const SampleParams& params,
                                       const PreparedMesh& split_from) noexcept;
 
-/// Size of a frame as bytes.
-inline constexpr std::size_t kJobFrameBytes = 64;
+/// Size of a frame as bytes, with room for later versions.
+inline constexpr std::size_t kJobFrameBytes = 128;
 
 /// Returns the frame as bytes, the same on every machine, to keep or send.
 GEODISK_API std::array<std::byte, kJobFrameBytes> to_bytes(const JobFrame& frame) noexcept;
 
 /// Returns the frame that to_bytes() was called on. Errors: `invalid_argument` for bytes of
-/// something else or of another version, for damaged ones, and for values that no frame has.
+/// something else, of another version or of another GEODISK_SAMPLING_VERSION, for damaged ones, and
+/// for values that no frame has.
 GEODISK_API Result<JobFrame> frame_from_bytes(std::span<const std::byte> bytes) noexcept;
 
 } // namespace geodisk

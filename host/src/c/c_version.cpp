@@ -12,4 +12,8 @@ const char* geodisk_version(void) {
     return GEODISK_VERSION_STRING;
 }
 
+uint32_t geodisk_sampling_version(void) {
+    return GEODISK_SAMPLING_VERSION;
+}
+
 } // extern "C"

@@ -4,6 +4,9 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <string>
+
+#include <geodisk/version.hpp>
 
 #include "files/fingerprint.hpp"
 #include "files/sample_columns.hpp"
@@ -166,6 +169,15 @@ std::vector<std::uint32_t> masked_samples(const SampleFile& samples, const MeshI
         }
     }
     return masked;
+}
+
+std::string other_sampling_text(const SampleHeader& header) {
+    const std::string own = std::to_string(GEODISK_SAMPLING_VERSION);
+    const std::string* const version = header.find(kSamplingVersion);
+    return version == nullptr || *version == own
+               ? ""
+               : "was made by sampling version " + *version + ", and this is " + own +
+                     ", in which a seed gives other sets";
 }
 
 void warn_of_other_surface(const std::string& samples_path, const SampleFile& samples,

@@ -42,6 +42,9 @@ std::vector<StrayRow> find_strays(const SampleFile& samples, const MeshInput& me
 /// that was put on the nearest face may also lie at the edge of a face that the mask leaves.
 std::vector<std::uint32_t> masked_samples(const SampleFile& samples, const MeshInput& mesh);
 
+/// Returns what is to be said of samples by another version of the sampling; "" of all others.
+std::string other_sampling_text(const SampleHeader& header);
+
 /// Adds a warning where the samples' header tells of another --lift, --weld or --keep-seams than
 /// `additions`, those of the mesh here: samples of another surface would show as violations, or
 /// worse, would not.

@@ -110,6 +110,9 @@ SampleInput read_silently(const std::string& path, const std::string& mesh_path,
     }
     input.file.warnings.clear();
     check_columns(path, input.file, as.noun, warnings);
+    if (const std::string other = other_sampling_text(input.file.header); !other.empty()) {
+        warnings.push_back({"other_sampling", 1, "", other, path});
+    }
     check_dimensions(path, input.file, mesh_path, mesh);
     if (!input.file.has_faces) {
         input.strays =

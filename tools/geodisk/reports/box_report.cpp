@@ -7,6 +7,7 @@
 
 #include <geodisk/version.hpp>
 
+#include "files/sample_columns.hpp"
 #include "geodisk/reports/json.hpp"
 #include "geodisk/reports/run_report.hpp"
 #include "program/exact_text.hpp"
@@ -68,6 +69,7 @@ Drawn BoxReport::drawn() const {
 
 SampleHeader BoxReport::header() const {
     return {{{"version", "geodisk " GEODISK_VERSION_STRING},
+             {std::string(kSamplingVersion), std::to_string(GEODISK_SAMPLING_VERSION)},
              {"box", sides_text(job_.box, exact_text<double>)},
              {"sides", kind_text(job_.box)},
              {"min_distance", exact_text(job_.box.min_distance)},
@@ -80,6 +82,7 @@ SampleHeader BoxReport::header() const {
 std::string BoxReport::json(double write_seconds) const {
     const RunReport& run = done_.run;
     Json document{{"version", GEODISK_VERSION_STRING},
+                  {"sampling_version", GEODISK_SAMPLING_VERSION},
                   {"box", box_json(job_.box)},
                   {"output", job_.out.output},
                   {"min_distance", job_.box.min_distance},

@@ -230,6 +230,7 @@ SampleHeader SampleReport::header() const {
     const HeaderEntries additions = job_.additions();
     const double distance = told_distance(job_, mesh_, result_.params.min_distance);
     SampleHeader header{{{"version", "geodisk " GEODISK_VERSION_STRING},
+                         {std::string(kSamplingVersion), std::to_string(GEODISK_SAMPLING_VERSION)},
                          {"mesh", job_.mesh.mesh},
                          {"min_distance", exact_text(distance)},
                          {"radius", exact_text(distance / 2)},
@@ -238,7 +239,7 @@ SampleHeader SampleReport::header() const {
                          {std::string(kDigest), result_.digest()},
                          {"device", done.device.name},
                          {"driver", driver_text(done.device)}}};
-    header.entries.insert(header.entries.begin() + 2, additions.begin(), additions.end());
+    header.entries.insert(header.entries.begin() + 3, additions.begin(), additions.end());
     for (const auto& [key, path] : {std::pair{"from", job_.from}, {"update", job_.update}}) {
         if (!path.empty()) {
             header.entries.emplace_back(key, path);
@@ -293,6 +294,7 @@ Json SampleReport::document(const SecondsByStage& after) const {
     warnings.insert(warnings.end(), result_.warnings.begin(), result_.warnings.end());
     const double distance = told_distance(job_, mesh_, params.min_distance);
     Json document{{"version", GEODISK_VERSION_STRING},
+                  {"sampling_version", GEODISK_SAMPLING_VERSION},
                   {"mesh", mesh_json(job_.mesh.mesh, job_.additions(), mesh_)},
                   {"warnings", warnings_json(warnings)},
                   {"output", job_.out.output},

@@ -32,7 +32,7 @@ class Job:
 class JobFrame:
     """The distances, tolerances and rules that decided samples, as the library has them."""
 
-    SIZE: ClassVar[int] = 64
+    SIZE: ClassVar[int] = 128
 
     digits: str  #: Its bytes in hexadecimal, as headers of files have them.
 

@@ -173,6 +173,7 @@ for _name in _RELEASES:
 _library.geodisk_status_name.argtypes = [c_int32]
 _library.geodisk_status_name.restype = c_char_p
 _library.geodisk_version.restype = c_char_p
+_library.geodisk_sampling_version.restype = c_uint32
 _library.geodisk_cancel.argtypes = [c_void_p]
 _library.geodisk_cancel.restype = None
 _library.geodisk_radii_least_factor.argtypes = [c_void_p]
@@ -185,6 +186,12 @@ _library.geodisk_warnings_count.argtypes = [c_void_p]
 _library.geodisk_warnings_count.restype = c_size_t
 _library.geodisk_samples_width.argtypes = [c_void_p, c_int32]
 _library.geodisk_samples_width.restype = c_uint32
+
+
+def sampling_version() -> int:
+    """The number of the rule that turns a seed into a set."""
+    number: int = _library.geodisk_sampling_version()
+    return number
 
 
 def version() -> str:

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _errors as e
+from . import _library as c
 from ._attributes import attributes_of_columns
 from ._job import JobFrame
 from ._record import Record
@@ -105,6 +106,8 @@ def _samples(header: Header, **arrays: Any) -> Samples:
     arrays["_digest"] = header.get("digest")
     options = header.get("options", "").split()
     options += [name for key, name in _OPTIONS.items() if key in header and name not in options]
+    if header.get("sampling_version", str(c.sampling_version())) != str(c.sampling_version()):
+        options.append(f"sampling_version={header['sampling_version']}")
     if options:
         arrays["report"] = {"options": options}
     if "version" in header:

@@ -48,7 +48,7 @@ WHOLE_COLUMNS = (
 
 def header_of(samples: Samples) -> Header:
     """What files say besides the columns, by key."""
-    header = {"version": f"geodisk {c.version()}"}
+    header = {"version": f"geodisk {c.version()}", "sampling_version": str(c.sampling_version())}
     if not math.isnan(samples.min_distance):
         header["min_distance"] = repr(samples.min_distance)
         header["radius"] = repr(samples.min_distance / 2)

@@ -1,5 +1,6 @@
-// Frames as bytes: a magic word, a version, the lengths and numbers, the rules as bits, and a
-// checksum; all with the low byte first.
+// Frames as bytes: a magic word, a version, the lengths and numbers, the rules as bits, the version
+// of the sampling, zeros, and a checksum; all with the low byte first.
+#include <algorithm>
 #include <bit>
 #include <concepts>
 #include <cstdint>
@@ -7,6 +8,7 @@
 
 #include "engine/domain/check_frame.hpp"
 #include "geodisk/job_frame.hpp"
+#include "geodisk/version.hpp"
 #include "support/checksums.hpp"
 #include "support/guard.hpp"
 #include "support/invalid.hpp"
@@ -15,7 +17,7 @@ namespace geodisk {
 namespace {
 
 constexpr std::uint32_t kMagic = 0x464a4447; // "GDJF"
-constexpr std::uint32_t kVersion = 1;
+constexpr std::uint32_t kVersion = 2;
 
 constexpr double JobFrame::*kNumbers[] = {&JobFrame::min_distance, &JobFrame::unit,
                                           &JobFrame::samples,      &JobFrame::pool_ratio,
@@ -24,7 +26,7 @@ constexpr bool JobFrame::*kRules[] = {&JobFrame::radii_vary, &JobFrame::nearest_
                                       &JobFrame::splits_once, &JobFrame::straight_faces};
 constexpr std::uint32_t kAllRules = (1u << std::size(kRules)) - 1;
 constexpr std::size_t kSumAt = kJobFrameBytes - sizeof(std::uint32_t);
-static_assert(3 * sizeof(std::uint32_t) + sizeof(double) * std::size(kNumbers) == kSumAt);
+static_assert(4 * sizeof(std::uint32_t) + sizeof(double) * std::size(kNumbers) <= kSumAt);
 
 template <std::unsigned_integral Word>
 void put(std::span<std::byte> bytes, std::size_t& at, Word word) {
@@ -66,6 +68,8 @@ std::array<std::byte, kJobFrameBytes> to_bytes(const JobFrame& frame) noexcept {
         rules |= frame.*kRules[i] ? 1u << i : 0u;
     }
     put(bytes, at, rules);
+    put(bytes, at, std::uint32_t{GEODISK_SAMPLING_VERSION});
+    at = kSumAt;
     put(bytes, at, checksum_of(std::span(bytes).first(kSumAt)));
     return bytes;
 }
@@ -93,9 +97,19 @@ Result<JobFrame> frame_from_bytes(std::span<const std::byte> bytes) noexcept {
         for (std::size_t i = 0; i < std::size(kRules); ++i) {
             frame.*kRules[i] = (rules >> i & 1u) != 0;
         }
+        const auto sampling = get<std::uint32_t>(bytes, at);
+        const bool has_rest = std::ranges::any_of(
+            bytes.subspan(at, kSumAt - at), [](std::byte byte) { return byte != std::byte{0}; });
+        at = kSumAt;
         const auto sum = get<std::uint32_t>(bytes, at);
-        if ((kComparesChecksums && sum != checksum_of(bytes.first(kSumAt))) || rules > kAllRules) {
+        if ((kComparesChecksums && sum != checksum_of(bytes.first(kSumAt))) || rules > kAllRules ||
+            has_rest) {
             return invalid("the job frame is damaged: its checksum is wrong");
+        }
+        if (sampling != GEODISK_SAMPLING_VERSION) {
+            return invalid("the job frame is of sampling version " + std::to_string(sampling) +
+                           ", and this is " + std::to_string(GEODISK_SAMPLING_VERSION) +
+                           ", in which a seed gives other sets");
         }
         if (auto checked = check_values(frame); !checked) {
             return checked.error();
