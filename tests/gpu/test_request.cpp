@@ -253,6 +253,9 @@ TEST_SUITE("request") {
         CHECK(sample(runner, request).error().message.starts_with("is_exact and darts"));
         request = {};
         CHECK_FALSE(sample(runner, request)); // No distance.
+        request.count = 5;
+        request.params.extents = {1, -1};
+        CHECK(sample(runner, request).error().message.starts_with("side 2 of the box must be"));
         request.count = 0.5;
         CHECK(sample(runner, request).error().message.starts_with("count is 0.5"));
     }
@@ -349,6 +352,8 @@ TEST_SUITE("request") {
         request.levels = Levels{0};
         request.count = 1e12;
         CHECK(refusal(request).starts_with("count is 1e+12, more than 4294967295"));
+        request.count = 1e9;
+        CHECK(refusal(request).starts_with("count is 1e+09, which needs a pool of 2e+10 cand"));
         request.count = 0;
         request.keep = 0;
         request.features = 30;

@@ -102,6 +102,46 @@ TEST_SUITE("request") {
         }
     }
 
+    TEST_CASE("meshes with another guard or far larger disks have jobs of their own") {
+        const PreparedMesh sphere = prepared(builtin("icosphere", 2));
+        TestMesh shape;
+        shape.positions = {0, 0, 0, 1000, 0, 0, 500, 0.05, 0};
+        shape.triangles = {0, 1, 2};
+        const PreparedMesh needle = prepared(shape); // Its edges are 2,000 distances long.
+        const PreparedMesh grid = prepared(flat_grid(60, 60, 1, 1));
+        std::vector<MeshRequest> requests{{&sphere}, {&needle}, {&sphere}, {&grid}, {&grid}};
+        const double distances[] = {0.05, 0.5, 0.2, 0.9, 0.02};
+        for (std::size_t i = 0; i < requests.size(); ++i) {
+            requests[i].request.params.min_distance = distances[i];
+        }
+        auto runs = expect(RequestRuns::create(requests));
+        const RequestedSet alone = expect(
+            sample(*std::make_unique<Runner>(runner_of_requests()), sphere, requests[0].request));
+        Runner runner = runner_of_requests();
+        std::vector<std::size_t> surfaces;
+        while (const Domain* const job = runs.job()) {
+            surfaces.push_back(job->first_faces().size() - 1);
+            expect(runs.take(expect(runner.sample_and_wait(*job))));
+        }
+        CHECK(surfaces == std::vector<std::size_t>{3, 1, 1}); // Spheres with the fine grid.
+        CHECK(points_of(expect(std::move(runs).finish())[0].set) == points_of(alone.set));
+    }
+
+    TEST_CASE("an error of the device names the mesh of a job of its own") {
+        const PreparedMesh sphere = prepared(builtin("icosphere", 2));
+        std::vector<MeshRequest> requests(2, MeshRequest{&sphere});
+        requests[0].request.params.min_distance = 0.5;
+        requests[1].request.params.min_distance = 0.0004; // Some 10^9 candidates.
+        RunnerOptions options;
+        options.device_bytes = std::uint64_t{64} << 20;
+        Runner runner =
+            expect(Runner::create(shared_context().device(), shared_context().queue(), options));
+        const auto none = sample(runner, requests);
+        REQUIRE_FALSE(none);
+        INFO(none.error().message);
+        CHECK(none.error().message.starts_with("mesh 1: "));
+    }
+
     TEST_CASE("runs along surfaces share a job, up to what any device binds") {
         const PreparedMesh mesh = prepared(builtin("icosphere", 3));
         const auto job_of = [](std::span<const MeshRequest> requests) {

@@ -78,6 +78,13 @@ def test_all_parameters_are_those_of_sample(options):
 
 
 def test_what_is_wrong_is_refused():
+    with pytest.raises(geodisk.InvalidArgument, match="^mesh 1: metric and radii that vary exclude"):
+        geodisk.sample_many(
+            [MESHES[0]] * 2,
+            min_distance=0.5,
+            metric="euclidean",
+            density=[None, np.linspace(1, 2, len(VERTICES))],
+        )
     with pytest.raises(TypeError, match="unexpected keyword argument 'min_dist'"):
         geodisk.sample_many(MESHES, min_dist=0.5)
     with pytest.raises(geodisk.InvalidArgument, match="which needs a pool of 2e[+]10"):

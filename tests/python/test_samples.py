@@ -133,7 +133,7 @@ def test_files_of_some_samples_say_so(tmp_path, kind):
     assert geodisk.read(path).report["options"] == ["selection"]
     many = geodisk.sample_many([(VERTICES, FACES)] * 2, min_distance=0.5)
     many[0].save(path)
-    assert geodisk.read(path).report["options"] == ["sample_many"]
+    assert "options" not in geodisk.read(path).report
     whole[::-1].save(path)  # All of them, in another order.
     assert "options" not in geodisk.read(path).report
     assert len(geodisk.update(geodisk.read(path), **surface)) == len(whole)

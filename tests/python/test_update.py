@@ -279,7 +279,7 @@ def test_what_cannot_be_updated_is_refused(tmp_path):
     assert same(geodisk.update(SAMPLES[::-1], edited), whole(edited))
     refused("made with stop_count cannot", whole(stop_count=20), edited)
     many = geodisk.sample_many([(VERTICES, FACES)], min_distance=0.3)
-    refused("made with sample_many cannot", many[0])
+    assert same(geodisk.update(many[0], edited), geodisk.sample(edited, FACES, min_distance=0.3))
     SAMPLES.save(tmp_path / "other.csv")
     text = (tmp_path / "other.csv").read_text().replace("sampling_version: 1\n", "sampling_version: 7\n")
     (tmp_path / "other.csv").write_text(text)

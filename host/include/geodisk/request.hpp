@@ -196,16 +196,16 @@ struct MeshRequest {
     SampleRequest request{};
 };
 
-/// The runs of several requests. Runs along surfaces are joined into jobs of several surfaces, as
-/// Domain::surfaces() describes, as far as any device has room for; all others are jobs of their
-/// own. Used as RequestRun is:
+/// The runs of several requests. Runs along surfaces share jobs (Domain::surfaces()) where that
+/// changes no set: with one guard, with disks of about as many faces, and as far as any device has
+/// room for. All others are jobs of their own. Used as RequestRun is:
 ///
 ///     while (const Domain* job = runs.job()) {
 ///         auto set = runner.sample_and_wait(*job);
 ///         ...
 ///         runs.take(std::move(set).value());
 ///     }
-///     auto found = std::move(runs).finish();
+///     auto found = std::move(runs).finish().value();
 class GEODISK_API RequestRuns {
   public:
     /// Makes the first job. Errors: those of RequestRun, naming the mesh by its place if there are
@@ -222,8 +222,10 @@ class GEODISK_API RequestRuns {
     const Domain* job() const noexcept;
     /// Takes the samples of the job. Errors: as create(). The runs have then ended.
     Result<Done> take(SampleSet set) noexcept;
+    /// Returns the error of sampling the job with its mesh named, if it is of one of several.
+    Error named(Error error) const noexcept;
     /// Returns the samples of each request. Reports are of whole jobs. All must have been taken.
-    std::vector<RequestedSet> finish() && noexcept;
+    Result<std::vector<RequestedSet>> finish() && noexcept;
 
     struct Impl; ///< Internal.
 
@@ -244,9 +246,8 @@ GEODISK_API Result<RequestedSet> sample(Runner& runner, const PreparedMesh& mesh
 GEODISK_API Result<RequestedSet> sample(Runner& runner, const BoxRequest& request,
                                         const ProgressCallback& progress = {}) noexcept;
 
-/// Samples what several requests ask for, each as if alone but for the guard of a job, and waits.
-/// Much faster than one after another if the sets are small. `progress` is called for each job
-/// anew.
+/// Samples what several requests ask for, each as if alone, and waits. Much faster than one after
+/// another if the sets are small. `progress` is called for each job anew.
 ///
 /// Errors: those of RequestRuns, Runner::sample_and_wait() and farthest_order().
 GEODISK_API Result<std::vector<RequestedSet>>

@@ -78,7 +78,7 @@ Result<bool> start_job(SamplerState& state) {
     }
     const auto go_on = [&state](const Progress&) { return !state.is_cancelled; };
     if (const auto started = state.runner.start(*job, go_on); !started) {
-        return started.error();
+        return state.requested->runs->named(started.error());
     }
     return true;
 }
@@ -116,7 +116,7 @@ Result<bool> take(SamplerState& state, SampleSet set) {
 /// Waits for the latest submission of the requests in progress. Returns true once all are done.
 Result<bool> poll(SamplerState& state, Result<std::optional<SampleSet>> polled) {
     if (!polled) {
-        return polled.error();
+        return state.requested->runs->named(polled.error());
     }
     return *polled ? take(state, std::move(**polled)) : Result<bool>(false);
 }
@@ -254,8 +254,11 @@ geodisk_status geodisk_poll(geodisk_sampler* sampler, uint32_t milliseconds,
             return Done{};
         }
         const auto requests = std::exchange(state.requested, nullptr);
-        return is_done ? hand_over(state, *requests, std::move(*requests->runs).finish(), samples)
-                       : is_done.error();
+        if (!is_done) {
+            return is_done.error();
+        }
+        auto found = std::move(*requests->runs).finish();
+        return found ? hand_over(state, *requests, std::move(*found), samples) : found.error();
     });
 }
 

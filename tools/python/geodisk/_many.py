@@ -154,7 +154,7 @@ def sample_many(
         made = runs.serve(requests) if n > 1 else _named(0, lambda _: runs.serve(requests))
     results = []
     for i, one in enumerate(wanted):
-        samples = one.samples_of(made[i], device, progress, is_alone=False)
+        samples = _named(i, lambda i: wanted[i].samples_of(made[i], device, progress))
         one.warn(samples, f"mesh {i}: ")
         results.append(recorded(samples, one.mesh, record))
     return results

@@ -270,6 +270,8 @@ def sample_box(
     sides = np.array(real(extents, "extents"), np.float64, order="C")
     if sides.ndim != 1:
         raise e.invalid("extents must be one number per dimension")
+    if not 1 <= len(sides) <= 6:
+        raise e.invalid(f"extents has {len(sides)} dimensions, not 1 to 6")
     seed = integer(seed, "seed", 2**64 - 1)
     stop_count = integer(stop_count, "stop_count", 2**32 - 1)
     check_exact(exact, count, stop_count)

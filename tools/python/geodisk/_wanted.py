@@ -163,16 +163,9 @@ class Wanted:
         )
 
     def samples_of(
-        self,
-        made: c.Handle,
-        device: DeviceLike | None,
-        progress: bool | ProgressCallback,
-        is_alone: bool = True,
+        self, made: c.Handle, device: DeviceLike | None, progress: bool | ProgressCallback
     ) -> Samples:
-        """Returns the samples that were made, in the order asked for.
-
-        Those of a job of several meshes are decided by its guard, and cannot be updated.
-        """
+        """Returns the samples that were made, in the order asked for."""
         run_distance = report_of(made)["min_distance"]
         samples = samples_of(
             made,
@@ -181,10 +174,10 @@ class Wanted:
             given=self._distance,
             distance_part=self._part,
             classes=self._classes,
-            _job=dataclasses.replace(self._job, distance=run_distance) if is_alone else None,
-            _frame=self._frame_at(run_distance) if is_alone else None,
+            _job=dataclasses.replace(self._job, distance=run_distance),
+            _frame=self._frame_at(run_distance),
         )
-        samples.report["options"] = self._options if is_alone else ["sample_many"]
+        samples.report["options"] = self._options
         if self._is_farthest:
             samples = put_farthest_first(
                 self.mesh._handle, self.mesh._surface, samples, device, progress

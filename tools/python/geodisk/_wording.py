@@ -19,7 +19,7 @@ _FIELDS = {
     "radii": "radii that vary",
     "progressive": "order='progressive'",
 }
-_EXCLUSION = re.compile(r"^(\w+) and (\w+)(?= exclude each other: )")
+_EXCLUSION = re.compile(r"(?<![^ ])(\w+) and (\w+)(?= exclude each other: )")
 # With the suffix of the options of two meshes. Not within the name of a file.
 _OPTION = re.compile(r"(?<![^\s(])--([a-z]+(?:-[a-z]+)*?)(?:-[ab])?(?![\w./-])")
 

@@ -31,6 +31,17 @@ struct MaximalJob {
     std::vector<KeepOut> avoid;
 };
 
+/// What decides samples besides their surface, and how large disks are. Surfaces for which all of
+/// it is equal may share a job: no surface then gets other samples than alone, or waits for the
+/// disks of others.
+struct Sharing {
+    float limit, slack;                                          ///< Of the tolerances.
+    bool radii_vary, nearest_first, splits_once, straight_faces; ///< Of the frame.
+    int disk_size; ///< Logarithm of the faces of a disk, in steps of a factor of 4.
+
+    friend bool operator==(const Sharing&, const Sharing&) = default;
+};
+
 /// Members are computed once from the job. Each kind of domain has its own file.
 struct Domain::Impl {
     KernelVariant kernels;
@@ -101,6 +112,8 @@ struct Domain::Impl {
     /// it.
     virtual Result<UploadParts> upload_parts(const RunPlan& plan, BufferRole role) const = 0;
     virtual double guard_for(double error_bound) const = 0;
+    /// Returns what jobs of several surfaces go by, of a single surface that may share one.
+    virtual std::optional<Sharing> sharing() const { return std::nullopt; }
     virtual void coordinates(const gpu::SampleRec&, std::span<double>) const {}
 };
 

@@ -43,6 +43,9 @@ constexpr double kCrowdedExisting = 4;
 constexpr double kBoundMargin = 0.002;
 constexpr double kMaxBound = 1e30;
 
+// Faces of a disk up to which all disks are alike for a job of several surfaces.
+constexpr double kSmallDisk = 32;
+
 // Of several surfaces, as of one.
 constexpr std::uint64_t kMaxHalfEdges = std::uint64_t{1} << 30;
 constexpr std::uint64_t kMaxVertices = gpu::kVertexMask;
@@ -319,6 +322,22 @@ void SurfaceDomain::plan_disks(RunPlan& plan, std::uint32_t candidates,
     const double crowd = class_crowding(surfaces_[0].params) * candidates / full_;
     plan.list_capacity = pow2_at_least(std::max(kMinList, kListPerCrowd * crowd));
     plan.error_bound = first_error_;
+}
+
+std::optional<Sharing> SurfaceDomain::sharing() const {
+    if (surfaces_.size() != 1) {
+        return std::nullopt;
+    }
+    const JobFrame& frame = surfaces_[0].frame;
+    const Tolerances tolerances = error.tolerances(first_error_);
+    const double faces = std::max(1.0, faces_per_disk() / kSmallDisk);
+    return Sharing{tolerances.limit,
+                   tolerances.slack,
+                   frame.radii_vary,
+                   frame.nearest_first,
+                   frame.splits_once,
+                   frame.straight_faces,
+                   static_cast<int>(std::ceil(std::log2(faces) / 2))};
 }
 
 double SurfaceDomain::disk_steps(const RunPlan& plan, std::uint32_t) const {

@@ -52,6 +52,7 @@ class SurfaceDomain : public Domain::Impl {
     std::size_t mesh_bytes(BufferRole role) const override;
     Result<UploadParts> upload_parts(const RunPlan& plan, BufferRole role) const override;
     double guard_for(double error_bound) const override { return error.guard_for(error_bound); }
+    std::optional<Sharing> sharing() const override;
 
   private:
     /// Ends the disks of existing samples at vertices that are farther than this, in mesh units:

@@ -36,6 +36,11 @@ Result<Done> check_rules(const SampleRequest& request) {
         return invalid("count is " + number_text(count) + ", more than " +
                        std::to_string(kMaxCandidates));
     }
+    if (const double pool = count * request.params.pool_ratio; pool > kMaxCandidates) {
+        return invalid("count is " + number_text(count) + ", which needs a pool of " +
+                       number_text(pool) + " candidates, more than " +
+                       std::to_string(kMaxCandidates));
+    }
     if (request.is_exact && (count == 0 || count != std::floor(count))) {
         return invalid("is_exact needs a whole number of samples as count");
     }
@@ -414,6 +419,7 @@ Result<RequestRun> RequestRun::create(const BoxRequest& request) noexcept {
         SampleRequest alike; // With the fields that a box has too.
         alike.count = request.count;
         alike.is_exact = request.is_exact;
+        alike.params.pool_ratio = request.params.pool_ratio;
         alike.params.darts = request.params.darts;
         alike.params.stop_count = request.params.stop_count;
         if (const auto checked = check_rules(alike); !checked) {
@@ -422,6 +428,11 @@ Result<RequestRun> RequestRun::create(const BoxRequest& request) noexcept {
         double first = request.params.min_distance;
         if (request.count != 0) {
             const double most = distance_for_count(request.params, first == 0 ? request.count : 1);
+            if (most == 0) { // It has no sides, or a wrong one.
+                BoxParams any = request.params;
+                any.min_distance = 1;
+                return Domain::box(any).error();
+            }
             first = first == 0 || first > most ? most : first;
         }
         auto impl = std::make_unique<Impl>(first, request.count, request.is_exact,

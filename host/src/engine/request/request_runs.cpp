@@ -7,6 +7,8 @@
 
 #include <geodisk/request.hpp>
 
+#include "engine/domain/domain_impl.hpp"
+#include "engine/request/on_mesh.hpp"
 #include "support/guard.hpp"
 #include "support/invalid.hpp"
 
@@ -16,14 +18,16 @@ namespace {
 /// Bounds of a job of several surfaces, unless a single one has more: every device binds as much. A
 /// job of more is no faster, also on a wide device.
 constexpr std::size_t kJobFaces = std::size_t{1} << 18;
-constexpr double kJobCandidates = 0x1p21;
+constexpr double kJobRecords = 0x1p21;
 
-/// Names the mesh of an error, unless there is only one.
-Error on_mesh(std::size_t mesh, std::size_t meshes, Error error) {
-    if (meshes > 1) {
-        error.message = "mesh " + std::to_string(mesh) + ": " + error.message;
-    }
-    return error;
+std::optional<Sharing> sharing_of(const RequestStep& step) {
+    return Domain::Impl::of(step.domain).sharing();
+}
+
+/// Candidates of a step, existing samples and points to avoid.
+double records_of(const RequestStep& step) {
+    return step.domain.stages().candidates() +
+           static_cast<double>(step.params.existing.size() + step.params.avoid.size());
 }
 
 /// Returns the part of a set that is on one of several surfaces.
@@ -97,20 +101,20 @@ Result<Done> RequestRuns::Impl::begin_job() {
 }
 
 void RequestRuns::Impl::add_others() {
-    const bool radii_vary = step(job[0]).params.radii != nullptr;
+    const auto sharing = sharing_of(step(job[0]));
     std::size_t faces = step(job[0]).surface->face_count();
-    double candidates = step(job[0]).domain.stages().candidates();
+    double records = records_of(step(job[0]));
     std::deque<std::size_t> left;
     for (const std::size_t i : turn) {
-        const bool fits = step(i).may_share && (step(i).params.radii != nullptr) == radii_vary &&
+        const bool fits = step(i).may_share && sharing_of(step(i)) == sharing &&
                           faces + step(i).surface->face_count() <= kJobFaces &&
-                          candidates + step(i).domain.stages().candidates() <= kJobCandidates;
+                          records + records_of(step(i)) <= kJobRecords;
         if (!fits) {
             left.push_back(i);
             continue;
         }
         faces += step(i).surface->face_count();
-        candidates += step(i).domain.stages().candidates();
+        records += records_of(step(i));
         job.push_back(i);
     }
     turn = std::move(left);
@@ -187,12 +191,22 @@ Result<Done> RequestRuns::take(SampleSet set) noexcept {
     });
 }
 
-std::vector<RequestedSet> RequestRuns::finish() && noexcept {
-    std::vector<RequestedSet> found;
-    for (RequestRun& run : impl_->runs) {
-        found.push_back(std::move(run).finish());
-    }
-    return found;
+Error RequestRuns::named(Error error) const noexcept {
+    const auto made = guarded([&]() -> Result<Done> {
+        const bool is_alone = impl_->job.size() == 1;
+        return is_alone ? on_mesh(impl_->job[0], impl_->runs.size(), std::move(error)) : error;
+    });
+    return made.error();
+}
+
+Result<std::vector<RequestedSet>> RequestRuns::finish() && noexcept {
+    return guarded([&]() -> Result<std::vector<RequestedSet>> {
+        std::vector<RequestedSet> found;
+        for (RequestRun& run : impl_->runs) {
+            found.push_back(std::move(run).finish());
+        }
+        return found;
+    });
 }
 
 } // namespace geodisk

@@ -4,6 +4,7 @@
 
 #include <geodisk/request.hpp>
 
+#include "engine/request/on_mesh.hpp"
 #include "support/guard.hpp"
 
 namespace geodisk {
@@ -92,18 +93,18 @@ Result<std::vector<RequestedSet>> sample(Runner& runner, std::span<const MeshReq
         while (const Domain* job = runs->job()) {
             auto set = runner.sample_and_wait(*job, progress);
             if (!set) {
-                return set.error();
+                return runs->named(set.error());
             }
             if (const auto taken = runs->take(std::move(*set)); !taken) {
                 return taken.error();
             }
         }
-        std::vector<RequestedSet> found = std::move(*runs).finish();
-        for (std::size_t i = 0; i < requests.size(); ++i) {
+        auto found = std::move(*runs).finish();
+        for (std::size_t i = 0; found && i < requests.size(); ++i) {
             const auto& [mesh, request] = requests[i];
-            if (const auto completed = complete(runner, *mesh, request, progress, found[i]);
+            if (const auto completed = complete(runner, *mesh, request, progress, (*found)[i]);
                 !completed) {
-                return completed.error();
+                return on_mesh(i, requests.size(), completed.error());
             }
         }
         return found;
