@@ -27,11 +27,6 @@ constexpr char kBetweenFiles = ';';
 constexpr char kBetweenFiles = ':';
 #endif
 
-/// Functions that drivers have, by the interface that they have with the loader.
-constexpr std::array kEntryPoints{"vk_icdGetInstanceProcAddr",
-                                  "vk_icdNegotiateLoaderICDInterfaceVersion",
-                                  "vkGetInstanceProcAddr"};
-
 std::string value_of(const char* variable) {
     const char* const value = std::getenv(variable);
     return value != nullptr ? value : "";
@@ -51,6 +46,18 @@ std::string library_of(const Path& path) {
     const Json library = driver.is_object() ? driver.value("library_path", Json()) : Json();
     return library.is_string() ? library.get<std::string>() : "";
 }
+
+#ifndef _WIN32
+/// Functions that drivers have, by the interface that they have with the loader.
+constexpr std::array kEntryPoints{"vk_icdGetInstanceProcAddr",
+                                  "vk_icdNegotiateLoaderICDInterfaceVersion",
+                                  "vkGetInstanceProcAddr"};
+
+std::string value_or(const char* variable, const std::string& otherwise) {
+    const std::string value = value_of(variable);
+    return value.empty() ? otherwise : value;
+}
+#endif
 
 /// Why the driver does not load; "" where it does.
 std::string fault_of_library(const Path& file, const std::string& library) {
@@ -102,11 +109,6 @@ std::vector<Path> paths_in(std::string_view list) {
         }
     }
     return paths;
-}
-
-std::string value_or(const char* variable, const std::string& otherwise) {
-    const std::string value = value_of(variable);
-    return value.empty() ? otherwise : value;
 }
 
 /// The folders that the loader searches for driver files, as it documents them.

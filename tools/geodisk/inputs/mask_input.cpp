@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <ranges>
 #include <set>
 
 #include "files/image.hpp"
@@ -219,11 +218,11 @@ class RuleEffect {
         const RuleValues found = values_for(rule, mesh, property, split);
         for (std::size_t t = 0; t < mask.size(); ++t) {
             const std::size_t face = split ? split->parts().parts()[t].face : t;
-            const bool holds = found.corners == nullptr
-                                   ? regard(found.values[t])
-                                   : regard(found.values[(*found.corners)[3 * t]]) &
-                                         regard(found.values[(*found.corners)[3 * t + 1]]) &
-                                         regard(found.values[(*found.corners)[3 * t + 2]]);
+            bool holds = true;
+            for (std::size_t k = 0; k < (found.corners != nullptr ? 3 : 1); ++k) {
+                const std::size_t at = found.corners != nullptr ? (*found.corners)[3 * t + k] : t;
+                holds = regard(found.values[at]) && holds; // All count for the range.
+            }
             mask[t] = holds ? mask[t] : 0;
             leaves_out_ = leaves_out_ || (!holds && mesh.takes_part(face));
         }
@@ -261,9 +260,11 @@ LoadedMask load_mask(const MaskOptions& options, const std::string& path, const 
     }
     LoadedMask loaded{chosen_by(path, mesh, options.only_rules()), {}};
     Mask& mask = loaded.faces;
-    const auto is_left_out = [&](std::size_t t) { return mask[t] == 0 && mesh.takes_part(t); };
-    if (!options.only.empty() &&
-        std::ranges::none_of(std::views::iota(std::size_t{0}, mask.size()), is_left_out)) {
+    bool leaves_out = false;
+    for (std::size_t t = 0; t < mask.size(); ++t) {
+        leaves_out = leaves_out || (mask[t] == 0 && mesh.takes_part(t));
+    }
+    if (!options.only.empty() && !leaves_out) {
         loaded.warnings.push_back(warning_of_all("--only", ""));
     }
     const std::vector<MaskRule> rules = options.mask_rules();
