@@ -30,7 +30,7 @@ double records_of(const RequestStep& step) {
            static_cast<double>(step.params.existing.size() + step.params.avoid.size());
 }
 
-/// Returns the part of a set that is on one of several surfaces.
+/// Divides a set among the surfaces that it is on.
 std::vector<SampleSet> split(SampleSet all, std::span<const std::uint32_t> first_faces,
                              std::span<const RequestStep* const> steps) {
     std::vector<SampleSet> sets(steps.size());
@@ -193,8 +193,9 @@ Result<Done> RequestRuns::take(SampleSet set) noexcept {
 
 Error RequestRuns::named(Error error) const noexcept {
     const auto made = guarded([&]() -> Result<Done> {
-        const bool is_alone = impl_->job.size() == 1;
-        return is_alone ? on_mesh(impl_->job[0], impl_->runs.size(), std::move(error)) : error;
+        const bool is_of_mesh = impl_->job.size() == 1 && error.status != Status::cancelled &&
+                                error.status != Status::device_lost;
+        return is_of_mesh ? on_mesh(impl_->job[0], impl_->runs.size(), std::move(error)) : error;
     });
     return made.error();
 }
