@@ -83,7 +83,7 @@ Records sparse_samples(const PreparedMesh& mesh, double count) {
 
 } // namespace
 
-TEST_SUITE("settled") {
+TEST_SUITE("existing_records") {
     TEST_CASE("the first samples of a run, settled, give the rest of it") {
         const PreparedMesh mesh = prepared(settled_knot());
         const RadiusField radii = radius_field(mesh, wavy_factors(settled_knot(), 0.3));

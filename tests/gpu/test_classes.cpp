@@ -173,7 +173,7 @@ TEST_SUITE("classes") {
         const Classes wrong{0, 3};
         const std::vector<Sample> given(2, Sample{1, {0.5f, 0.25f, 0.25f}});
         params.existing_classes = wrong;
-        CHECK(refusal(mesh, params).find("2 classes for 0 given") != std::string::npos);
+        CHECK(refusal(mesh, params).find("2 classes for 0 existing") != std::string::npos);
         params.existing = given;
         CHECK(refusal(mesh, params).find("has class 3") != std::string::npos);
         params.existing_classes = {};
