@@ -48,10 +48,10 @@ MeshFile make_turned(std::span<const PlateRing> rings, std::uint32_t around) {
 } // namespace
 
 MeshFile make_tube(int resolution) {
-    constexpr double kRadius = 1e-4;
+    constexpr double kTubeRadius = 1e-4;
     std::vector<PlateRing> rings{{0, 0}};
     for (const double height : {0.0, 0.25, 0.5, 0.75, 1.0}) {
-        rings.push_back({kRadius, height});
+        rings.push_back({kTubeRadius, height});
     }
     rings.push_back({0, 1});
     return make_turned(rings, static_cast<std::uint32_t>(resolution));
