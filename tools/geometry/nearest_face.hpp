@@ -1,4 +1,4 @@
-// The points of a surface that are nearest to existing ones.
+// The points of a surface that are nearest to given ones.
 #pragma once
 
 #include <array>

@@ -27,9 +27,8 @@ struct PairSearch {
     std::optional<PairDistances> distances{};
     /// Pairs are found up to this part of the distance they must have, or up to this distance.
     double cut = 0;
-    std::span<const std::uint32_t>
-        existing{}; ///< Other than 0 for existing samples; empty if none are.
-    std::span<const std::uint8_t> sources{}; ///< 0 where no pairs are looked for; or empty.
+    std::span<const std::uint32_t> existing{}; ///< Other than 0 if so; empty if none are.
+    std::span<const std::uint8_t> sources{};   ///< 0 where no pairs are looked for; or empty.
 
     /// Returns how far from a sample others are looked for.
     double reach(std::uint32_t row) const { return distances ? cut * distances->reach(row) : cut; }

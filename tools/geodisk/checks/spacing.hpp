@@ -96,13 +96,13 @@ struct PairDistances {
 SpacingResult check_spacing(const MeshInput& mesh, std::span<const SampleRow> rows,
                             std::span<const double> radii, ProgressLine& progress);
 
-/// Pairs of samples of which some were existing.
+/// Pairs of samples of which some existed before.
 struct ExistingSpacing {
-    SpacingResult others;         ///< Pairs with a sample that was not existing.
+    SpacingResult others;         ///< Pairs with a new sample.
     SpacingResult among_existing; ///< Pairs of existing samples, whose distance is the user's.
 };
 
-/// The same, where rows with `existing` other than 0 were existing; none were if that is empty.
+/// The same, where rows with `existing` other than 0 existed before; none did if that is empty.
 ExistingSpacing check_spacing(const MeshInput& mesh, std::span<const SampleRow> rows,
                               const PairDistances& distances,
                               std::span<const std::uint32_t> existing, ProgressLine& progress);

@@ -49,8 +49,8 @@ Result<Done> check_rules(const SampleRequest& request) {
 
 /// Returns about how many samples a run gives where so many fit.
 double expected_of(double room, std::uint32_t stop_count) {
-    return stop_count != 0 ? std::min<double>(std::max(1.0, room), stop_count)
-                           : std::max(1.0, room);
+    const double all = std::max(1.0, room);
+    return stop_count != 0 ? std::min<double>(all, stop_count) : all;
 }
 
 /// Makes the steps of a request on a surface.
