@@ -211,8 +211,8 @@ class GEODISK_API RequestRuns {
     /// Makes the first job. Errors: those of RequestRun, naming the mesh by its place if there are
     /// several; `invalid_argument` for a mesh that is null.
     static Result<RequestRuns> create(std::span<const MeshRequest> requests) noexcept;
-    /// Goes on with runs of any kind.
-    static Result<RequestRuns> create(std::vector<RequestRun> runs) noexcept;
+    /// Makes the first job of a set in a box. Errors: those of RequestRun.
+    static Result<RequestRuns> create(const BoxRequest& request) noexcept;
 
     RequestRuns(RequestRuns&&) noexcept;
     RequestRuns& operator=(RequestRuns&&) noexcept;
@@ -230,6 +230,7 @@ class GEODISK_API RequestRuns {
     struct Impl; ///< Internal.
 
   private:
+    static Result<RequestRuns> begin(std::vector<RequestRun> runs);
     explicit RequestRuns(std::unique_ptr<Impl> impl) noexcept;
     std::unique_ptr<Impl> impl_;
 };

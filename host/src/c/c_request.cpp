@@ -111,16 +111,8 @@ Result<std::shared_ptr<RequestsState>> requests_of(const geodisk_box_request* re
 }
 
 Result<RequestRuns> RequestsState::begin() const {
-    if (!each[0]->of->is_box()) {
-        return RequestRuns::create(on_meshes());
-    }
-    auto run = RequestRun::create(each[0]->box);
-    if (!run) {
-        return run.error();
-    }
-    std::vector<RequestRun> all;
-    all.push_back(std::move(*run));
-    return RequestRuns::create(std::move(all));
+    const RequestState& first = *each[0];
+    return first.of->is_box() ? RequestRuns::create(first.box) : RequestRuns::create(on_meshes());
 }
 
 Result<std::vector<RequestedSet>> RequestsState::sample(Runner& runner,

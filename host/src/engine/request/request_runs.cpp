@@ -156,18 +156,28 @@ Result<RequestRuns> RequestRuns::create(std::span<const MeshRequest> requests) n
             }
             runs.push_back(std::move(*run));
         }
-        return create(std::move(runs));
+        return begin(std::move(runs));
     });
 }
 
-Result<RequestRuns> RequestRuns::create(std::vector<RequestRun> runs) noexcept {
+Result<RequestRuns> RequestRuns::create(const BoxRequest& request) noexcept {
     return guarded([&]() -> Result<RequestRuns> {
-        auto impl = std::make_unique<Impl>(std::move(runs));
-        if (const auto begun = impl->begin_job(); !begun) {
-            return begun.error();
+        auto run = RequestRun::create(request);
+        if (!run) {
+            return run.error();
         }
-        return RequestRuns(std::move(impl));
+        std::vector<RequestRun> runs;
+        runs.push_back(std::move(*run));
+        return begin(std::move(runs));
     });
+}
+
+Result<RequestRuns> RequestRuns::begin(std::vector<RequestRun> runs) {
+    auto impl = std::make_unique<Impl>(std::move(runs));
+    if (const auto begun = impl->begin_job(); !begun) {
+        return begun.error();
+    }
+    return RequestRuns(std::move(impl));
 }
 
 const Domain* RequestRuns::job() const noexcept {

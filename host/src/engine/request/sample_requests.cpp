@@ -46,60 +46,48 @@ Result<Done> complete(Runner& runner, const PreparedMesh& mesh, const SampleRequ
                : Done{};
 }
 
-/// Samples all steps of a run.
-Result<RequestedSet> finished(Runner& runner, Result<RequestRun> run,
-                              const ProgressCallback& progress) {
-    if (!run) {
-        return run.error();
+/// Samples all jobs of runs.
+Result<std::vector<RequestedSet>> finished(Runner& runner, Result<RequestRuns> runs,
+                                           const ProgressCallback& progress) {
+    if (!runs) {
+        return runs.error();
     }
-    while (const RequestStep* step = run->step()) {
-        auto set = runner.sample_and_wait(step->domain, progress);
+    while (const Domain* job = runs->job()) {
+        auto set = runner.sample_and_wait(*job, progress);
         if (!set) {
-            return set.error();
+            return runs->named(set.error());
         }
-        if (const auto taken = run->take(std::move(*set)); !taken) {
+        if (const auto taken = runs->take(std::move(*set)); !taken) {
             return taken.error();
         }
     }
-    return std::move(*run).finish();
+    return std::move(*runs).finish();
+}
+
+/// Returns the only set.
+Result<RequestedSet> only(Result<std::vector<RequestedSet>> found) {
+    return found ? Result<RequestedSet>(std::move(found->front())) : found.error();
 }
 
 } // namespace
 
 Result<RequestedSet> sample(Runner& runner, const PreparedMesh& mesh, const SampleRequest& request,
                             const ProgressCallback& progress) noexcept {
-    return guarded([&]() -> Result<RequestedSet> {
-        auto found = finished(runner, RequestRun::create(mesh, request), progress);
-        if (!found) {
-            return found.error();
-        }
-        const auto completed = complete(runner, mesh, request, progress, *found);
-        return completed ? std::move(found) : completed.error();
+    return guarded([&] {
+        const MeshRequest one{&mesh, request};
+        return only(sample(runner, std::span(&one, 1), progress));
     });
 }
 
 Result<RequestedSet> sample(Runner& runner, const BoxRequest& request,
                             const ProgressCallback& progress) noexcept {
-    return guarded([&] { return finished(runner, RequestRun::create(request), progress); });
+    return guarded([&] { return only(finished(runner, RequestRuns::create(request), progress)); });
 }
 
 Result<std::vector<RequestedSet>> sample(Runner& runner, std::span<const MeshRequest> requests,
                                          const ProgressCallback& progress) noexcept {
     return guarded([&]() -> Result<std::vector<RequestedSet>> {
-        auto runs = RequestRuns::create(requests);
-        if (!runs) {
-            return runs.error();
-        }
-        while (const Domain* job = runs->job()) {
-            auto set = runner.sample_and_wait(*job, progress);
-            if (!set) {
-                return runs->named(set.error());
-            }
-            if (const auto taken = runs->take(std::move(*set)); !taken) {
-                return taken.error();
-            }
-        }
-        auto found = std::move(*runs).finish();
+        auto found = finished(runner, RequestRuns::create(requests), progress);
         for (std::size_t i = 0; found && i < requests.size(); ++i) {
             const auto& [mesh, request] = requests[i];
             if (const auto completed = complete(runner, *mesh, request, progress, (*found)[i]);
