@@ -6,6 +6,8 @@
 #include <thread>
 #include <utility>
 
+#include "support/try.hpp"
+
 namespace geodisk {
 namespace {
 
@@ -142,9 +144,7 @@ Result<std::vector<Bytes>> MpiExchange::swap(std::span<const std::uint32_t> othe
         MPI_Testall(static_cast<int>(requests.size()), requests.data(), &sent, MPI_STATUSES_IGNORE);
         return all && sent != 0;
     };
-    if (auto waited = wait_until(all_here); !waited) {
-        return waited.error();
-    }
+    GEODISK_TRY(wait_until(all_here));
     return received;
 }
 
@@ -181,9 +181,7 @@ Result<std::vector<std::uint64_t>> MpiExchange::sums(std::vector<std::uint64_t> 
         }
         return channel.times != before;
     };
-    if (auto waited = wait_until(is_done); !waited) {
-        return waited.error();
-    }
+    GEODISK_TRY(wait_until(is_done));
     const std::scoped_lock lock(channel.calls);
     return channel.summed;
 }

@@ -6,6 +6,7 @@
 #include "parts/sample_parts.hpp"
 #include "support/guard.hpp"
 #include "support/invalid.hpp"
+#include "support/try.hpp"
 
 namespace geodisk {
 
@@ -15,25 +16,19 @@ Result<SharedSamples> sample_together(MPI_Comm communicator, Runner& runner,
     return guarded([&]() -> Result<SharedSamples> {
         auto exchange = MpiExchange::create(
             communicator, [&] { return !progress || progress(runner.progress()); });
-        if (!exchange) {
-            return exchange.error();
-        }
+        GEODISK_TRY(exchange);
         const bool is_first = (*exchange)->rank() == 0;
         const bool is_given = mesh != nullptr && params != nullptr;
         const Error wrong = invalid(is_first ? "process 0 must give the mesh and the parameters"
                                              : "only process 0 gives a mesh and parameters");
-        if (auto well = (*exchange)->check_all(is_first == is_given ? nullptr : &wrong); !well) {
-            return well.error();
-        }
+        GEODISK_TRY((*exchange)->check_all(is_first == is_given ? nullptr : &wrong));
         const Cut cut = cut_surface;
         std::optional<WholeSurface> whole;
         if (is_first) {
             whole.emplace(WholeSurface{*mesh, *params, cut});
         }
         auto result = sample_parts(**exchange, runner, whole ? &*whole : nullptr, progress);
-        if (!result) {
-            return result.error();
-        }
+        GEODISK_TRY(result);
         return SharedSamples{std::move(result->set), std::move(result->processes)};
     });
 }

@@ -7,6 +7,7 @@
 #include "c/c_call.hpp"
 #include "c/c_mesh.hpp"
 #include "c/c_sampler.hpp"
+#include "support/try.hpp"
 
 /// Immutable.
 struct geodisk_cells {
@@ -42,21 +43,15 @@ geodisk_status geodisk_find_cells(geodisk_sampler* sampler, const geodisk_mesh* 
             return wrong("mesh or cells is NULL");
         }
         const auto wanted = taken(params, "params");
-        if (!wanted) {
-            return wanted.error();
-        }
+        GEODISK_TRY(wanted);
         const auto cell_params = params_of(*wanted);
-        if (!cell_params) {
-            return cell_params.error();
-        }
+        GEODISK_TRY(cell_params);
         auto found = search(state, progress, user, [&](const ProgressCallback& heard) {
             return find_cells(state.runner, mesh->shared->prepared,
                               samples_of(wanted->samples, wanted->sample_count), *cell_params,
                               heard);
         });
-        if (!found) {
-            return found.error();
-        }
+        GEODISK_TRY(found);
         *cells = new geodisk_cells{std::move(*found)};
         return Done{};
     });

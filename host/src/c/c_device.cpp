@@ -6,6 +6,7 @@
 
 #include "c/c_call.hpp"
 #include "c/c_handles.hpp"
+#include "support/try.hpp"
 
 namespace geodisk::c {
 namespace {
@@ -89,9 +90,7 @@ Result<Done> Device::check_validation() const {
         return Done{};
     }
     const auto messages = context_->validation_messages();
-    if (!messages) {
-        return messages.error();
-    }
+    GEODISK_TRY(messages);
     return Error{Status::internal,
                  std::to_string(context_->validation_message_count()) +
                      " messages of the validation layer, the first: " + messages->front()};
@@ -111,16 +110,12 @@ geodisk_status geodisk_list_devices(geodisk_device_info* infos, size_t capacity,
             return wrong("infos or count is NULL");
         }
         const auto reports = list_devices();
-        if (!reports) {
-            return reports.error();
-        }
+        GEODISK_TRY(reports);
         for (std::size_t i = 0; i < reports->size() && i < capacity; ++i) {
             geodisk_device_info* const info = element_of(infos, i);
             info->struct_size = infos->struct_size;
             const auto given = give(info, "infos", info_of((*reports)[i]));
-            if (!given) {
-                return given.error();
-            }
+            GEODISK_TRY(given);
         }
         *count = reports->size();
         return Done{};
@@ -134,17 +129,13 @@ geodisk_status geodisk_device_open(const geodisk_device_options* options, geodis
             return wrong("device is NULL");
         }
         const auto given = taken_if_any(options, "options");
-        if (!given) {
-            return given.error();
-        }
+        GEODISK_TRY(given);
         ContextOptions wanted;
         wanted.device = given->device != nullptr ? given->device : "";
         wanted.validation = given->validation != 0;
         wanted.keep_pipelines = given->keep_pipelines != 0;
         auto context = Context::create(wanted);
-        if (!context) {
-            return context.error();
-        }
+        GEODISK_TRY(context);
         *device = new geodisk_device{std::make_shared<const Device>(std::move(*context))};
         return Done{};
     });
@@ -157,9 +148,7 @@ geodisk_status geodisk_device_borrow(const geodisk_vulkan_device* lent, geodisk_
             return wrong("device is NULL");
         }
         const auto given = taken(lent, "lent");
-        if (!given) {
-            return given.error();
-        }
+        GEODISK_TRY(given);
         if (given->instance == nullptr || given->physical_device == nullptr ||
             given->device == nullptr || given->queue == nullptr ||
             given->get_instance_proc_addr == nullptr) {
@@ -189,9 +178,7 @@ geodisk_status geodisk_device_borrow(const geodisk_vulkan_device* lent, geodisk_
         queue.unlock = given->unlock;
         auto report =
             query_device(refs.get_instance_proc_addr, refs.instance, refs.physical_device);
-        if (!report) {
-            return report.error();
-        }
+        GEODISK_TRY(report);
         auto memory =
             given->allocate != nullptr ? std::make_unique<const LentMemory>(*given) : nullptr;
         *device = new geodisk_device{
@@ -207,9 +194,7 @@ geodisk_status geodisk_query_device(void (*get_instance_proc_addr)(void), void* 
         const auto report =
             query_device(loader_of(get_instance_proc_addr), static_cast<VkInstance>(instance),
                          static_cast<VkPhysicalDevice>(physical_device));
-        if (!report) {
-            return report.error();
-        }
+        GEODISK_TRY(report);
         return give(info, "info", info_of(*report));
     });
 }

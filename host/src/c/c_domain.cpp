@@ -12,6 +12,7 @@
 
 #include "c/c_call.hpp"
 #include "engine/domain/stages.hpp"
+#include "support/try.hpp"
 
 namespace geodisk::c {
 namespace {
@@ -92,9 +93,7 @@ Result<Domain> make_surface(const Part& part, geodisk_metric metric) {
         return Domain::surface(part.mesh->prepared, part.params);
     }
     const auto through_space = metric_of(metric);
-    if (!through_space) {
-        return through_space.error();
-    }
+    GEODISK_TRY(through_space);
     if (part.mesh->dimension == 0) {
         return wrong("params->metric needs coordinates, which the mesh lacks");
     }
@@ -104,9 +103,7 @@ Result<Domain> make_surface(const Part& part, geodisk_metric metric) {
 
 Result<Done> keep(Result<Domain> made, std::shared_ptr<DomainState> state,
                   geodisk_domain** domain) {
-    if (!made) {
-        return made.error();
-    }
+    GEODISK_TRY(made);
     state->domain = std::move(*made);
     *domain = new geodisk_domain{std::move(state)};
     return Done{};
@@ -127,9 +124,7 @@ double factor_of(double factor) {
 
 Result<BoxParams> box_of(const geodisk_box_params* params) {
     const auto given = taken(params, "params");
-    if (!given) {
-        return given.error();
-    }
+    GEODISK_TRY(given);
     if (given->extents == nullptr) {
         return wrong("params->extents is NULL");
     }
@@ -159,12 +154,8 @@ Result<Metric> metric_of(geodisk_metric metric) {
 Result<geodisk_surface_params> fill_part(const geodisk_mesh* mesh,
                                          const geodisk_surface_params* params, Part& part) {
     const auto given = taken(params, "params");
-    if (!given) {
-        return given.error();
-    }
-    if (const auto filled = fill(mesh, *given, part); !filled) {
-        return filled.error();
-    }
+    GEODISK_TRY(given);
+    GEODISK_TRY(fill(mesh, *given, part));
     return *given;
 }
 
@@ -184,9 +175,7 @@ geodisk_status geodisk_domain_surface(const geodisk_mesh* mesh,
         }
         const auto state = state_of_one();
         const auto given = fill_part(mesh, params, state->parts[0]);
-        if (!given) {
-            return given.error();
-        }
+        GEODISK_TRY(given);
         state->min_distance = given->min_distance;
         return keep(make_surface(state->parts[0], given->metric), state, domain);
     });
@@ -199,13 +188,9 @@ geodisk_status geodisk_job_frame_of(const geodisk_mesh* mesh, const geodisk_surf
             return wrong("frame is NULL");
         }
         Part part;
-        if (const auto given = fill_part(mesh, params, part); !given) {
-            return given.error();
-        }
+        GEODISK_TRY(fill_part(mesh, params, part));
         const auto made = frame_of(part.mesh->prepared, part.params);
-        if (!made) {
-            return made.error();
-        }
+        GEODISK_TRY(made);
         const auto bytes = to_bytes(*made);
         std::memcpy(frame->bytes, bytes.data(), bytes.size());
         return Done{};
@@ -223,16 +208,12 @@ geodisk_status geodisk_domain_surface_in_frame(const geodisk_mesh* mesh,
         const auto state = state_of_one();
         Part& part = state->parts[0];
         const auto given = fill_part(mesh, params, part);
-        if (!given) {
-            return given.error();
-        }
+        GEODISK_TRY(given);
         if (given->metric != GEODISK_GEODESIC) {
             return wrong("params->metric: frames are for geodesic distances only");
         }
         const auto of_whole = frame_from_bytes(std::as_bytes(std::span(frame->bytes)));
-        if (!of_whole) {
-            return of_whole.error();
-        }
+        GEODISK_TRY(of_whole);
         state->min_distance = given->min_distance;
         return keep(Domain::surface(part.mesh->prepared, part.params, *of_whole), state, domain);
     });
@@ -249,9 +230,7 @@ geodisk_status geodisk_domain_features(const geodisk_mesh* mesh,
         const auto state = state_of_one();
         Part& part = state->parts[0];
         const auto given = fill_part(mesh, params, part);
-        if (!given) {
-            return given.error();
-        }
+        GEODISK_TRY(given);
         if (given->metric != GEODISK_GEODESIC) {
             return wrong("params->metric: features are for geodesic distances only");
         }
@@ -260,12 +239,8 @@ geodisk_status geodisk_domain_features(const geodisk_mesh* mesh,
         }
         const PreparedMesh& prepared = part.mesh->prepared;
         const auto features = Features::find(part.mesh->view(), prepared, degrees);
-        if (!features) {
-            return features.error();
-        }
-        if (const auto checked = check_params(prepared, part.params); !checked) {
-            return checked.error();
-        }
+        GEODISK_TRY(features);
+        GEODISK_TRY(check_params(prepared, part.params));
         if (corners != nullptr) {
             *corners = features->corners().size();
         }
@@ -294,13 +269,9 @@ geodisk_status geodisk_domain_surfaces(const geodisk_surface_part* parts, size_t
             const std::string name = "parts[" + std::to_string(i) + "]";
             const auto part =
                 taken(parts != nullptr ? element_of(parts, i) : nullptr, name.c_str());
-            if (!part) {
-                return part.error();
-            }
+            GEODISK_TRY(part);
             const auto given = taken(part->params, (name + ".params").c_str());
-            if (!given) {
-                return given.error();
-            }
+            GEODISK_TRY(given);
             if (given->metric != GEODISK_GEODESIC) {
                 return wrong(name + ": several surfaces take geodesic distances only");
             }
@@ -323,9 +294,7 @@ geodisk_status geodisk_domain_box(const geodisk_box_params* params, geodisk_doma
             return wrong("domain is NULL");
         }
         const auto box = box_of(params);
-        if (!box) {
-            return box.error();
-        }
+        GEODISK_TRY(box);
         const auto state = std::make_shared<DomainState>();
         state->min_distance = box->min_distance;
         return keep(Domain::box(*box), state, domain);
@@ -347,18 +316,14 @@ geodisk_status geodisk_distance_for_count(const geodisk_mesh* mesh, const geodis
         if (radii != nullptr && radii->shared->mesh != prepared.identity()) {
             return wrong("radii are of another mesh");
         }
-        if (const auto checked = check_count(count); !checked) {
-            return checked.error();
-        }
+        GEODISK_TRY(check_count(count));
         SampleParams params;
         params.min_distance = 1; // Is not looked at, but checked.
         params.radii = radii != nullptr ? &radii->shared->field : nullptr;
         if (face_mask != nullptr) {
             params.face_mask = {face_mask, prepared.face_count()};
         }
-        if (const auto checked = check_params(prepared, params); !checked) {
-            return checked.error();
-        }
+        GEODISK_TRY(check_params(prepared, params));
         *distance = distance_for_count(prepared, params, count);
         return Done{};
     });
@@ -371,18 +336,12 @@ geodisk_status geodisk_box_distance_for_count(const geodisk_box_params* params, 
             return wrong("distance is NULL");
         }
         auto box = box_of(params);
-        if (!box) {
-            return box.error();
-        }
-        if (const auto checked = check_count(count); !checked) {
-            return checked.error();
-        }
+        GEODISK_TRY(box);
+        GEODISK_TRY(check_count(count));
         const double found = distance_for_count(*box, count);
         box->min_distance = found; // Every other field was checked, so the distance is valid.
         box->darts = 1;
-        if (const auto size = pool_size(*box); !size) {
-            return size.error();
-        }
+        GEODISK_TRY(pool_size(*box));
         *distance = found;
         return Done{};
     });
@@ -395,17 +354,11 @@ geodisk_status geodisk_level_count(const geodisk_mesh* mesh, const geodisk_surfa
             return wrong("levels is NULL");
         }
         Part part;
-        if (const auto given = fill_part(mesh, params, part); !given) {
-            return given.error();
-        }
+        GEODISK_TRY(fill_part(mesh, params, part));
         const PreparedMesh& prepared = part.mesh->prepared;
-        if (const auto checked = check_params(prepared, part.params); !checked) {
-            return checked.error();
-        }
+        GEODISK_TRY(check_params(prepared, part.params));
         const Levels found = levels_for(prepared, part.params, factor_of(factor));
-        if (const auto checked = params_of_level(part.params, found, 0, {}); !checked) {
-            return checked.error();
-        }
+        GEODISK_TRY(params_of_level(part.params, found, 0, {}));
         *levels = found.count;
         return Done{};
     });
@@ -419,17 +372,13 @@ geodisk_status geodisk_level_params(const geodisk_surface_params* params, double
             return wrong("min_distance or seed is NULL");
         }
         const auto given = taken(params, "params");
-        if (!given) {
-            return given.error();
-        }
+        GEODISK_TRY(given);
         SampleParams last;
         last.min_distance = given->min_distance;
         last.seed = given->seed;
         last.darts = given->darts;
         const auto own = params_of_level(last, {levels, factor_of(factor)}, level, {});
-        if (!own) {
-            return own.error();
-        }
+        GEODISK_TRY(own);
         *min_distance = own->min_distance;
         *seed = own->seed;
         return Done{};

@@ -5,6 +5,7 @@
 #include "c/c_call.hpp"
 #include "c/c_mesh.hpp"
 #include "c/c_sampler.hpp"
+#include "support/try.hpp"
 
 namespace geodisk::c {
 namespace {
@@ -38,17 +39,13 @@ geodisk_status geodisk_farthest_order(geodisk_sampler* sampler, const geodisk_me
             return wrong("samples is NULL");
         }
         if (info != nullptr) { // Before the work.
-            if (auto given = give(info, "info", geodisk_farthest_info{}); !given) {
-                return given.error();
-            }
+            GEODISK_TRY(give(info, "info", geodisk_farthest_info{}));
         }
         const auto found = search(state, progress, user, [&](const ProgressCallback& heard) {
             return farthest_order(state.runner, mesh->shared->prepared,
                                   samples_of(samples, sample_count), count, heard);
         });
-        if (!found) {
-            return found.error();
-        }
+        GEODISK_TRY(found);
         std::ranges::copy(found->indices, order);
         if (distances != nullptr) {
             std::ranges::copy(found->distances, distances);

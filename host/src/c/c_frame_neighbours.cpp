@@ -12,6 +12,7 @@
 #include "c/c_handles.hpp"
 #include "c/c_neighbours.hpp"
 #include "c/c_sampler.hpp"
+#include "support/try.hpp"
 
 struct geodisk_frame_neighbours {
     std::shared_ptr<const geodisk::c::Device> device;
@@ -50,26 +51,16 @@ geodisk_status geodisk_frame_neighbours_create(const geodisk_device* device,
             return wrong("device, mesh or frames is NULL");
         }
         const auto asked = taken(params, "params");
-        if (!asked) {
-            return asked.error();
-        }
+        GEODISK_TRY(asked);
         const auto wanted = taken_if_any(options, "options");
-        if (!wanted) {
-            return wanted.error();
-        }
+        GEODISK_TRY(wanted);
         const auto search = search_for(*mesh, *asked);
-        if (!search) {
-            return search.error();
-        }
+        GEODISK_TRY(search);
         auto sampler = device->shared->sampler();
-        if (!sampler) {
-            return sampler.error();
-        }
+        GEODISK_TRY(sampler);
         auto made = FrameNeighbours::create(std::move(*sampler), (*search)->mesh->prepared,
                                             (*search)->query, options_of(*wanted));
-        if (!made) {
-            return made.error();
-        }
+        GEODISK_TRY(made);
         *frames = new geodisk_frame_neighbours{device->shared, *search, std::move(*made)};
         return Done{};
     });

@@ -13,6 +13,7 @@
 #include "c/c_frames.hpp"
 #include "c/c_handles.hpp"
 #include "c/c_sampler.hpp"
+#include "support/try.hpp"
 
 struct geodisk_frame_sampler {
     std::shared_ptr<const geodisk::c::Device> device;
@@ -49,22 +50,16 @@ geodisk_status geodisk_frame_sampler_create(const geodisk_device* device,
             return wrong("device, domain or frames is NULL");
         }
         const auto wanted = taken_if_any(options, "options");
-        if (!wanted) {
-            return wanted.error();
-        }
+        GEODISK_TRY(wanted);
         auto sampler = device->shared->sampler();
-        if (!sampler) {
-            return sampler.error();
-        }
+        GEODISK_TRY(sampler);
         std::vector<MeshView> meshes;
         for (const Part& part : domain->shared->parts) {
             meshes.push_back(part.mesh->view());
         }
         auto made = FrameSampler::create(std::move(*sampler), *domain->shared->domain, meshes,
                                          options_of(*wanted));
-        if (!made) {
-            return made.error();
-        }
+        GEODISK_TRY(made);
         *frames = new geodisk_frame_sampler{device->shared, domain->shared, std::move(*made)};
         return Done{};
     });

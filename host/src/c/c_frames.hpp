@@ -6,6 +6,7 @@
 #include <geodisk/geodisk.h>
 
 #include "c/c_call.hpp"
+#include "support/try.hpp"
 
 namespace geodisk::c {
 
@@ -45,9 +46,7 @@ geodisk_status with_frames(Frames* frames, const char* name, geodisk_error* erro
 template <class Recorded>
 Result<Done> record_frame(Recorded& recorded, void* command_buffer, int32_t* is_complete) {
     const auto done = recorded.record(static_cast<VkCommandBuffer>(command_buffer));
-    if (!done) {
-        return done.error();
-    }
+    GEODISK_TRY(done);
     if (is_complete != nullptr) {
         *is_complete = *done ? 1 : 0;
     }

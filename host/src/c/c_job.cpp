@@ -9,6 +9,7 @@
 
 #include "c/c_handles.hpp"
 #include "records.h"
+#include "support/try.hpp"
 
 namespace geodisk::c {
 namespace {
@@ -37,13 +38,9 @@ geodisk_status geodisk_job_create(const geodisk_device* device, const geodisk_do
             return wrong("device, domain or job is NULL");
         }
         const auto wanted = taken_if_any(options, "options");
-        if (!wanted) {
-            return wanted.error();
-        }
+        GEODISK_TRY(wanted);
         auto made = make_job(*device, *domain, *wanted);
-        if (!made) {
-            return made.error();
-        }
+        GEODISK_TRY(made);
         *job = made->release();
         return Done{};
     });
@@ -53,9 +50,7 @@ geodisk_status geodisk_job_need(geodisk_job* job, uint32_t buffer, geodisk_buffe
                                 geodisk_error* error) {
     return with_job(job, error, [&](geodisk_job& own) -> Result<Done> {
         const auto role = role_of(buffer);
-        if (!role) {
-            return role.error();
-        }
+        GEODISK_TRY(role);
         geodisk_buffer_need found{};
         found.bytes = own.needed[buffer];
         found.upload_bytes = upload_bytes(own, *role);
@@ -98,9 +93,7 @@ geodisk_status geodisk_job_upload(geodisk_job* job, uint32_t buffer, void* data,
                                   geodisk_error* error) {
     return with_job(job, error, [&](geodisk_job& own) -> Result<Done> {
         const auto role = role_of(buffer);
-        if (!role) {
-            return role.error();
-        }
+        GEODISK_TRY(role);
         if (data == nullptr) {
             return wrong("data is NULL");
         }
@@ -121,9 +114,7 @@ geodisk_status geodisk_job_record(geodisk_job* job, void* command_buffer, geodis
         }
         const auto recorded =
             record(own, static_cast<VkCommandBuffer>(command_buffer), what, amount);
-        if (!recorded) {
-            return recorded.error();
-        }
+        GEODISK_TRY(recorded);
         if (is_last != nullptr) {
             *is_last = *recorded ? 1 : 0;
         }
@@ -180,9 +171,7 @@ geodisk_status geodisk_job_set_existing(geodisk_job* job, const geodisk_sample_r
         if (count != 0) {
             std::memcpy(settled.data(), samples, count * sizeof settled[0]);
         }
-        if (const auto planned = plan_domain(own, own.domain, count); !planned) {
-            return planned.error();
-        }
+        GEODISK_TRY(plan_domain(own, own.domain, count));
         own.settled = std::move(settled);
         start_over(own);
         return Done{};
@@ -195,9 +184,7 @@ geodisk_status geodisk_job_renew(geodisk_job* job, const geodisk_domain* domain,
         if (domain == nullptr) {
             return wrong("domain is NULL");
         }
-        if (const auto planned = plan_domain(own, domain->shared, 0); !planned) {
-            return planned.error();
-        }
+        GEODISK_TRY(plan_domain(own, domain->shared, 0));
         own.seed.reset();
         own.end_order = kAllOrders;
         own.settled.reset();

@@ -9,6 +9,7 @@
 
 #include "c/c_handles.hpp"
 #include "records.h"
+#include "support/try.hpp"
 
 namespace geodisk::c {
 namespace {
@@ -40,9 +41,7 @@ std::uint64_t& needed_by(geodisk_job& job, BufferRole role) {
 /// Plans the run and all its buffers.
 Result<Done> plan_buffers(geodisk_job& job, const Domain& domain, const RunPlan& plan) {
     const auto needs = job.sampler->workspace_needs(domain, plan, job.regrowths);
-    if (!needs) {
-        return needs.error();
-    }
+    GEODISK_TRY(needs);
     std::copy(needs->bytes.begin(), needs->bytes.end(), job.needed.begin());
     job.plan = plan;
     return Done{};
@@ -77,22 +76,16 @@ bool is_larger(BufferRole role, Next next) noexcept {
 Result<Done> bind_all(geodisk_job& job, const Workspace& workspace) {
     const Domain& domain = *job.domain->domain;
     if (job.recorded && workspace == job.workspace) {
-        if (const auto renewed = job.recorded->renew(domain, job.plan); !renewed) {
-            return renewed.error();
-        }
+        GEODISK_TRY(job.recorded->renew(domain, job.plan));
     } else {
         auto made = job.sampler->make_job(domain, job.plan, workspace);
-        if (!made) {
-            return made.error();
-        }
+        GEODISK_TRY(made);
         job.recorded.emplace(std::move(*made));
     }
     job.is_begun = false;
     job.uploaded = {};
     if (job.settled) {
-        if (const auto set = job.recorded->set_existing(*job.settled); !set) {
-            return set.error();
-        }
+        GEODISK_TRY(job.recorded->set_existing(*job.settled));
     }
     if (job.seed) {
         job.recorded->set_seed(*job.seed);
@@ -128,9 +121,7 @@ Result<Done> bind(geodisk_job& job, const geodisk_buffer_range* ranges) {
     std::transform(ranges, ranges + kBufferRoles, workspace.begin(), range_of);
     const auto bound =
         next == Next::start_over ? bind_all(job, workspace) : bind_larger(job, workspace, next);
-    if (!bound) {
-        return bound.error();
-    }
+    GEODISK_TRY(bound);
     job.workspace = workspace;
     job.to_bind.reset();
     if (next != Next::start_over) {
@@ -183,9 +174,7 @@ Result<bool> record(geodisk_job& job, VkCommandBuffer commands, geodisk_next wha
         return wrong("GEODISK_BEGIN comes first");
     }
     if (begins) {
-        if (const auto checked = check_uploads(job); !checked) {
-            return checked.error();
-        }
+        GEODISK_TRY(check_uploads(job));
     }
     switch (what) {
     case GEODISK_BEGIN:
@@ -234,12 +223,8 @@ Result<geodisk_advice> advise(geodisk_job& job, const gpu::ControlRec& control) 
         return advice;
     }
     const auto found = job.recorded->advance(control, job.pool_bytes);
-    if (!found) {
-        return found.error();
-    }
-    if (const auto asked = ask_for_buffers(job, *found); !asked) {
-        return asked.error();
-    }
+    GEODISK_TRY(found);
+    GEODISK_TRY(ask_for_buffers(job, *found));
     advice.next = static_cast<geodisk_next>(found->next);
     advice.ready = job.ready = found->ready;
     advice.candidates = found->candidates;
@@ -255,13 +240,9 @@ void start_over(geodisk_job& job) {
 Result<Done> plan_domain(geodisk_job& job, std::shared_ptr<const DomainState> state,
                          std::size_t settled) {
     const Domain& domain = *state->domain;
-    if (const auto prepared = job.sampler->prepare(domain); !prepared) {
-        return prepared.error();
-    }
+    GEODISK_TRY(job.sampler->prepare(domain));
     auto plan = job.sampler->plan_run(domain, job.pool_bytes);
-    if (!plan) {
-        return plan.error();
-    }
+    GEODISK_TRY(plan);
     if (job.stages != 0) {
         plan->stages = std::min(job.stages, plan->stages);
     }
@@ -269,9 +250,7 @@ Result<Done> plan_domain(geodisk_job& job, std::shared_ptr<const DomainState> st
         return wrong("count is more than a run can have");
     }
     plan->sample_capacity += static_cast<std::uint32_t>(settled);
-    if (const auto planned = plan_buffers(job, domain, *plan); !planned) {
-        return planned.error();
-    }
+    GEODISK_TRY(plan_buffers(job, domain, *plan));
     job.domain = std::move(state);
     return Done{};
 }
@@ -285,13 +264,9 @@ Result<std::unique_ptr<geodisk_job>> make_job(const geodisk_device& device,
     job->stages = options.stages;
     job->regrowths = options.regrowths;
     auto sampler = device.shared->sampler();
-    if (!sampler) {
-        return sampler.error();
-    }
+    GEODISK_TRY(sampler);
     job->sampler = std::move(*sampler);
-    if (const auto planned = plan_domain(*job, domain.shared, 0); !planned) {
-        return planned.error();
-    }
+    GEODISK_TRY(plan_domain(*job, domain.shared, 0));
     return job;
 }
 

@@ -9,6 +9,7 @@
 #include <geodisk/weld.hpp>
 
 #include "c/c_call.hpp"
+#include "support/try.hpp"
 
 namespace geodisk::c {
 namespace {
@@ -76,9 +77,7 @@ Result<Mesh> make_by_lengths(const geodisk_mesh_params& params, const IndexView&
         LengthMeshView{indices, std::span(params.edge_lengths, 3 * params.face_count),
                        static_cast<std::uint32_t>(params.vertex_count)},
         threads);
-    if (!prepared) {
-        return prepared.error();
-    }
+    GEODISK_TRY(prepared);
     return Mesh{std::move(*prepared)};
 }
 
@@ -89,23 +88,17 @@ Result<Mesh> make_by_positions(const geodisk_mesh_params& params, const IndexVie
     }
     const std::uint32_t dimension = params.dimension != 0 ? params.dimension : 3;
     const auto positions = positions_of(params, dimension);
-    if (!positions) {
-        return positions.error();
-    }
+    GEODISK_TRY(positions);
     MeshView view{*positions, indices, dimension};
     std::optional<WeldedMesh> welded;
     if (params.keep_seams == 0) {
         auto result = params.weld != 0 ? weld(view, params.weld_distance) : join_seams(view);
-        if (!result) {
-            return result.error();
-        }
+        GEODISK_TRY(result);
         welded = std::move(*result);
         view.triangles = welded->triangles;
     }
     auto prepared = PreparedMesh::prepare(view, threads);
-    if (!prepared) {
-        return prepared.error();
-    }
+    GEODISK_TRY(prepared);
     Mesh mesh{std::move(*prepared), dimension};
     mesh.positions.reserve(params.vertex_count * dimension);
     for (std::size_t vertex = 0; vertex < params.vertex_count; ++vertex) {
@@ -137,9 +130,7 @@ Result<Mesh> make_mesh(const geodisk_mesh_params& params) {
         return wrong("one of params->positions and params->edge_lengths must be given");
     }
     const auto indices = indices_of(params);
-    if (!indices) {
-        return indices.error();
-    }
+    GEODISK_TRY(indices);
     ThreadOptions threads;
     if (params.max_threads != 0) {
         threads.max_threads = params.max_threads;
@@ -199,20 +190,14 @@ geodisk_status create_radii(bool is_density, const geodisk_mesh* mesh, const voi
                          std::to_string(prepared.vertex_count()) + " vertices");
         }
         const auto given = values_of(values, type, count, name);
-        if (!given) {
-            return given.error();
-        }
+        GEODISK_TRY(given);
         const auto used =
             is_density ? values_on(*mesh->shared, *given, 0, std::numeric_limits<double>::max())
                        : values_on(*mesh->shared, *given, RadiusField::kMinFactor, 1);
-        if (!used) {
-            return used.error();
-        }
+        GEODISK_TRY(used);
         auto field = is_density ? RadiusField::from_density(prepared, *used)
                                 : RadiusField::prepare(prepared, *used);
-        if (!field) {
-            return field.error();
-        }
+        GEODISK_TRY(field);
         *radii = new geodisk_radii{
             std::make_shared<const Radii>(Radii{std::move(*field), prepared.identity()})};
         return Done{};
@@ -234,13 +219,9 @@ geodisk_status geodisk_mesh_create(const geodisk_mesh_params* params, geodisk_me
             return wrong("mesh is NULL");
         }
         const auto given = taken(params, "params");
-        if (!given) {
-            return given.error();
-        }
+        GEODISK_TRY(given);
         auto made = make_mesh(*given);
-        if (!made) {
-            return made.error();
-        }
+        GEODISK_TRY(made);
         *mesh = new geodisk_mesh{std::make_shared<const Mesh>(std::move(*made))};
         return Done{};
     });
@@ -253,9 +234,7 @@ geodisk_status geodisk_mesh_save(const geodisk_mesh* mesh, void* bytes, size_t c
             return wrong("mesh or size is NULL");
         }
         const auto saved = mesh->shared->prepared.save();
-        if (!saved) {
-            return saved.error();
-        }
+        GEODISK_TRY(saved);
         *size = saved->size();
         if (bytes != nullptr && capacity >= saved->size()) {
             std::memcpy(bytes, saved->data(), saved->size());
@@ -271,9 +250,7 @@ geodisk_status geodisk_mesh_load(const void* bytes, size_t size, geodisk_mesh** 
             return wrong("bytes or mesh is NULL");
         }
         auto loaded = PreparedMesh::load(std::span(static_cast<const std::byte*>(bytes), size));
-        if (!loaded) {
-            return loaded.error();
-        }
+        GEODISK_TRY(loaded);
         *mesh = new geodisk_mesh{std::make_shared<const Mesh>(Mesh{std::move(*loaded)})};
         return Done{};
     });

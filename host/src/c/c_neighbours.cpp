@@ -12,6 +12,7 @@
 #include "c/c_mesh.hpp"
 #include "c/c_neighbours.hpp"
 #include "c/c_sampler.hpp"
+#include "support/try.hpp"
 
 /// Immutable.
 struct geodisk_neighbours {
@@ -39,9 +40,7 @@ Result<NeighbourSources> sources_of(const Mesh& mesh, const geodisk_neighbour_pa
         params.kind == GEODISK_AMONG_SOURCES && params.source_vertices == nullptr;
     auto all = vertex_points(mesh.prepared, are_places ? std::span<const std::uint32_t>()
                                                        : joined_of(mesh, params));
-    if (!all) {
-        return all.error();
-    }
+    GEODISK_TRY(all);
     if (params.source_vertices == nullptr) {
         return NeighbourSources{std::move(all->points), std::move(all->vertices)};
     }
@@ -77,13 +76,9 @@ Result<NeighbourKind> kind_of(geodisk_neighbour_kind kind) {
 Result<std::shared_ptr<NeighbourSearch>> search_for(const geodisk_mesh& mesh,
                                                     const geodisk_neighbour_params& params) {
     const auto kind = kind_of(params.kind);
-    if (!kind) {
-        return kind.error();
-    }
+    GEODISK_TRY(kind);
     auto sources = sources_of(*mesh.shared, params);
-    if (!sources) {
-        return sources.error();
-    }
+    GEODISK_TRY(sources);
     if (params.points == nullptr && params.point_count != 0) {
         return wrong("params->points is NULL");
     }
@@ -132,19 +127,13 @@ geodisk_status geodisk_find_neighbours(geodisk_sampler* sampler, const geodisk_m
             return wrong("mesh or neighbours is NULL");
         }
         const auto wanted = taken(params, "params");
-        if (!wanted) {
-            return wanted.error();
-        }
+        GEODISK_TRY(wanted);
         const auto made = search_for(*mesh, *wanted);
-        if (!made) {
-            return made.error();
-        }
+        GEODISK_TRY(made);
         auto lists = search(state, progress, user, [&](const ProgressCallback& heard) {
             return find_neighbours(state.runner, (*made)->mesh->prepared, (*made)->query, heard);
         });
-        if (!lists) {
-            return lists.error();
-        }
+        GEODISK_TRY(lists);
         *neighbours = handed_over(std::move(*lists), **made);
         return Done{};
     });
@@ -158,16 +147,12 @@ geodisk_status geodisk_start_neighbours(geodisk_sampler* sampler, const geodisk_
             return wrong("mesh is NULL");
         }
         const auto wanted = taken(params, "params");
-        if (!wanted) {
-            return wanted.error();
-        }
+        GEODISK_TRY(wanted);
         if (state.is_busy()) {
             return run_in_progress();
         }
         const auto made = search_for(*mesh, *wanted);
-        if (!made) {
-            return made.error();
-        }
+        GEODISK_TRY(made);
         state.is_cancelled = false;
         auto started = start_neighbours(state.runner, (*made)->mesh->prepared, (*made)->query,
                                         state.callback(nullptr, nullptr));
@@ -193,9 +178,7 @@ geodisk_status geodisk_poll_neighbours(geodisk_sampler* sampler, uint32_t millis
             return Done{};
         }
         const auto ended = std::exchange(state.searching, nullptr);
-        if (!polled) {
-            return polled.error();
-        }
+        GEODISK_TRY(polled);
         if (const auto checked = state.device->check_validation(); !checked) {
             return checked;
         }

@@ -6,6 +6,7 @@
 
 #include "c/c_job.hpp"
 #include "samples.h"
+#include "support/try.hpp"
 
 struct geodisk_placement {
     std::shared_ptr<const geodisk::c::Device> device;
@@ -64,21 +65,15 @@ geodisk_status geodisk_placement_create(geodisk_job* job, const geodisk_placemen
             return wrong("placement is NULL");
         }
         const auto given = taken(params, "params");
-        if (!given) {
-            return given.error();
-        }
+        GEODISK_TRY(given);
         if (!own.is_bound()) {
             return needs_buffers();
         }
         const auto source = source_of(*given);
-        if (!source) {
-            return source.error();
-        }
+        GEODISK_TRY(source);
         auto made = Placement::create(*own.sampler, *own.domain->domain, *own.recorded, *source,
                                       target_of(*given));
-        if (!made) {
-            return made.error();
-        }
+        GEODISK_TRY(made);
         *placement = new geodisk_placement{own.device, own.sampler, std::move(*made)};
         return Done{};
     });

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "c/c_call.hpp"
+#include "support/try.hpp"
 
 namespace geodisk::c {
 namespace {
@@ -26,21 +27,15 @@ Result<SampleOrder> order_of(geodisk_order given) {
 Result<std::shared_ptr<RequestState>> request_of(const geodisk_mesh* mesh,
                                                  const geodisk_request* request) {
     const auto given = taken(request, "request");
-    if (!given) {
-        return given.error();
-    }
+    GEODISK_TRY(given);
     auto state = std::make_shared<RequestState>();
     state->of = std::make_shared<DomainState>();
     state->of->parts.resize(1);
     Part& part = state->of->parts[0];
     const auto params = fill_part(mesh, given->params, part);
-    if (!params) {
-        return params.error();
-    }
+    GEODISK_TRY(params);
     const auto order = order_of(given->order);
-    if (!order) {
-        return order.error();
-    }
+    GEODISK_TRY(order);
     SampleRequest& wanted = state->request;
     wanted.params = part.params;
     wanted.count = given->count;
@@ -52,9 +47,7 @@ Result<std::shared_ptr<RequestState>> request_of(const geodisk_mesh* mesh,
     wanted.keep = given->keep;
     if (params->metric != GEODISK_GEODESIC) {
         const auto metric = metric_of(params->metric);
-        if (!metric) {
-            return metric.error();
-        }
+        GEODISK_TRY(metric);
         wanted.metric = *metric;
     }
     if (part.mesh->dimension != 0) {
@@ -73,9 +66,7 @@ Result<std::shared_ptr<RequestsState>> requests_of(const geodisk_mesh_request* r
     for (std::size_t i = 0; i < count; ++i) {
         const std::string name = "requests[" + std::to_string(i) + "]";
         const auto given = taken(element_of(requests, i), name.c_str());
-        if (!given) {
-            return given.error();
-        }
+        GEODISK_TRY(given);
         auto made = request_of(given->mesh, given->request);
         if (!made) {
             return count > 1 ? wrong(name + ": " + made.error().message) : made.error();
@@ -95,13 +86,9 @@ std::vector<MeshRequest> RequestsState::on_meshes() const {
 
 Result<std::shared_ptr<RequestsState>> requests_of(const geodisk_box_request* request) {
     const auto given = taken(request, "request");
-    if (!given) {
-        return given.error();
-    }
+    GEODISK_TRY(given);
     auto box = box_of(given->params);
-    if (!box) {
-        return box.error();
-    }
+    GEODISK_TRY(box);
     auto one = std::make_shared<RequestState>();
     one->of = std::make_shared<DomainState>();
     one->box = {std::move(*box), given->count, given->is_exact != 0};
@@ -121,9 +108,7 @@ Result<std::vector<RequestedSet>> RequestsState::sample(Runner& runner,
         return geodisk::sample(runner, on_meshes(), progress);
     }
     auto found = geodisk::sample(runner, each[0]->box, progress);
-    if (!found) {
-        return found.error();
-    }
+    GEODISK_TRY(found);
     std::vector<RequestedSet> all;
     all.push_back(std::move(*found));
     return all;
@@ -138,9 +123,7 @@ Result<std::shared_ptr<const DomainState>> at_found_distance(RequestState& state
     }
     state.box.params.min_distance = found.min_distance;
     auto domain = Domain::box(state.box.params);
-    if (!domain) {
-        return domain.error();
-    }
+    GEODISK_TRY(domain);
     state.of->domain = std::move(*domain);
     return std::shared_ptr<const DomainState>(state.of);
 }

@@ -8,6 +8,7 @@
 
 #include "c/c_call.hpp"
 #include "c/c_samples.hpp"
+#include "support/try.hpp"
 
 namespace geodisk::c {
 
@@ -33,9 +34,7 @@ ProgressCallback SamplerState::callback(geodisk_progress_fn progress, void* user
 namespace {
 
 Result<Done> hand_over(const SamplerState& state, geodisk_samples made, geodisk_samples** samples) {
-    if (const auto checked = state.device->check_validation(); !checked) {
-        return checked.error();
-    }
+    GEODISK_TRY(state.device->check_validation());
     *samples = new geodisk_samples(std::move(made));
     return Done{};
 }
@@ -43,17 +42,13 @@ Result<Done> hand_over(const SamplerState& state, geodisk_samples made, geodisk_
 /// Hands over the samples of requests, each with its surface or box at their distance.
 Result<Done> hand_over(const SamplerState& state, RequestsState& requests,
                        std::vector<RequestedSet> found, geodisk_samples** samples) {
-    if (const auto checked = state.device->check_validation(); !checked) {
-        return checked.error();
-    }
+    GEODISK_TRY(state.device->check_validation());
     std::vector<std::unique_ptr<geodisk_samples>> made;
     for (std::size_t i = 0; i < found.size(); ++i) {
         SampleSet set = std::move(found[i].set);
         found[i].set = {};
         auto of = at_found_distance(*requests.each[i], found[i]);
-        if (!of) {
-            return of.error();
-        }
+        GEODISK_TRY(of);
         made.emplace_back(new geodisk_samples{std::move(*of), std::move(set), std::move(found[i])});
     }
     for (std::size_t i = 0; i < made.size(); ++i) {
@@ -91,9 +86,7 @@ Result<Done> start(SamplerState& state, std::shared_ptr<RequestsState> requests)
         }
     }
     auto runs = requests->begin();
-    if (!runs) {
-        return runs.error();
-    }
+    GEODISK_TRY(runs);
     requests->runs.emplace(std::move(*runs));
     state.is_cancelled = false;
     state.requested = std::move(requests);
@@ -106,9 +99,7 @@ Result<Done> start(SamplerState& state, std::shared_ptr<RequestsState> requests)
 
 /// Takes the samples of a job of the requests in progress. Returns true if it was the last one.
 Result<bool> take(SamplerState& state, SampleSet set) {
-    if (const auto taken = state.requested->runs->take(std::move(set)); !taken) {
-        return taken.error();
-    }
+    GEODISK_TRY(state.requested->runs->take(std::move(set)));
     const auto is_started = start_job(state);
     return is_started ? Result<bool>(!*is_started) : is_started.error();
 }
@@ -173,17 +164,11 @@ geodisk_status geodisk_sampler_create(const geodisk_device* device,
             return wrong("device or sampler is NULL");
         }
         const auto wanted = taken_if_any(options, "options");
-        if (!wanted) {
-            return wanted.error();
-        }
+        GEODISK_TRY(wanted);
         const auto shared = device->shared->sampler();
-        if (!shared) {
-            return shared.error();
-        }
+        GEODISK_TRY(shared);
         auto runner = Runner::create(*shared, device->shared->queue(), options_of(*wanted));
-        if (!runner) {
-            return runner.error();
-        }
+        GEODISK_TRY(runner);
         *sampler =
             new geodisk_sampler{std::make_shared<SamplerState>(device->shared, std::move(*runner))};
         return Done{};
@@ -203,9 +188,7 @@ geodisk_status geodisk_sample(geodisk_sampler* sampler, const geodisk_domain* do
         state.is_cancelled = false;
         auto set =
             state.runner.sample_and_wait(*domain->shared->domain, state.callback(progress, user));
-        if (!set) {
-            return set.error();
-        }
+        GEODISK_TRY(set);
         return hand_over(state, {domain->shared, std::move(*set)}, samples);
     });
 }
@@ -221,9 +204,7 @@ geodisk_status geodisk_start(geodisk_sampler* sampler, const geodisk_domain* dom
         }
         state.is_cancelled = false;
         const auto go_on = [&state](const Progress&) { return !state.is_cancelled; };
-        if (const auto started = state.runner.start(*domain->shared->domain, go_on); !started) {
-            return started.error();
-        }
+        GEODISK_TRY(state.runner.start(*domain->shared->domain, go_on));
         state.running = domain->shared;
         return Done{};
     });
@@ -254,9 +235,7 @@ geodisk_status geodisk_poll(geodisk_sampler* sampler, uint32_t milliseconds,
             return Done{};
         }
         const auto requests = std::exchange(state.requested, nullptr);
-        if (!is_done) {
-            return is_done.error();
-        }
+        GEODISK_TRY(is_done);
         auto found = std::move(*requests->runs).finish();
         return found ? hand_over(state, *requests, std::move(*found), samples) : found.error();
     });

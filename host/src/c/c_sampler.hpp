@@ -12,6 +12,7 @@
 #include "c/c_device.hpp"
 #include "c/c_domain.hpp"
 #include "c/c_request.hpp"
+#include "support/try.hpp"
 
 namespace geodisk::c {
 
@@ -72,9 +73,7 @@ auto search(SamplerState& state, geodisk_progress_fn progress, void* user, const
     state.is_cancelled = false;
     auto found = find(state.callback(progress, user));
     if (found) {
-        if (const auto checked = state.device->check_validation(); !checked) {
-            return checked.error();
-        }
+        GEODISK_TRY(state.device->check_validation());
     }
     return found;
 }

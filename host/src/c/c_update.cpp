@@ -12,6 +12,7 @@
 #include "c/c_domain.hpp"
 #include "c/c_sampler.hpp"
 #include "c/c_samples.hpp"
+#include "support/try.hpp"
 
 namespace geodisk::c {
 namespace {
@@ -22,9 +23,7 @@ Result<std::shared_ptr<const DomainState>> surface_of(const geodisk_mesh* mesh,
     const auto state = std::make_shared<DomainState>();
     state->parts.resize(1);
     const auto given = fill_part(mesh, params, state->parts[0]);
-    if (!given) {
-        return given.error();
-    }
+    GEODISK_TRY(given);
     if (given->metric != GEODISK_GEODESIC) {
         return wrong("params->metric: updates are for geodesic distances only");
     }
@@ -93,9 +92,7 @@ Result<Done> with(geodisk_updater* updater, const Body& body) {
 
 Result<Done> keep(Result<Updater> made, std::shared_ptr<const DomainState> of,
                   geodisk_updater** updater) {
-    if (!made) {
-        return made.error();
-    }
+    GEODISK_TRY(made);
     *updater = new geodisk_updater{std::move(*made), std::move(of)};
     return Done{};
 }
@@ -114,13 +111,9 @@ geodisk_status geodisk_updater_create(const geodisk_mesh* mesh,
             return checked;
         }
         const auto of = c::surface_of(mesh, params);
-        if (!of) {
-            return of.error();
-        }
+        GEODISK_TRY(of);
         const auto used = frame_for(frame, **of);
-        if (!used) {
-            return used.error();
-        }
+        GEODISK_TRY(used);
         const SurfaceJob job = job_of(**of);
         return keep(Updater::create(job.mesh, job.params, *used, samples_of(samples, sample_count)),
                     *of, updater);
@@ -138,17 +131,11 @@ geodisk_updater_create_edited(const geodisk_mesh* mesh_before,
             return checked;
         }
         const auto before = c::surface_of(mesh_before, params_before);
-        if (!before) {
-            return before.error();
-        }
+        GEODISK_TRY(before);
         const auto after = c::surface_of(mesh, params);
-        if (!after) {
-            return after.error();
-        }
+        GEODISK_TRY(after);
         const auto used = frame_for(frame, **before);
-        if (!used) {
-            return used.error();
-        }
+        GEODISK_TRY(used);
         return keep(Updater::create(job_of(**before), job_of(**after), *used,
                                     samples_of(samples, sample_count)),
                     *after, updater);
@@ -171,17 +158,13 @@ geodisk_status geodisk_update(geodisk_updater* updater, geodisk_sampler* sampler
                 }
             }
             const auto of = c::surface_of(mesh, params);
-            if (!of) {
-                return of.error();
-            }
+            GEODISK_TRY(of);
             const auto report = search(state, progress, user, [&](const ProgressCallback& heard) {
                 const SurfaceJob job = job_of(**of);
                 return updater->updater.update(state.runner, job.mesh, job.params,
                                                {changed, changed_count}, heard);
             });
-            if (!report) {
-                return report.error();
-            }
+            GEODISK_TRY(report);
             updater->of = *of;
             updater->run = report->run;
             return info == nullptr ? Result<Done>(Done{}) : give(info, "info", info_of(*report));

@@ -18,6 +18,7 @@
 #include "mesh/vertex_use.hpp"
 #include "support/guard.hpp"
 #include "support/number_text.hpp"
+#include "support/try.hpp"
 
 namespace geodisk {
 namespace {
@@ -142,9 +143,7 @@ double mean_candidates(const float* density, const float* packing) {
 Result<RadiusField> RadiusField::from_density(const PreparedMesh& mesh,
                                               std::span<const double> density) noexcept {
     return guarded([&]() -> Result<RadiusField> {
-        if (auto checked = check_density(mesh, density); !checked) {
-            return checked.error();
-        }
+        GEODISK_TRY(check_density(mesh, density));
         const DensityUnit unit = unit_of(mesh, density);
         std::vector<float> scaled(density.size(), 0.0f);
         for (std::size_t v = 0; v < density.size(); ++v) {

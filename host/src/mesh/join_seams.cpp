@@ -5,14 +5,13 @@
 #include "mesh/joined_vertices.hpp"
 #include "mesh/seams.hpp"
 #include "support/guard.hpp"
+#include "support/try.hpp"
 
 namespace geodisk {
 
 Result<WeldedMesh> join_seams(const MeshView& mesh) noexcept {
     return guarded([&]() -> Result<WeldedMesh> {
-        if (auto checked = check_mesh(mesh); !checked) {
-            return checked.error();
-        }
+        GEODISK_TRY(check_mesh(mesh));
         VertexSets sets(mesh.vertex_count());
         WeldedMesh result = with_joined(mesh, sets);
         std::uint64_t joined_edges = 0;

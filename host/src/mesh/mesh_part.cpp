@@ -12,6 +12,7 @@
 #include "support/blocks.hpp"
 #include "support/guard.hpp"
 #include "support/invalid.hpp"
+#include "support/try.hpp"
 
 namespace geodisk {
 namespace {
@@ -79,9 +80,7 @@ std::vector<float> corners_of(std::span<const float> values, std::span<const std
 
 Result<PreparedMesh> PreparedMesh::part(std::span<const std::uint32_t> faces) const noexcept {
     return guarded([&]() -> Result<PreparedMesh> {
-        if (auto checked = check_faces(faces, face_count()); !checked) {
-            return checked.error();
-        }
+        GEODISK_TRY(check_faces(faces, face_count()));
         PreparedMesh part;
         auto& edges = part.half_edges_;
         edges.reserve(3 * faces.size());

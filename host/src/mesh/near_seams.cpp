@@ -17,6 +17,7 @@
 #include "mesh/seams.hpp"
 #include "support/blocks.hpp"
 #include "support/guard.hpp"
+#include "support/try.hpp"
 
 namespace geodisk {
 namespace {
@@ -295,9 +296,7 @@ Result<Done> choose_epsilon(const MeshView& mesh, double least, NearSeams& seams
             break;
         }
         const auto welded = weld(mesh, epsilon);
-        if (!welded) {
-            return welded.error();
-        }
+        GEODISK_TRY(welded);
         seams.degenerate_faces = welded->degenerate_faces;
         if (welded->degenerate_faces == 0) {
             break;
@@ -310,12 +309,8 @@ Result<Done> choose_epsilon(const MeshView& mesh, double least, NearSeams& seams
 
 Result<NearSeams> find_near_seams(const MeshView& mesh, const ThreadOptions& threads) noexcept {
     return guarded([&]() -> Result<NearSeams> {
-        if (auto checked = check_mesh(mesh); !checked) {
-            return checked.error();
-        }
-        if (auto checked = check_threads(threads); !checked) {
-            return checked.error();
-        }
+        GEODISK_TRY(check_mesh(mesh));
+        GEODISK_TRY(check_threads(threads));
         NearSeams seams;
         std::vector<EdgeEnds> borders = border_edges(mesh);
         const ScaledMesh scaled(mesh, borders);
@@ -328,9 +323,7 @@ Result<NearSeams> find_near_seams(const MeshView& mesh, const ThreadOptions& thr
         if (seams.edges > 0) {
             const double gap = kGapRounding * seams.gap;
             const double least = kMinEpsilon * longest_side_of(mesh);
-            if (auto chosen = choose_epsilon(mesh, std::max(gap, least), seams); !chosen) {
-                return chosen.error();
-            }
+            GEODISK_TRY(choose_epsilon(mesh, std::max(gap, least), seams));
             if (gap < least && seams.degenerate_faces > 0) { // Wider than the gap, so too much.
                 seams.epsilon = 0;
                 seams.degenerate_faces = 0;

@@ -11,6 +11,7 @@
 #include "mesh/face_frames.hpp"
 #include "mesh/seams.hpp"
 #include "support/guard.hpp"
+#include "support/try.hpp"
 
 namespace geodisk {
 namespace {
@@ -43,9 +44,7 @@ Result<double> measure_extent(const MeshView& mesh, std::span<const HalfEdge>,
 /// For edge lengths, which may contradict each other, the longest edge.
 Result<double> measure_extent(const LengthMeshView&, std::span<const HalfEdge> half_edges,
                               std::span<const VertexFan>, MeshStatistics& statistics) {
-    if (auto checked = check_agreement(half_edges); !checked) {
-        return checked.error();
-    }
+    GEODISK_TRY(check_agreement(half_edges));
     return statistics.longest_edge;
 }
 
@@ -81,12 +80,8 @@ std::uint64_t PreparedMesh::next_identity() noexcept {
 
 template <class View>
 Result<PreparedMesh> PreparedMesh::prepare_any(const View& mesh, const ThreadOptions& threads) {
-    if (auto checked = check_threads(threads); !checked) {
-        return checked.error();
-    }
-    if (auto checked = check_mesh(mesh); !checked) {
-        return checked.error();
-    }
+    GEODISK_TRY(check_threads(threads));
+    GEODISK_TRY(check_mesh(mesh));
     PreparedMesh result;
     MeshStatistics& statistics = result.statistics_;
     UninitializedVector<Link> links;
@@ -96,12 +91,8 @@ Result<PreparedMesh> PreparedMesh::prepare_any(const View& mesh, const ThreadOpt
                                  result.corners_, statistics);
     statistics.coinciding_border_edges = seams_of(mesh, result.half_edges_, borders);
     const auto extent = measure_extent(mesh, result.half_edges_, result.fans_, statistics);
-    if (!extent) {
-        return extent.error();
-    }
-    if (auto checked = check_area(statistics.area, *extent); !checked) {
-        return checked.error();
-    }
+    GEODISK_TRY(extent);
+    GEODISK_TRY(check_area(statistics.area, *extent));
     return result;
 }
 

@@ -10,6 +10,7 @@
 #include "mesh/vertex_use.hpp"
 #include "support/guard.hpp"
 #include "support/number_text.hpp"
+#include "support/try.hpp"
 
 namespace geodisk {
 namespace {
@@ -44,9 +45,7 @@ Result<Done> check_factors(const PreparedMesh& mesh, std::span<const double> fac
 Result<RadiusField> RadiusField::prepare(const PreparedMesh& mesh,
                                          std::span<const double> factors) noexcept {
     return guarded([&]() -> Result<RadiusField> {
-        if (auto checked = check_factors(mesh, factors); !checked) {
-            return checked.error();
-        }
+        GEODISK_TRY(check_factors(mesh, factors));
         // Ignored faces may name vertices that no other face uses.
         std::vector<float> values(factors.size(), 1.0f);
         for (std::size_t v = 0; v < factors.size(); ++v) {

@@ -19,6 +19,7 @@
 #include "support/checksums.hpp"
 #include "support/guard.hpp"
 #include "support/invalid.hpp"
+#include "support/try.hpp"
 
 namespace geodisk {
 namespace {
@@ -416,13 +417,9 @@ Result<std::vector<std::byte>> PreparedMesh::save() const noexcept {
 Result<PreparedMesh> PreparedMesh::load(std::span<const std::byte> bytes,
                                         const ThreadOptions& threads) noexcept {
     return guarded([&]() -> Result<PreparedMesh> {
-        if (auto checked = check_threads(threads); !checked) {
-            return checked.error();
-        }
+        GEODISK_TRY(check_threads(threads));
         const auto header = read_header(bytes);
-        if (!header) {
-            return header.error();
-        }
+        GEODISK_TRY(header);
         PreparedMesh mesh;
         Loader loader(threads, *header, bytes.subspan(sizeof(Header)));
         if (auto loaded =

@@ -11,6 +11,7 @@
 #include "mesh/joined_vertices.hpp"
 #include "mesh/position_table.hpp"
 #include "support/guard.hpp"
+#include "support/try.hpp"
 
 namespace geodisk {
 namespace {
@@ -188,9 +189,7 @@ Result<WeldedMesh> weld(const MeshView& mesh, double epsilon) noexcept {
         if (!(epsilon >= 0) || !std::isfinite(epsilon)) {
             return Error{Status::invalid_argument, "epsilon must be finite and not negative"};
         }
-        if (auto checked = check_mesh(mesh); !checked) {
-            return checked.error();
-        }
+        GEODISK_TRY(check_mesh(mesh));
         VertexSets sets(mesh.vertex_count());
         const std::vector<std::uint32_t> places = join_equal(mesh, sets);
         if (epsilon > 0) {

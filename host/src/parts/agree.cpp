@@ -5,6 +5,8 @@
 #include <iterator>
 #include <utility>
 
+#include "support/try.hpp"
+
 namespace geodisk {
 namespace {
 
@@ -89,18 +91,14 @@ Result<Darts> agree(Exchange& exchange, const Part& part, const Decide& decide,
         report.messages += others.size();
         ++report.rounds;
         const auto received = exchange.swap(others, messages);
-        if (!received) {
-            return received.error();
-        }
+        GEODISK_TRY(received);
         // In the first round near samples become known, if there are any or not.
         bool has_changed = is_first && !others.empty();
         for (std::size_t i = 0; i < others.size(); ++i) {
             has_changed |= dialogs[i].hear((*received)[i]);
         }
         const auto open = exchange.sum(own ? (has_changed ? 1 : 0) : kFailed);
-        if (!open) {
-            return open.error();
-        }
+        GEODISK_TRY(open);
         if (*open >= kFailed) {
             return exchange.first_error(own ? nullptr : &own.error());
         }

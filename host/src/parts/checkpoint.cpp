@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "support/guard.hpp"
+#include "support/try.hpp"
 
 namespace geodisk {
 
@@ -30,9 +31,7 @@ Result<Done> save_stages(Exchange& exchange, const Darts& own, Checkpoint& all, 
     Bytes told;
     append(told, own);
     const auto messages = exchange.gather(std::move(told));
-    if (!messages) {
-        return messages.error();
-    }
+    GEODISK_TRY(messages);
     const auto before = static_cast<std::ptrdiff_t>(all.samples.size());
     for (const Bytes& message : *messages) {
         const Darts darts = darts_of(message);

@@ -7,6 +7,7 @@
 #include "engine/job/order_cut.hpp"
 #include "parts/mesh_turn.hpp"
 #include "support/guard.hpp"
+#include "support/try.hpp"
 
 namespace geodisk {
 namespace {
@@ -19,9 +20,7 @@ Result<std::uint64_t> keep_first(Exchange& exchange, PartRun& run, std::uint32_t
                  static_cast<std::uint32_t>(wanted));
     while (!cut.is_found()) {
         const auto below = exchange.sum(run.own_up_to(stage, cut.guess() - 1));
-        if (!below) {
-            return below.error();
-        }
+        GEODISK_TRY(below);
         cut.note(static_cast<std::uint32_t>(*below));
     }
     run.end_at(cut.end() - 1);
@@ -42,9 +41,7 @@ Result<std::uint64_t> draw(Exchange& exchange, Part& part, PartRun& run, std::ui
         const auto own = run.decide(nullptr);
         return own ? Result<Done>(Done{}) : own.error();
     });
-    if (auto well = exchange.check_all(begun ? nullptr : &begun.error()); !well) {
-        return well.error();
-    }
+    GEODISK_TRY(exchange.check_all(begun ? nullptr : &begun.error()));
     const auto all = exchange.sum(run.own_candidates());
     const std::uint64_t wanted = run.stages().still_wanted(drawn);
     return all && *all > wanted ? keep_first(exchange, run, first, *all, wanted) : all;
@@ -77,19 +74,13 @@ Result<StagesReport> decide_stages(Exchange& exchange, Part& part, PartRun& run,
         const std::uint32_t count =
             std::min(part.max_stages, stages.left(first, report.candidates));
         const auto drawn = draw(exchange, part, run, report.candidates, first, count);
-        if (!drawn) {
-            return drawn.error();
-        }
+        GEODISK_TRY(drawn);
         const auto own = agree(
             exchange, part, [&](const Darts* near) { return decide(exchange, part, run, near); },
             report.agreement);
-        if (!own) {
-            return own.error();
-        }
+        GEODISK_TRY(own);
         const auto more = exchange.sum(own->size());
-        if (!more) {
-            return more.error();
-        }
+        GEODISK_TRY(more);
         accepted += *more;
         report.own_candidates += run.own_candidates();
         report.before = report.candidates;
@@ -99,9 +90,7 @@ Result<StagesReport> decide_stages(Exchange& exchange, Part& part, PartRun& run,
         if (part.checkpoints.is_saved && has_more()) {
             reached.first_stage = first;
             reached.candidates = report.candidates;
-            if (auto saved = save_stages(exchange, *own, reached, part.has_keys, save); !saved) {
-                return saved.error();
-            }
+            GEODISK_TRY(save_stages(exchange, *own, reached, part.has_keys, save));
         }
     }
     return report;

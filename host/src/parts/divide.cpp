@@ -12,6 +12,7 @@
 #include "parts/part_bytes.hpp"
 #include "support/guard.hpp"
 #include "support/invalid.hpp"
+#include "support/try.hpp"
 
 namespace geodisk {
 namespace {
@@ -122,9 +123,7 @@ class Division {
     Result<Bytes> message(std::uint32_t process) {
         Part& part = parts_[process];
         auto mesh = mesh_.part(part.faces);
-        if (!mesh) {
-            return mesh.error();
-        }
+        GEODISK_TRY(mesh);
         part.mesh = std::move(*mesh);
         if (params_.radii != nullptr) {
             part.radii = params_.radii->on_part(part.mesh, part.faces);
@@ -180,13 +179,9 @@ Result<std::vector<Bytes>> divide(const PreparedMesh& mesh, const SampleParams& 
                                   std::span<const std::uint32_t> owners, std::uint32_t processes,
                                   double max_candidates, const Checkpoints* checkpoints) {
     return guarded([&]() -> Result<std::vector<Bytes>> {
-        if (auto checked = check_params(params); !checked) {
-            return checked.error();
-        }
+        GEODISK_TRY(check_params(params));
         const auto frame = frame_of(mesh, params);
-        if (!frame) {
-            return frame.error();
-        }
+        GEODISK_TRY(frame);
         Division division(mesh, params, *frame, owners, processes, max_candidates, checkpoints);
         for (std::uint32_t process = 0; process < processes; ++process) {
             division.choose(process);
@@ -195,9 +190,7 @@ Result<std::vector<Bytes>> divide(const PreparedMesh& mesh, const SampleParams& 
         std::vector<Bytes> messages;
         for (std::uint32_t process = 0; process < processes; ++process) {
             auto message = division.message(process);
-            if (!message) {
-                return message.error();
-            }
+            GEODISK_TRY(message);
             messages.push_back(std::move(*message));
         }
         return messages;

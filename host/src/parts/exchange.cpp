@@ -4,6 +4,8 @@
 #include <string>
 #include <utility>
 
+#include "support/try.hpp"
+
 namespace geodisk {
 namespace {
 
@@ -44,9 +46,7 @@ Result<Bytes> Exchange::scatter(std::vector<Bytes> messages) {
     }
     Bytes own = std::move(messages.front());
     messages.erase(messages.begin());
-    if (auto sent = swap(all_others(), messages); !sent) {
-        return sent.error();
-    }
+    GEODISK_TRY(swap(all_others(), messages));
     return own;
 }
 
@@ -75,17 +75,13 @@ Result<std::vector<Bytes>> Exchange::all_to_all(std::vector<Bytes> messages) {
 
 Result<Done> Exchange::check_all(const Error* error) {
     const auto failed = sum(error != nullptr ? 1 : 0);
-    if (!failed) {
-        return failed.error();
-    }
+    GEODISK_TRY(failed);
     return *failed == 0 ? Result<Done>(Done{}) : Result<Done>(first_error(error));
 }
 
 Error Exchange::first_error(const Error* error) {
     auto received = swap(all_others(), std::vector<Bytes>(size() - 1, to_bytes(error)));
-    if (!received) {
-        return received.error();
-    }
+    GEODISK_TRY(received);
     received->insert(received->begin() + rank(), to_bytes(error));
     for (std::uint32_t process = 0; process < size(); ++process) {
         const Bytes& bytes = (*received)[process];

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "support/guard.hpp"
+#include "support/try.hpp"
 
 namespace geodisk {
 namespace {
@@ -53,15 +54,11 @@ CandidateDraw Part::draw() const {
 
 Result<Bytes> message_of(const Part& part) {
     auto mesh = part.mesh.save();
-    if (!mesh) {
-        return mesh.error();
-    }
+    GEODISK_TRY(mesh);
     std::vector<std::byte> radii;
     if (part.radii) {
         auto saved = part.radii->save();
-        if (!saved) {
-            return saved.error();
-        }
+        GEODISK_TRY(saved);
         radii = std::move(*saved);
     }
     MessageWriter message;
@@ -102,20 +99,14 @@ Result<std::unique_ptr<Part>> part_of(std::span<const std::byte> bytes) {
             return Error{Status::internal, "the part of the surface came incomplete"};
         }
         auto of_whole = frame_from_bytes(frame);
-        if (!of_whole) {
-            return of_whole.error();
-        }
+        GEODISK_TRY(of_whole);
         part->frame = *of_whole;
         auto loaded = PreparedMesh::load(mesh);
-        if (!loaded) {
-            return loaded.error();
-        }
+        GEODISK_TRY(loaded);
         part->mesh = std::move(*loaded);
         if (!radii.empty()) {
             auto field = RadiusField::load(radii);
-            if (!field) {
-                return field.error();
-            }
+            GEODISK_TRY(field);
             part->radii = std::move(*field);
         }
         return part;

@@ -6,6 +6,7 @@
 
 #include "engine/domain/listed.hpp"
 #include "parts/halo.hpp"
+#include "support/try.hpp"
 
 namespace geodisk {
 namespace {
@@ -122,19 +123,13 @@ Result<Darts> PartRun::accepted_of(const Darts& candidates, std::span<const Samp
     SampleParams params = part_.params();
     params.existing = settled;
     const auto domain = listed_domain(part_.mesh, params, part_.frame, list);
-    if (!domain) {
-        return domain.error();
-    }
+    GEODISK_TRY(domain);
     const auto set = runner_.sample_and_wait(*domain, progress_);
-    if (!set) {
-        return set.error();
-    }
+    GEODISK_TRY(set);
     report_.starts += set->report.starts;
     report_.add(set->report);
     const auto places = places_of(std::span(set->samples).subspan(set->existing), list);
-    if (!places) {
-        return places.error();
-    }
+    GEODISK_TRY(places);
     for (const std::size_t place : *places) {
         accepted.push_back(candidates[place]);
     }
@@ -161,9 +156,7 @@ Result<Darts> PartRun::decide(const Darts* near) {
         drawn_.shrink_to_fit();
     } else {
         auto border = decide_border(*near);
-        if (!border) {
-            return border.error();
-        }
+        GEODISK_TRY(border);
         all = *border ? Result<Darts>(std::move(**border)) : decide_all(*near);
     }
     if (!all) {
@@ -204,9 +197,7 @@ Result<std::optional<Darts>> PartRun::decide_border(const Darts& near) {
     std::ranges::merge(kept, near, std::back_inserter(fixed), order_);
     std::ranges::merge(own, fixed, std::back_inserter(candidates), order_);
     auto accepted = accepted_of(candidates, settled_near_);
-    if (!accepted) {
-        return accepted.error();
-    }
+    GEODISK_TRY(accepted);
     ++border_runs_;
     std::erase_if(*accepted, [&](const DrawnCandidate& dart) { return !is_own(dart); });
     Darts before, changed, beyond;

@@ -16,6 +16,7 @@
 #include "parts/ranges/talk.hpp"
 #include "support/guard.hpp"
 #include "support/invalid.hpp"
+#include "support/try.hpp"
 
 namespace geodisk {
 namespace {
@@ -41,9 +42,7 @@ Result<std::vector<Bytes>> parts_of(const WholeSurface& whole, std::uint32_t pro
                            " faces; start at most as many processes");
         }
         // Before the cut, which relies on them.
-        if (const auto frame = frame_of(whole.mesh, whole.params); !frame) {
-            return frame.error();
-        }
+        GEODISK_TRY(frame_of(whole.mesh, whole.params));
         const auto owners = whole.cut(whole.mesh, whole.params, processes);
         return owners ? divide(whole.mesh, whole.params, *owners, processes, whole.max_candidates,
                                whole.checkpoints)
@@ -120,9 +119,7 @@ Result<std::uint64_t> candidates_up_to(Exchange& exchange, const PartRun& run,
     Bytes told;
     append(told, std::span(&last, 1));
     const auto heard = exchange.scatter(std::vector<Bytes>(exchange.size(), told));
-    if (!heard) {
-        return heard.error();
-    }
+    GEODISK_TRY(heard);
     const DrawnCandidate end = darts_of(*heard).front();
     return exchange.sum(run.own_up_to(end.stage, end.priority));
 }
@@ -149,9 +146,7 @@ Result<Done> settle(Exchange& exchange, Part& part, const Checkpoints* checkpoin
                              .subspan(begin, std::min(at_once, count - begin)));
         }
         const auto heard = exchange.scatter(std::vector<Bytes>(exchange.size(), told));
-        if (!heard) {
-            return heard.error();
-        }
+        GEODISK_TRY(heard);
         for (const DrawnCandidate& dart : darts_of(*heard)) {
             const auto at = std::ranges::lower_bound(part.faces, dart.point.face);
             if (at != part.faces.end() && *at == dart.point.face &&
@@ -175,23 +170,17 @@ Result<PartsResult> sample_all(Exchange& exchange, Runner& runner,
     summary.process.part_bytes = part_bytes;
     std::optional<PartRun> run;
     const auto begun = guarded([&]() -> Result<Done> {
-        if (!part) {
-            return part.error();
-        }
+        GEODISK_TRY(part);
         const MeshTurn turn(exchange, **part);
         run.emplace(**part, runner, progress);
         return Done{};
     });
-    if (auto well = exchange.check_all(error_of(begun)); !well) {
-        return well.error();
-    }
+    GEODISK_TRY(exchange.check_all(error_of(begun)));
     const Checkpoints none;
     const Checkpoints& checkpoints = given != nullptr ? *given : none;
     Checkpoint reached = checkpoints.from != nullptr ? *checkpoints.from : Checkpoint();
     const auto stages = decide_stages(exchange, **part, *run, reached, checkpoints.save);
-    if (!stages) {
-        return stages.error();
-    }
+    GEODISK_TRY(stages);
     const Darts own = run->samples();
     ProcessReport& report = summary.process;
     report.own_faces =
@@ -211,9 +200,7 @@ Result<PartsResult> sample_all(Exchange& exchange, Runner& runner,
     std::memcpy(told.data(), &summary, sizeof summary);
     append(told, own);
     const auto all = exchange.gather(std::move(told));
-    if (!all) {
-        return all.error();
-    }
+    GEODISK_TRY(all);
     PartsResult result;
     Darts darts;
     if (params != nullptr) {
@@ -223,17 +210,13 @@ Result<PartsResult> sample_all(Exchange& exchange, Runner& runner,
     if (stages->is_stopped) {
         const auto last =
             candidates_up_to(exchange, *run, darts.empty() ? DrawnCandidate() : darts.back());
-        if (!last) {
-            return last.error();
-        }
+        GEODISK_TRY(last);
         candidates = stages->before + *last;
     }
     result.set.report.candidates = static_cast<std::uint32_t>(candidates);
     if ((*part)->checkpoints.is_saved) {
         reached = {kNoStage, candidates, std::move(darts)};
-        if (auto saved = save_on_first(exchange, reached, checkpoints.save); !saved) {
-            return saved.error();
-        }
+        GEODISK_TRY(save_on_first(exchange, reached, checkpoints.save));
     }
     return result;
 }
@@ -246,13 +229,9 @@ Result<PartsResult> sample_parts(Exchange& exchange, Runner& runner, const Whole
     if (whole != nullptr) {
         parts = parts_of(*whole, exchange.size());
     }
-    if (auto well = exchange.check_all(error_of(parts)); !well) {
-        return well.error();
-    }
+    GEODISK_TRY(exchange.check_all(error_of(parts)));
     auto message = exchange.scatter(std::move(*parts));
-    if (!message) {
-        return message.error();
-    }
+    GEODISK_TRY(message);
     const auto part = part_of(*message);
     const std::uint64_t bytes = message->size();
     *message = {};
@@ -264,20 +243,12 @@ Result<PartsResult> sample_ranges(Exchange& exchange, Runner& runner, const Rang
                                   const SampleParams& params, const Checkpoints* checkpoints,
                                   const ProgressCallback& progress, double max_candidates) {
     const auto frame = surface.frame(params);
-    if (!frame) {
-        return frame.error();
-    }
+    GEODISK_TRY(frame);
     const auto terms = agreed_terms(exchange, checkpoints);
-    if (!terms) {
-        return terms.error();
-    }
+    GEODISK_TRY(terms);
     const auto part = surface.part(exchange, params, *frame, max_candidates, *terms);
-    if (!part) {
-        return part.error();
-    }
-    if (auto settled = settle(exchange, **part, checkpoints); !settled) {
-        return settled.error();
-    }
+    GEODISK_TRY(part);
+    GEODISK_TRY(settle(exchange, **part, checkpoints));
     return sample_all(exchange, runner, part, 0, exchange.rank() == 0 ? &params : nullptr,
                       checkpoints, progress);
 }

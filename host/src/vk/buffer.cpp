@@ -4,6 +4,7 @@
 #include <string>
 #include <utility>
 
+#include "support/try.hpp"
 #include "vk/result.hpp"
 
 namespace geodisk {
@@ -67,9 +68,7 @@ Result<DeviceBuffer> DeviceBuffer::create(const DeviceRefs& device, const Device
     auto allocated = device.memory_hooks != nullptr
                          ? result.ask_for_memory(requirements, kind)
                          : result.allocate_memory(memory, requirements, kind);
-    if (!allocated) {
-        return allocated.error();
-    }
+    GEODISK_TRY(allocated);
     status = vk.vkBindBufferMemory(device.device, result.buffer_, result.grant_.memory,
                                    result.grant_.offset);
     if (status != VK_SUCCESS) {

@@ -12,6 +12,7 @@
 #include "mesh/face_area.hpp"
 #include "support/blocks.hpp"
 #include "support/guard.hpp"
+#include "support/try.hpp"
 
 namespace geodisk {
 namespace {
@@ -160,9 +161,7 @@ Result<SurfaceCells> find_cells(Runner& runner, const PreparedMesh& mesh,
                                 const ProgressCallback& progress) noexcept {
     return guarded([&]() -> Result<SurfaceCells> {
         const auto lit = LitSamples::make(runner, mesh, samples, params, progress);
-        if (!lit) {
-            return lit.error();
-        }
+        GEODISK_TRY(lit);
         const Runner::Impl& impl = Runner::Impl::of(runner);
         const double start = impl.now();
         auto cells = cells_of(mesh, **lit, impl.options.threads, progress);

@@ -12,6 +12,7 @@
 #include "engine/run/record_disks.hpp"
 #include "mesh/extent.hpp"
 #include "support/number_text.hpp"
+#include "support/try.hpp"
 
 namespace geodisk {
 namespace {
@@ -98,15 +99,11 @@ Result<std::size_t> LitCells::some_disks(std::span<const std::uint32_t> samples,
     params.avoid = disks;
     const auto domain = SurfaceDomain::recording(mesh_, params, frame_, Ending::light, {},
                                                  static_cast<std::uint32_t>(room));
-    if (!domain) {
-        return domain.error();
-    }
+    GEODISK_TRY(domain);
     DiskRecords records;
     const auto recorded = record_disks(runner_, *domain, records,
                                        [this](const Progress& now) { return report(now); });
-    if (!recorded) {
-        return recorded.error();
-    }
+    GEODISK_TRY(recorded);
     report_.add(*recorded);
     report_.plan.trims |= recorded->plan.trims;
     records_per_disk_ = std::max(records_per_disk_, records.wanted / count);
@@ -126,9 +123,7 @@ Result<Done> LitCells::all_disks(std::span<const std::uint32_t> samples, const T
     left_ = samples.size();
     while (left_ > 0) {
         const auto done = some_disks(samples.last(left_), take);
-        if (!done) {
-            return done.error();
-        }
+        GEODISK_TRY(done);
         left_ -= *done;
         const double of_all =
             static_cast<double>(samples.size()) / static_cast<double>(samples.size() - left_);

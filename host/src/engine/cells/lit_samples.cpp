@@ -8,6 +8,7 @@
 #include "engine/cells/grid_points.hpp"
 #include "engine/domain/existing.hpp"
 #include "support/invalid.hpp"
+#include "support/try.hpp"
 
 namespace geodisk {
 namespace {
@@ -55,9 +56,7 @@ Result<std::unique_ptr<LitSamples>> LitSamples::make(Runner& runner, const Prepa
                                                      std::span<const Sample> samples,
                                                      const CellParams& params,
                                                      const ProgressCallback& progress) {
-    if (auto checked = check_samples(mesh, samples); !checked) {
-        return checked.error();
-    }
+    GEODISK_TRY(check_samples(mesh, samples));
     auto made = std::make_unique<LitSamples>();
     made->params = params;
     made->progress = progress;
@@ -73,15 +72,11 @@ Result<std::unique_ptr<LitSamples>> LitSamples::make(Runner& runner, const Prepa
     made->job.darts = 1; // A pool might be too large, and none is drawn.
     const auto frame = frame_of(mesh, made->job);
     made->job.darts = 0;
-    if (!frame) {
-        return frame.error();
-    }
+    GEODISK_TRY(frame);
     made->frame = *frame;
     made->lit = std::make_unique<LitCells>(runner, mesh, made->samples, made->job, made->frame,
                                            made->params, made->progress);
-    if (auto done = made->lit->light(); !done) {
-        return done.error();
-    }
+    GEODISK_TRY(made->lit->light());
     return made;
 }
 

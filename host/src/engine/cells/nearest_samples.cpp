@@ -18,6 +18,7 @@
 #include "support/blocks.hpp"
 #include "support/guard.hpp"
 #include "support/invalid.hpp"
+#include "support/try.hpp"
 
 namespace geodisk {
 namespace {
@@ -136,12 +137,8 @@ Result<NearestSamples> NearestSamples::create(Runner& runner, const PreparedMesh
             return progress(now);
         };
         auto lit = LitSamples::make(runner, mesh, samples, params, progress ? heard : nullptr);
-        if (!lit) {
-            return lit.error();
-        }
-        if (auto checked = check_range((*lit)->frame.unit, distance_bound(mesh)); !checked) {
-            return checked.error();
-        }
+        GEODISK_TRY(lit);
+        GEODISK_TRY(check_range((*lit)->frame.unit, distance_bound(mesh)));
         auto impl = std::make_unique<Impl>();
         impl->mesh = &mesh;
         impl->threads = Runner::Impl::of(runner).options.threads;
@@ -156,9 +153,7 @@ Result<std::vector<NearestSample>>
 NearestSamples::of(std::span<const Sample> points) const noexcept {
     return guarded([&]() -> Result<std::vector<NearestSample>> {
         auto places = places_of(*impl_->mesh, points);
-        if (!places) {
-            return places.error();
-        }
+        GEODISK_TRY(places);
         std::vector<NearestSample> found(points.size());
         const LitCells& lit = *impl_->samples->lit;
         const std::size_t parts = (places->size() + kPointsPerPart - 1) / kPointsPerPart;

@@ -10,6 +10,7 @@
 #include "bindings.h"
 #include "engine/capacity.hpp"
 #include "support/guard.hpp"
+#include "support/try.hpp"
 
 namespace geodisk {
 namespace {
@@ -30,9 +31,7 @@ double crowd_of(const BoxParams& box) {
 
 Result<Domain> Domain::box(const BoxParams& box) noexcept {
     return guarded([&]() -> Result<Domain> {
-        if (auto checked = pool_size(box); !checked) {
-            return checked.error();
-        }
+        GEODISK_TRY(pool_size(box));
         return Domain(std::make_unique<BoxDomain>(box));
     });
 }

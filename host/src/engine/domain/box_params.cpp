@@ -13,6 +13,7 @@
 #include "support/guard.hpp"
 #include "support/invalid.hpp"
 #include "support/number_text.hpp"
+#include "support/try.hpp"
 
 namespace geodisk {
 namespace {
@@ -110,9 +111,7 @@ Result<std::uint32_t> pool_size(const BoxParams& box) noexcept {
         if (!(box.pool_ratio >= 1 && box.pool_ratio <= 10000)) {
             return invalid("the pool ratio must be 1 to 10,000");
         }
-        if (auto checked = check_sides(box); !checked) {
-            return checked.error();
-        }
+        GEODISK_TRY(check_sides(box));
         const Stages stages = stages_of(box);
         if (!(stages.per_sample(0) * samples_per_volume(box) <= kLargestIntensity)) {
             return invalid(

@@ -7,6 +7,7 @@
 #include "engine/domain/tolerances.hpp"
 #include "support/invalid.hpp"
 #include "support/number_text.hpp"
+#include "support/try.hpp"
 
 namespace geodisk {
 namespace {
@@ -55,9 +56,7 @@ Result<Done> check_values(const JobFrame& frame) {
 }
 
 Result<Done> check_job(const JobFrame& frame, const SampleParams& params) {
-    if (auto checked = check_values(frame); !checked) {
-        return checked.error();
-    }
+    GEODISK_TRY(check_values(frame));
     if (frame.min_distance != params.min_distance) {
         return unlike("its minimum distance is " + exact_text(frame.min_distance) + ", not " +
                       exact_text(params.min_distance));

@@ -16,6 +16,7 @@
 #include "engine/domain/stages.hpp"
 #include "records.h"
 #include "support/blocks.hpp"
+#include "support/try.hpp"
 
 namespace geodisk {
 namespace {
@@ -346,9 +347,7 @@ Result<Done> add_radii(PlacedSurfaces surfaces, UploadParts& parts) {
     for (const PlacedSurface& surface : surfaces) {
         const SampleParams& params = surface.params;
         const auto bounds = params.radii->reach_bounds(*surface.mesh, params.min_distance);
-        if (!bounds) {
-            return bounds.error();
-        }
+        GEODISK_TRY(bounds);
         all.insert(all.end(), bounds->begin(), bounds->end());
     }
     const std::uint32_t count = face_count(surfaces);

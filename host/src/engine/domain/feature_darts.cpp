@@ -11,6 +11,7 @@
 #include "geodisk/detail/philox.hpp"
 #include "support/guard.hpp"
 #include "support/invalid.hpp"
+#include "support/try.hpp"
 
 namespace geodisk {
 namespace {
@@ -153,12 +154,8 @@ std::vector<ListedCandidate> feature_darts(const PreparedMesh& mesh, const Sampl
 Result<Domain> feature_domain(const PreparedMesh& mesh, const SampleParams& params,
                               const Features& features) noexcept {
     return guarded([&]() -> Result<Domain> {
-        if (auto checked = pool_size(mesh, params); !checked) {
-            return checked.error();
-        }
-        if (auto checked = check(mesh, params, features); !checked) {
-            return checked.error();
-        }
+        GEODISK_TRY(pool_size(mesh, params));
+        GEODISK_TRY(check(mesh, params, features));
         SampleParams own = params;
         own.maximal = false; // The surface may be, with these.
         return listed_domain(mesh, own, feature_darts(mesh, own, features));

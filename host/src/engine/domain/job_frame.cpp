@@ -7,6 +7,7 @@
 #include "engine/domain/stages.hpp"
 #include "engine/domain/tolerances.hpp"
 #include "support/guard.hpp"
+#include "support/try.hpp"
 
 namespace geodisk {
 namespace {
@@ -20,9 +21,7 @@ constexpr double kHeapFaces = 1u << 14;
 Result<JobFrame> frame_with(const PreparedMesh& mesh, const SampleParams& params,
                             const Areas& areas) {
     const Stages stages = stages_of(mesh, params, areas.taken);
-    if (auto checked = check_candidates(mesh, params, stages); !checked) {
-        return checked.error();
-    }
+    GEODISK_TRY(check_candidates(mesh, params, stages));
     const MeshStatistics& statistics = mesh.statistics();
     const double full = expected_count(areas.whole, params.min_distance);
     JobFrame frame;
@@ -52,9 +51,7 @@ bool decide_alike(const JobFrame& a, const JobFrame& b) noexcept {
 
 Result<JobFrame> frame_of(const PreparedMesh& mesh, const SampleParams& params) noexcept {
     return guarded([&]() -> Result<JobFrame> {
-        if (auto checked = check_params(mesh, params); !checked) {
-            return checked.error();
-        }
+        GEODISK_TRY(check_params(mesh, params));
         return frame_with(mesh, params, {whole_area(mesh, params), effective_area(mesh, params)});
     });
 }

@@ -12,6 +12,7 @@
 #include "support/checksums.hpp"
 #include "support/guard.hpp"
 #include "support/invalid.hpp"
+#include "support/try.hpp"
 
 namespace geodisk {
 namespace {
@@ -111,9 +112,7 @@ Result<JobFrame> frame_from_bytes(std::span<const std::byte> bytes) noexcept {
                            ", and this is " + std::to_string(GEODISK_SAMPLING_VERSION) +
                            ", in which a seed gives other sets");
         }
-        if (auto checked = check_values(frame); !checked) {
-            return checked.error();
-        }
+        GEODISK_TRY(check_values(frame));
         return frame;
     });
 }

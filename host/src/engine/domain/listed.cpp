@@ -15,6 +15,7 @@
 #include "records.h"
 #include "support/guard.hpp"
 #include "support/invalid.hpp"
+#include "support/try.hpp"
 
 namespace geodisk {
 namespace {
@@ -129,9 +130,7 @@ Result<Domain> SurfaceDomain::listed(const PreparedMesh& mesh, const SampleParam
     PlacedSurface surface = placed(mesh, params, frame);
     surface.stages = listed_stages(surface.stages.samples, candidates.size());
     auto cells = count_cells({&surface, 1});
-    if (!cells) {
-        return cells.error();
-    }
+    GEODISK_TRY(cells);
     auto made = std::make_unique<SurfaceDomain>(std::vector{surface}, std::move(*cells));
     made->is_listed = true;
     made->listed_ = listed_buffers(surface, made->cells_, candidates);
@@ -150,9 +149,7 @@ Result<Domain> SurfaceDomain::recording(const PreparedMesh& mesh, const SamplePa
     PlacedSurface surface = placed(mesh, params, frame);
     surface.stages = listed_stages(surface.stages.samples, candidates.size());
     auto cells = targets.empty() ? FaceCells{} : count_cells({&surface, 1});
-    if (!cells) {
-        return cells.error();
-    }
+    GEODISK_TRY(cells);
     auto made = std::make_unique<SurfaceDomain>(std::vector{surface}, std::move(*cells));
     made->is_listed = true;
     made->listed_ = listed_buffers(surface, made->cells_, candidates);
@@ -176,9 +173,7 @@ Result<Domain> listed_domain(const PreparedMesh& mesh, const SampleParams& param
                              std::span<const ListedCandidate> candidates) noexcept {
     return guarded([&]() -> Result<Domain> {
         const auto frame = frame_of(mesh, params);
-        if (!frame) {
-            return frame.error();
-        }
+        GEODISK_TRY(frame);
         return listed_domain(mesh, params, *frame, candidates);
     });
 }
@@ -187,15 +182,9 @@ Result<Domain> listed_domain(const PreparedMesh& mesh, const SampleParams& param
                              const JobFrame& frame,
                              std::span<const ListedCandidate> candidates) noexcept {
     return guarded([&]() -> Result<Domain> {
-        if (auto checked = check_params(mesh, params); !checked) {
-            return checked.error();
-        }
-        if (auto checked = check_frame(frame, mesh, params); !checked) {
-            return checked.error();
-        }
-        if (auto checked = check_listed(mesh, params, candidates); !checked) {
-            return checked.error();
-        }
+        GEODISK_TRY(check_params(mesh, params));
+        GEODISK_TRY(check_frame(frame, mesh, params));
+        GEODISK_TRY(check_listed(mesh, params, candidates));
         return SurfaceDomain::listed(mesh, params, frame, candidates);
     });
 }

@@ -11,6 +11,7 @@
 #include "support/guard.hpp"
 #include "support/invalid.hpp"
 #include "support/number_text.hpp"
+#include "support/try.hpp"
 
 namespace geodisk {
 namespace {
@@ -164,15 +165,9 @@ Result<Done> check_params(const PreparedMesh& mesh, const SampleParams& params) 
         return invalid("there are " + std::to_string(params.face_keys.size()) + " face keys for " +
                        std::to_string(mesh.face_count()) + " faces");
     }
-    if (auto checked = check_classes(params); !checked) {
-        return checked.error();
-    }
-    if (auto checked = check_mask(mesh, params); !checked) {
-        return checked.error();
-    }
-    if (auto checked = check_maximal(params); !checked) {
-        return checked.error();
-    }
+    GEODISK_TRY(check_classes(params));
+    GEODISK_TRY(check_mask(mesh, params));
+    GEODISK_TRY(check_maximal(params));
     return check_existing(mesh, params);
 }
 
@@ -202,17 +197,13 @@ Result<std::uint32_t> check_candidates(const PreparedMesh& mesh, const SamplePar
             number_text(longest) + " times as long, and single precision resolves at most " +
             number_text(kLongestEdge) + " times; raise it, lower the count, or split long edges");
     }
-    if (auto checked = check_largest_face(mesh, params, stages); !checked) {
-        return checked.error();
-    }
+    GEODISK_TRY(check_largest_face(mesh, params, stages));
     return static_cast<std::uint32_t>(wanted);
 }
 
 Result<std::uint32_t> pool_size(const PreparedMesh& mesh, const SampleParams& params) noexcept {
     return guarded([&]() -> Result<std::uint32_t> {
-        if (auto checked = check_params(mesh, params); !checked) {
-            return checked.error();
-        }
+        GEODISK_TRY(check_params(mesh, params));
         return check_candidates(mesh, params, stages_of(mesh, params));
     });
 }

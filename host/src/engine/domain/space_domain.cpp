@@ -16,6 +16,7 @@
 #include "engine/domain/stages.hpp"
 #include "engine/domain/tolerances.hpp"
 #include "support/guard.hpp"
+#include "support/try.hpp"
 
 namespace geodisk {
 namespace {
@@ -117,9 +118,7 @@ double SpaceFrame::guard() const {
 Result<Domain> Domain::surface_in_space(const MeshView& view, const PreparedMesh& mesh,
                                         const SampleParams& params, Metric metric) noexcept {
     return guarded([&]() -> Result<Domain> {
-        if (auto checked = pool_size(mesh, params); !checked) {
-            return checked.error();
-        }
+        GEODISK_TRY(pool_size(mesh, params));
         if (params.radii != nullptr) {
             return Error{Status::invalid_argument,
                          "SampleParams::radii is for geodesic distances alone"};
@@ -136,9 +135,7 @@ Result<Domain> Domain::surface_in_space(const MeshView& view, const PreparedMesh
             return Error{Status::invalid_argument,
                          "SampleParams::avoid is for geodesic distances alone"};
         }
-        if (auto checked = check_view(view, mesh); !checked) {
-            return checked.error();
-        }
+        GEODISK_TRY(check_view(view, mesh));
         SpaceFrame frame(view, params);
         if (!(frame.guard() <= kWidestGuard)) {
             return Error{Status::invalid_argument,

@@ -18,6 +18,7 @@
 #include "records.h"
 #include "support/guard.hpp"
 #include "support/invalid.hpp"
+#include "support/try.hpp"
 
 namespace geodisk {
 namespace {
@@ -116,9 +117,7 @@ Result<PlacedSurface> place(const SurfacePart& part) {
     SampleParams params = part.params;
     params.min_distance /= part.scale;
     const auto frame = frame_of(*part.mesh, params);
-    if (!frame) {
-        return frame.error();
-    }
+    GEODISK_TRY(frame);
     if (params.darts != 0 || params.stop_count != 0) {
         return invalid("of several surfaces, darts and samples are not counted");
     }
@@ -142,9 +141,7 @@ PlacedSurface placed(const PreparedMesh& mesh, const SampleParams& params, const
 Result<Domain> Domain::surface(const PreparedMesh& mesh, const SampleParams& params) noexcept {
     return guarded([&]() -> Result<Domain> {
         const auto frame = frame_of(mesh, params);
-        if (!frame) {
-            return frame.error();
-        }
+        GEODISK_TRY(frame);
         return wrapped(SurfaceDomain::make({placed(mesh, params, *frame)}));
     });
 }
@@ -152,19 +149,11 @@ Result<Domain> Domain::surface(const PreparedMesh& mesh, const SampleParams& par
 Result<Domain> Domain::surface(const PreparedMesh& mesh, const SampleParams& params,
                                const JobFrame& frame) noexcept {
     return guarded([&]() -> Result<Domain> {
-        if (auto checked = check_params(mesh, params); !checked) {
-            return checked.error();
-        }
-        if (auto checked = check_job(frame, params); !checked) {
-            return checked.error();
-        }
+        GEODISK_TRY(check_params(mesh, params));
+        GEODISK_TRY(check_job(frame, params));
         const PlacedSurface surface = placed(mesh, params, frame);
-        if (auto checked = check_candidates(mesh, params, surface.stages); !checked) {
-            return checked.error();
-        }
-        if (auto checked = check_frame(frame, mesh, params); !checked) {
-            return checked.error();
-        }
+        GEODISK_TRY(check_candidates(mesh, params, surface.stages));
+        GEODISK_TRY(check_frame(frame, mesh, params));
         return wrapped(SurfaceDomain::make({surface}));
     });
 }
@@ -208,9 +197,7 @@ Result<Domain> Domain::surfaces(std::span<const SurfacePart> parts) noexcept {
 Result<std::unique_ptr<const Domain::Impl>>
 SurfaceDomain::make(std::vector<PlacedSurface> surfaces) {
     auto cells = count_cells(surfaces);
-    if (!cells) {
-        return cells.error();
-    }
+    GEODISK_TRY(cells);
     auto made = std::make_unique<SurfaceDomain>(std::move(surfaces), std::move(*cells));
     made->bound_existing();
     return std::unique_ptr<const Impl>(std::move(made));
@@ -461,9 +448,7 @@ Result<UploadParts> SurfaceDomain::upload_parts(const RunPlan&, BufferRole role)
     } else if (role == BufferRole::fans) {
         add_fans(surfaces_, parts);
         if (has_radii(surfaces_)) {
-            if (auto added = add_radii(surfaces_, parts); !added) {
-                return added.error();
-            }
+            GEODISK_TRY(add_radii(surfaces_, parts));
         }
         if (!bounds_.empty()) {
             parts.push_back(upload_part(std::span(bounds_)));

@@ -9,6 +9,7 @@
 #include "engine/job/sampler_impl.hpp"
 #include "records.h"
 #include "support/guard.hpp"
+#include "support/try.hpp"
 
 namespace geodisk {
 namespace {
@@ -130,14 +131,10 @@ Result<Advice> Job::Impl::advance(const gpu::ControlRec& control, std::uint64_t 
     if (control.abi != gpu::kAbi) {
         return Error{Status::internal, "the control record is not one of this library's"};
     }
-    if (auto checked = check_overflow(control, constants.capacity); !checked) {
-        return checked.error();
-    }
+    GEODISK_TRY(check_overflow(control, constants.capacity));
     if ((control.overflow & gpu::kOverflowSamples) != 0) {
         const auto capacity = larger_capacity(control, plan.slots, sampler->report);
-        if (!capacity) {
-            return capacity.error();
-        }
+        GEODISK_TRY(capacity);
         advice.sample_capacity = *capacity;
         return next(Next::larger_samples);
     }
@@ -148,9 +145,7 @@ Result<Advice> Job::Impl::advance(const gpu::ControlRec& control, std::uint64_t 
         before.lanes = max_lanes;
         const std::uint64_t most = pool_bytes != 0 ? pool_bytes : workspace[gpu::kBindPool].size;
         auto grown = grown_plan(before, control.overflow, most, sampler->report, last);
-        if (!grown) {
-            return grown.error();
-        }
+        GEODISK_TRY(grown);
         advice.plan = *grown;
         return next(Next::larger_pool);
     }

@@ -17,6 +17,7 @@
 #include "engine/kernels/loop_bounds.hpp"
 #include "records.h"
 #include "support/guard.hpp"
+#include "support/try.hpp"
 #include "vk/descriptors.hpp"
 #include "vk/result.hpp"
 
@@ -101,9 +102,7 @@ Result<Done> Job::Impl::choose_kernels(KernelVariant wanted, const RunPlan& for_
     wanted.trims = for_plan.trims && has_slices;
     wanted.lanes_apart = for_plan.pool_block != sampler->choices.tuning.pool_block && has_slices;
     const auto pipelines = sampler->pipelines.of(wanted);
-    if (!pipelines) {
-        return pipelines.error();
-    }
+    GEODISK_TRY(pipelines);
     own_pipelines = *pipelines;
     variant = wanted;
     return Done{};
@@ -281,9 +280,7 @@ Result<Job> Sampler::make_job(const Domain& domain, const RunPlan& plan,
     return guarded([&]() -> Result<Job> {
         auto job = std::make_unique<Job::Impl>();
         job->sampler = impl_.get();
-        if (auto made = job->set_out(domain, plan, workspace); !made) {
-            return made.error();
-        }
+        GEODISK_TRY(job->set_out(domain, plan, workspace));
         return Job(std::move(job));
     });
 }
@@ -308,9 +305,7 @@ Result<Done> Job::Impl::set_out(const Domain& of_domain, const RunPlan& new_plan
         return checked;
     }
     const auto needs = needs_of(of_domain, new_plan, sampler->report);
-    if (!needs) {
-        return needs.error();
-    }
+    GEODISK_TRY(needs);
     const Domain::Impl& of = Domain::Impl::of(of_domain);
     if (of.maximal) {
         return Error{Status::invalid_argument,
@@ -463,9 +458,7 @@ void Job::Impl::destroy_view(VkBufferView view) const {
 
 Result<Done> Job::Impl::replace_buffer(std::size_t buffer, const BufferRange& range) {
     auto view = create_view(buffer, range);
-    if (!view) {
-        return view.error();
-    }
+    GEODISK_TRY(view);
     workspace[buffer] = range;
     const VkBufferView before = std::exchange(views[buffer], *view);
     if (range.buffer != VK_NULL_HANDLE) {

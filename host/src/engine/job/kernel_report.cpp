@@ -5,6 +5,7 @@
 
 #include "engine/job/sampler_impl.hpp"
 #include "support/guard.hpp"
+#include "support/try.hpp"
 #include "vk/enumerate.hpp"
 #include "vk/result.hpp"
 
@@ -130,9 +131,7 @@ Result<std::vector<KernelReport>> Sampler::report_kernels() const noexcept {
                          "kernels are reported on where DeviceRefs::pipeline_statistics is set"};
         }
         const auto vk = load_report_table(impl_->device);
-        if (!vk) {
-            return vk.error();
-        }
+        GEODISK_TRY(vk);
         std::vector<KernelReport> reports;
         const auto add = [&](const KernelPipelines& pipelines,
                              const KernelVariant& variant) -> Result<Done> {
@@ -151,17 +150,11 @@ Result<std::vector<KernelReport>> Sampler::report_kernels() const noexcept {
             }
             return Done{};
         };
-        if (auto added = add(impl_->pipelines.common(), {DomainKind::any}); !added) {
-            return added.error();
-        }
+        GEODISK_TRY(add(impl_->pipelines.common(), {DomainKind::any}));
         for (const KernelVariant& variant : all_kernel_variants()) {
             const auto pipelines = impl_->pipelines.of(variant);
-            if (!pipelines) {
-                return pipelines.error();
-            }
-            if (auto added = add(**pipelines, variant); !added) {
-                return added.error();
-            }
+            GEODISK_TRY(pipelines);
+            GEODISK_TRY(add(**pipelines, variant));
         }
         return reports;
     });

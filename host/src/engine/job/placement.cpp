@@ -16,6 +16,7 @@
 #include "records.h"
 #include "support/guard.hpp"
 #include "support/invalid.hpp"
+#include "support/try.hpp"
 #include "vk/barriers.hpp"
 #include "vk/descriptors.hpp"
 
@@ -143,9 +144,7 @@ Result<Placement> Placement::create(const Sampler& sampler, const Domain& domain
             return invalid("only samples of a surface by geodesic distance can be placed, by the "
                            "job's own domain");
         }
-        if (auto checked = check_layout(source); !checked) {
-            return checked.error();
-        }
+        GEODISK_TRY(check_layout(source));
         const bool is_one = !of.kernels.several;
         const std::uint64_t faces = own.constants.faces;
         const CallersRanges ranges{
@@ -158,17 +157,13 @@ Result<Placement> Placement::create(const Sampler& sampler, const Domain& domain
               VkDeviceSize{own.plan.sample_capacity} * sizeof(gpu::PlacedRec)},
              {gpu::kBindArguments, "arguments", target.arguments, kArgumentBytes}}};
         const Sampler::Impl& with = Sampler::Impl::of(sampler);
-        if (auto checked = check_ranges(ranges, own.workspace, with); !checked) {
-            return checked.error();
-        }
+        GEODISK_TRY(check_ranges(ranges, own.workspace, with));
         KernelVariant variant;
         variant.domain = DomainKind::placement;
         variant.adaptive = of.kernels.adaptive;
         variant.several = of.kernels.several;
         const auto pipelines = with.pipelines.of(variant);
-        if (!pipelines) {
-            return pipelines.error();
-        }
+        GEODISK_TRY(pipelines);
         auto made = std::make_unique<Impl>();
         made->sampler = &with;
         made->pipeline = (**pipelines)[kPlace];
@@ -186,9 +181,7 @@ Result<Placement> Placement::create(const Sampler& sampler, const Domain& domain
         made->push.short_indices = source.index_bytes == 2 ? 1 : 0;
         made->push.vertices_each = target.vertices_each;
         made->push.radius = static_cast<float>(of.largest_radius);
-        if (auto allocated = made->allocate_set(); !allocated) {
-            return allocated.error();
-        }
+        GEODISK_TRY(made->allocate_set());
         made->bind(own, ranges);
         return Placement(std::move(made));
     });

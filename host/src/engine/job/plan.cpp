@@ -18,6 +18,7 @@
 #include "push.h"
 #include "records.h"
 #include "support/guard.hpp"
+#include "support/try.hpp"
 
 namespace geodisk {
 namespace {
@@ -250,9 +251,7 @@ Result<WorkspaceNeeds> needs_of(const Domain& domain, const RunPlan& plan,
     needs.bytes[gpu::kBindAccepted] = samples[1];
     needs.bytes[gpu::kBindBuckets] = samples[2];
     of.add_needs(needs, candidates, plan);
-    if (auto checked = check_needs(needs, of, candidates, report); !checked) {
-        return checked.error();
-    }
+    GEODISK_TRY(check_needs(needs, of, candidates, report));
     return needs;
 }
 
@@ -265,9 +264,7 @@ Result<WorkspaceNeeds> Sampler::workspace_needs(const Domain& domain, const RunP
         for (std::uint32_t i = 0; i < regrowths; ++i) {
             const auto grown =
                 grown_plan(larger, kAll, ~std::uint64_t{0}, impl_->report, LastResort::none);
-            if (!grown) {
-                return grown.error();
-            }
+            GEODISK_TRY(grown);
             larger = *grown;
             larger.sample_capacity += std::min(larger.sample_capacity / 2, ~larger.sample_capacity);
         }

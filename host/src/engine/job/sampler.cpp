@@ -8,6 +8,7 @@
 #include "engine/domain/domain_impl.hpp"
 #include "engine/job/sampler_impl.hpp"
 #include "support/guard.hpp"
+#include "support/try.hpp"
 
 namespace geodisk {
 namespace {
@@ -38,21 +39,15 @@ Result<Sampler> Sampler::create(const DeviceRefs& device, const SamplerOptions& 
     return guarded([&]() -> Result<Sampler> {
         auto report =
             query_device(device.get_instance_proc_addr, device.instance, device.physical_device);
-        if (!report) {
-            return report.error();
-        }
+        GEODISK_TRY(report);
         if (!report->usable()) {
             return Error{Status::device_lacks,
                          report->name + " cannot run geodisk: " + join(report->reasons_against)};
         }
         const auto tuning = chosen_tuning(options.tuning, *report);
-        if (!tuning) {
-            return tuning.error();
-        }
+        GEODISK_TRY(tuning);
         const auto table = load_device_table(device);
-        if (!table) {
-            return table.error();
-        }
+        GEODISK_TRY(table);
         KernelChoices choices;
         choices.tuning = *tuning;
         choices.native_rounding =
@@ -62,9 +57,7 @@ Result<Sampler> Sampler::create(const DeviceRefs& device, const SamplerOptions& 
             options.count_trips ? std::max(report->limits.subgroup_size, 1u) : 0;
         auto impl = std::make_unique<Impl>(device, std::move(*report), *table, choices, options);
         const auto ahead = impl->variant_ahead(options.ahead);
-        if (auto created = impl->pipelines.create(ahead); !created) {
-            return created.error();
-        }
+        GEODISK_TRY(impl->pipelines.create(ahead));
         return Sampler(std::move(impl));
     });
 }
@@ -112,9 +105,7 @@ Result<Done> Sampler::write_upload(const Domain& domain, const RunPlan& plan, Bu
                          "not a buffer that is uploaded, or not of its size"};
         }
         const auto parts = Domain::Impl::of(domain).upload_parts(plan, role);
-        if (!parts) {
-            return parts.error();
-        }
+        GEODISK_TRY(parts);
         std::size_t at = 0;
         for (const UploadPart& part : *parts) {
             if (at >= from) {

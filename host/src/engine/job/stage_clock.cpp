@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "support/try.hpp"
 #include "vk/result.hpp"
 
 namespace geodisk {
@@ -21,9 +22,7 @@ const char* to_string(Stage stage) noexcept {
 Result<StageClock> StageClock::create(const DeviceRefs& refs, float period,
                                       std::uint32_t valid_bits) {
     const auto table = load_query_table(refs);
-    if (!table) {
-        return table.error();
-    }
+    GEODISK_TRY(table);
     StageClock clock;
     clock.refs_ = &refs;
     clock.vk_ = *table;

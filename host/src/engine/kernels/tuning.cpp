@@ -5,6 +5,7 @@
 #include <geodisk/sampler.hpp>
 
 #include "support/guard.hpp"
+#include "support/try.hpp"
 
 namespace geodisk {
 namespace {
@@ -90,9 +91,7 @@ Tuning overridden(Tuning tuning, const Tuning& wanted) noexcept {
 Result<Tuning> chosen_tuning(const Tuning& wanted, const DeviceReport& report) noexcept {
     return guarded([&]() -> Result<Tuning> {
         const Tuning tuning = overridden(default_tuning(report), wanted);
-        if (auto checked = check(tuning, report); !checked) {
-            return checked.error();
-        }
+        GEODISK_TRY(check(tuning, report));
         return tuning;
     });
 }

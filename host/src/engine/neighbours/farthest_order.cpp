@@ -15,6 +15,7 @@
 #include "mesh/extent.hpp"
 #include "support/guard.hpp"
 #include "support/invalid.hpp"
+#include "support/try.hpp"
 
 namespace geodisk {
 namespace {
@@ -156,9 +157,7 @@ Result<Done> FarthestSearch::search(std::uint32_t first) {
     const std::span<const double> ends = is_infinite ? std::span<const double>() : bounds();
     const auto found =
         impl.complete(search_within(impl, mesh_, query, {}, ends), 0, progress_ ? heard : nullptr);
-    if (!found) {
-        return found.error();
-    }
+    GEODISK_TRY(found);
     order_.error = std::max(order_.error, found->error);
     order_.report.add(found->report);
     ++order_.searches;
@@ -207,9 +206,7 @@ Result<FarthestOrder> FarthestSearch::go() {
         const std::uint32_t next = farthest();
         // At the place of one chosen, it brings no other nearer.
         if (states_[next] == State::open && distances_[next] > 0) {
-            if (auto searched = search(next); !searched) {
-                return searched.error();
-            }
+            GEODISK_TRY(search(next));
         }
         choose(next);
     }
@@ -232,9 +229,7 @@ Result<FarthestOrder> farthest_order(Runner& runner, const PreparedMesh& mesh,
             return invalid("there are " + std::to_string(samples.size()) + " samples, fewer than " +
                            std::to_string(count) + " to choose");
         }
-        if (auto checked = check_points(mesh, "sample", samples); !checked) {
-            return checked.error();
-        }
+        GEODISK_TRY(check_points(mesh, "sample", samples));
         const auto all = static_cast<std::uint32_t>(samples.size());
         FarthestSearch search(runner, mesh, samples, count == 0 ? all : count, progress);
         return search.go();

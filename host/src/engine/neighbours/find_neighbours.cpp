@@ -6,6 +6,7 @@
 #include "engine/neighbours/search_nearest.hpp"
 #include "engine/neighbours/search_within.hpp"
 #include "support/guard.hpp"
+#include "support/try.hpp"
 
 namespace geodisk {
 
@@ -33,9 +34,7 @@ Result<Neighbours> find_neighbours(Runner& runner, const PreparedMesh& mesh,
                                    const NeighbourQuery& query,
                                    const ProgressCallback& progress) noexcept {
     return guarded([&]() -> Result<Neighbours> {
-        if (auto checked = check_query(mesh, query); !checked) {
-            return checked.error();
-        }
+        GEODISK_TRY(check_query(mesh, query));
         Runner::Impl& impl = Runner::Impl::of(runner);
         return impl.complete(search(impl, mesh, query), count_of(query), progress);
     });
@@ -60,9 +59,7 @@ Result<std::optional<Neighbours>> poll_neighbours(Runner& runner,
 Result<VertexPoints> vertex_points(const PreparedMesh& mesh,
                                    std::span<const std::uint32_t> joined) noexcept {
     return guarded([&]() -> Result<VertexPoints> {
-        if (auto checked = check_joined(mesh, joined); !checked) {
-            return checked.error();
-        }
+        GEODISK_TRY(check_joined(mesh, joined));
         VertexPoints found;
         for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) {
             const VertexFan& fan = mesh.fans()[joined.empty() ? v : joined[v]];

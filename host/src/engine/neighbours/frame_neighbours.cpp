@@ -23,6 +23,7 @@
 #include "engine/run/frame_run.hpp"
 #include "support/guard.hpp"
 #include "support/invalid.hpp"
+#include "support/try.hpp"
 #include "vk/barriers.hpp"
 
 namespace geodisk {
@@ -180,9 +181,7 @@ Result<Done> FrameNeighbours::Impl::take_inputs(const Domain& all, const Prepare
         }
     }
     auto names = names_of(numbers);
-    if (!names) {
-        return names.error();
-    }
+    GEODISK_TRY(names);
     inputs.names = std::move(*names);
     return Done{};
 }
@@ -200,18 +199,12 @@ void FrameNeighbours::Impl::retire(Retired old) {
 Result<Done> FrameNeighbours::Impl::make_memory(std::uint32_t room, const RunPlan* plan) {
     const std::size_t sources = sizes.sources(room, 1, count() - ready);
     const auto domain = jobs.job(ready, sources, room);
-    if (!domain) {
-        return domain.error();
-    }
+    GEODISK_TRY(domain);
     const auto planned =
         plan != nullptr ? Result<RunPlan>(*plan) : sampler->plan_run(*domain, options.pool_bytes);
-    if (!planned) {
-        return planned.error();
-    }
+    GEODISK_TRY(planned);
     auto made = NeighbourMemory::create(*sampler, *domain, *planned, room, inputs, options.frames);
-    if (!made) {
-        return made.error();
-    }
+    GEODISK_TRY(made);
     if (memory) {
         retire({std::move(memory), std::move(kernels), std::nullopt, 0});
     }
@@ -236,9 +229,7 @@ Result<Done> FrameNeighbours::Impl::make_lists(std::uint32_t least, VkCommandBuf
     const auto room = static_cast<std::uint32_t>(
         std::clamp(expected, std::max<double>(least, kMinPairs), std::max<double>(most, least)));
     auto made = ListMemory::create(*sampler, count(), room);
-    if (!made) {
-        return made.error();
-    }
+    GEODISK_TRY(made);
     if (lists && commands != VK_NULL_HANDLE) {
         made->record_copy(engine().vk, commands, *lists, pairs);
         retire({nullptr, std::move(kernels), std::move(lists), 0});
@@ -253,9 +244,7 @@ Result<Done> FrameNeighbours::Impl::make_kernels() {
     ranges.targets = lists->targets();
     ranges.distances = lists->distances();
     auto made = NeighbourKernels::create(engine(), ranges);
-    if (!made) {
-        return made.error();
-    }
+    GEODISK_TRY(made);
     kernels = std::move(*made);
     return Done{};
 }
@@ -361,16 +350,12 @@ Result<bool> FrameNeighbours::Impl::record_search(VkCommandBuffer commands, std:
     }
     auto grown = advance_or_grow(memory->job(), now ? now->control : gpu::ControlRec{},
                                  options.pool_bytes, engine().report);
-    if (!grown) {
-        return grown.error();
-    }
+    GEODISK_TRY(grown);
     const Advice& advice = grown->advice;
     if (grown->outgrown || advice.next == Next::larger_samples) {
         RunPlan plan = advice.plan;
         plan.sample_capacity = std::max(plan.sample_capacity, advice.sample_capacity);
-        if (auto made = make_memory(memory->room(), &plan); !made) {
-            return made.error();
-        }
+        GEODISK_TRY(make_memory(memory->room(), &plan));
         return true;
     }
     Job& job = memory->job();
@@ -391,9 +376,7 @@ Result<bool> FrameNeighbours::Impl::record_search(VkCommandBuffer commands, std:
         }
         break;
     case Next::larger_pool: // Within the same pool: fewer disks at a time, with more memory each.
-        if (auto set = job.set_plan(advice.plan); !set) {
-            return set.error();
-        }
+        GEODISK_TRY(job.set_plan(advice.plan));
         sampler->record_rewind(commands, job);
         break;
     default:
@@ -442,16 +425,12 @@ Result<bool> FrameNeighbours::Impl::record_sort(VkCommandBuffer commands) {
 Result<bool> FrameNeighbours::Impl::record_write(VkCommandBuffer commands,
                                                  const NeighbourTold& now) {
     const std::uint32_t done = ready + part;
-    if (auto checked = check_pairs(query, done, now.pairs); !checked) {
-        return checked.error();
-    }
+    GEODISK_TRY(check_pairs(query, done, now.pairs));
     if (now.pairs > lists->pairs()) {
         const DeviceTable& vk = engine().vk;
         record_barrier(vk, commands, Sampler::kLastUse.stages, Sampler::kLastUse.access,
                        kCopies.stages, kCopies.access);
-        if (auto made = make_lists(now.pairs, commands); !made) {
-            return made.error();
-        }
+        GEODISK_TRY(make_lists(now.pairs, commands));
         record_barrier(vk, commands, kCopies.stages, kCopies.access, Sampler::kFirstUse.stages,
                        Sampler::kFirstUse.access);
         kernels->record_write(commands, push());
@@ -524,24 +503,16 @@ Result<FrameNeighbours> FrameNeighbours::create(std::shared_ptr<const Sampler> s
         if (checked && !query.has_distances()) {
             checked = invalid("a search in frames needs the distance within which neighbours are");
         }
-        if (!checked) {
-            return checked.error();
-        }
+        GEODISK_TRY(checked);
         auto jobs = SearchJobs::create(mesh, query);
-        if (!jobs) {
-            return jobs.error();
-        }
+        GEODISK_TRY(jobs);
         auto impl = std::make_unique<Impl>(std::move(sampler), query, options, std::move(*jobs));
         const auto all = impl->jobs.job(0, query.sources.size(), 0);
-        if (!all) {
-            return all.error();
-        }
+        GEODISK_TRY(all);
         auto made = impl->take_inputs(*all, mesh);
         made = made ? impl->make_memory(impl->wanted_room(), nullptr) : made;
         made = made ? impl->make_lists(0, VK_NULL_HANDLE) : made;
-        if (!made) {
-            return made.error();
-        }
+        GEODISK_TRY(made);
         return FrameNeighbours(std::move(impl));
     });
 }

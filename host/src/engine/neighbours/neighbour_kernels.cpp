@@ -6,6 +6,7 @@
 #include "bindings.h"
 #include "constants.h"
 #include "engine/kernels/kernel_table.hpp"
+#include "support/try.hpp"
 #include "vk/barriers.hpp"
 #include "vk/descriptors.hpp"
 #include "vk/result.hpp"
@@ -17,9 +18,7 @@ Result<std::unique_ptr<NeighbourKernels>> NeighbourKernels::create(const Sampler
     KernelVariant variant;
     variant.domain = DomainKind::lists;
     const auto pipelines = sampler.pipelines.of(variant);
-    if (!pipelines) {
-        return pipelines.error();
-    }
+    GEODISK_TRY(pipelines);
     std::unique_ptr<NeighbourKernels> made(new NeighbourKernels(sampler, ranges));
     made->pipelines_ = *pipelines;
     auto done = made->make_views();

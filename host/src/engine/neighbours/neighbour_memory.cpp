@@ -9,6 +9,7 @@
 #include "engine/domain/domain_impl.hpp"
 #include "engine/job/buffer_ranges.hpp"
 #include "engine/job/sampler_impl.hpp"
+#include "support/try.hpp"
 
 namespace geodisk {
 namespace {
@@ -37,9 +38,7 @@ Result<ListMemory> ListMemory::create(const Sampler& sampler, std::uint32_t sour
     auto buffer =
         make_frame_buffer(sampler, cutter.end(),
                           kWorkspaceUsage | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, MemoryKind::device);
-    if (!buffer) {
-        return buffer.error();
-    }
+    GEODISK_TRY(buffer);
     ListMemory made;
     made.offsets_ = {buffer->handle(), offsets, heads};
     made.targets_ = {buffer->handle(), targets, each};
@@ -71,26 +70,18 @@ NeighbourMemory::create(const Sampler& sampler, const Domain& domain, const RunP
     made->plan_ = plan;
     made->room_ = room;
     made->max_sources_ = static_cast<std::uint32_t>(Domain::Impl::of(domain).settled.size());
-    if (auto allocated = made->allocate(sampler, domain, inputs, frames); !allocated) {
-        return allocated.error();
-    }
+    GEODISK_TRY(made->allocate(sampler, domain, inputs, frames));
     auto job = sampler.make_job(domain, plan, made->workspace_);
-    if (!job) {
-        return job.error();
-    }
+    GEODISK_TRY(job);
     made->job_.emplace(std::move(*job));
-    if (auto staged = made->stage(sampler, domain, inputs); !staged) {
-        return staged.error();
-    }
+    GEODISK_TRY(made->stage(sampler, domain, inputs));
     return made;
 }
 
 Result<Done> NeighbourMemory::allocate(const Sampler& sampler, const Domain& domain,
                                        const NeighbourInputs& inputs, std::uint32_t frames) {
     const auto needs = sampler.workspace_needs(domain, plan_);
-    if (!needs) {
-        return needs.error();
-    }
+    GEODISK_TRY(needs);
     layout_ = sampler.lay_out(*needs);
     RangeCutter cutter = cutter_for(sampler);
     cutter.cut(layout_.bytes);
@@ -111,23 +102,17 @@ Result<Done> NeighbourMemory::allocate(const Sampler& sampler, const Domain& dom
     cut(ranges_.sums, (scanned + gpu::kScanBlock - 1) / gpu::kScanBlock * kWord);
 
     auto buffer = make_frame_buffer(sampler, cutter.end(), kWorkspaceUsage, MemoryKind::device);
-    if (!buffer) {
-        return buffer.error();
-    }
+    GEODISK_TRY(buffer);
     buffer_ = std::move(*buffer);
     auto uploads =
         FrameUploads::create(sampler, domain,
                              bytes_of(inputs.sources).size() + bytes_of(inputs.limits).size() +
                                  bytes_of(inputs.names).size());
-    if (!uploads) {
-        return uploads.error();
-    }
+    GEODISK_TRY(uploads);
     uploads_ = std::move(*uploads);
     auto told = make_frame_buffer(sampler, frames * sizeof(NeighbourTold),
                                   VK_BUFFER_USAGE_TRANSFER_DST_BIT, MemoryKind::host);
-    if (!told) {
-        return told.error();
-    }
+    GEODISK_TRY(told);
     told_ = std::move(*told);
     workspace_ = layout_.in(buffer_.handle());
     for (BufferRange* const range : {&sources_, &ranges_.limits, &ranges_.names, &ranges_.rows,

@@ -15,6 +15,7 @@
 #include "mesh/edge_paths.hpp"
 #include "support/invalid.hpp"
 #include "support/number_text.hpp"
+#include "support/try.hpp"
 
 namespace geodisk {
 namespace {
@@ -121,24 +122,16 @@ Result<SearchJobs> SearchJobs::create(const PreparedMesh& mesh, const NeighbourQ
                                       std::span<const double> bounds) {
     SearchJobs jobs(mesh, query, bounds);
     SampleParams& params = jobs.params_;
-    if (auto checked = check_edges(mesh, params.min_distance); !checked) {
-        return checked.error();
-    }
+    GEODISK_TRY(check_edges(mesh, params.min_distance));
     params.darts = 1; // A pool might be too large, and none is drawn.
     const auto frame = frame_of(mesh, params);
     params.darts = 0;
-    if (!frame) {
-        return frame.error();
-    }
+    GEODISK_TRY(frame);
     jobs.frame_ = *frame;
-    if (auto checked = check_range(frame->unit, frame->unit); !checked) {
-        return checked.error();
-    }
+    GEODISK_TRY(check_range(frame->unit, frame->unit));
     if (jobs.targets_per_source() * static_cast<double>(query.sources.size()) >
         static_cast<double>(query.max_pairs)) {
-        if (auto checked = check_ahead(mesh, query); !checked) {
-            return checked.error();
-        }
+        GEODISK_TRY(check_ahead(mesh, query));
     }
     return jobs;
 }

@@ -11,6 +11,7 @@
 #include "engine/neighbours/search_within.hpp"
 #include "mesh/components.hpp"
 #include "mesh/extent.hpp"
+#include "support/try.hpp"
 
 namespace geodisk {
 namespace {
@@ -110,9 +111,7 @@ Task<Result<Done>> NearestSearch::search(double within, bool is_last) {
     const auto searched =
         search_within(runner_, mesh_, query, [this](const Progress& now) { return so_far(now); });
     const auto found = co_await searched;
-    if (!found) {
-        co_return found.error();
-    }
+    GEODISK_CO_TRY(found);
     report_.add(found->report);
     error_ = std::max(error_, found->error);
     keep(*found, is_last);
@@ -163,9 +162,7 @@ Task<Result<Neighbours>> NearestSearch::go() {
     distances_.resize(query_.sources.size());
     const double bound = distance_bound(mesh_);
     for (double within = first_distance(); !pending_.empty(); within *= kFactor) {
-        if (auto searched = co_await search(within, within > bound); !searched) {
-            co_return searched.error();
-        }
+        GEODISK_CO_TRY(co_await search(within, within > bound));
     }
     co_return all();
 }

@@ -10,6 +10,7 @@
 #include "engine/neighbours/neighbour_lists.hpp"
 #include "engine/neighbours/search_jobs.hpp"
 #include "engine/run/run.hpp"
+#include "support/try.hpp"
 
 namespace geodisk {
 namespace {
@@ -51,14 +52,10 @@ Progress Search::so_far(const Progress& now) {
 
 Task<Result<bool>> Search::find(std::size_t sources, std::uint32_t room) {
     const auto domain = jobs_.job(done_, sources, room);
-    if (!domain) {
-        co_return domain.error();
-    }
+    GEODISK_CO_TRY(domain);
     DiskRecords records;
     const auto recorded = co_await run_job(runner_, *domain, &records);
-    if (!recorded) {
-        co_return recorded.error();
-    }
+    GEODISK_CO_TRY(recorded);
     report_.add(recorded->report);
     report_.plan.trims |= recorded->report.plan.trims;
     sizes_.note(records.wanted, sources);
@@ -82,14 +79,10 @@ Task<Result<Neighbours>> Search::go(WholeProgress whole) {
     while (done_ < query_.sources.size()) {
         const std::size_t sources = sizes_.sources(most, done_, query_.sources.size() - done_);
         const auto found = co_await find(sources, sizes_.room(sources, most));
-        if (!found) {
-            co_return found.error();
-        }
+        GEODISK_CO_TRY(found);
         if (*found) {
             done_ += sources;
-            if (auto checked = check_pairs(query_, done_, lists_.pairs()); !checked) {
-                co_return checked.error();
-            }
+            GEODISK_CO_TRY(check_pairs(query_, done_, lists_.pairs()));
         }
     }
     Neighbours neighbours = lists_.take();
@@ -110,9 +103,7 @@ Task<Result<Neighbours>> search_within(Runner::Impl& runner, const PreparedMesh&
                                        const NeighbourQuery& query, WholeProgress whole,
                                        std::span<const double> bounds) {
     const auto jobs = SearchJobs::create(mesh, query, bounds);
-    if (!jobs) {
-        co_return jobs.error();
-    }
+    GEODISK_CO_TRY(jobs);
     Search search(runner, query, *jobs);
     co_return co_await search.go(std::move(whole));
 }

@@ -13,6 +13,7 @@
 #include "support/guard.hpp"
 #include "support/invalid.hpp"
 #include "support/number_text.hpp"
+#include "support/try.hpp"
 
 namespace geodisk {
 namespace {
@@ -115,9 +116,7 @@ Result<Done> SurfaceSteps::prepare() {
     }
     if (request_.features != 0) {
         auto found = Features::find(*request_.view, mesh_, request_.features);
-        if (!found) {
-            return found.error();
-        }
+        GEODISK_TRY(found);
         features_ = std::move(*found);
         has_features_ = features_->are_sampled(mesh_, request_.params);
         corners_ = sampled_corners();
@@ -148,9 +147,7 @@ Result<double> SurfaceSteps::first_distance() const {
     }
     SampleParams any = params;
     any.min_distance = 1; // Is not looked at, but checked.
-    if (const auto checked = check_params(mesh_, any); !checked) {
-        return checked.error();
-    }
+    GEODISK_TRY(check_params(mesh_, any));
     return distance_for_count(mesh_, params, request_.count) *
            (params.maximal ? kMaximalFactor : 1);
 }
@@ -175,9 +172,7 @@ Result<RequestStep> SurfaceSteps::on_features(double distance) const {
     params.darts = 0;
     params.stop_count = 0;
     auto domain = feature_domain(mesh_, params, *features_);
-    if (!domain) {
-        return domain.error();
-    }
+    GEODISK_TRY(domain);
     const double expected = static_cast<double>(params.existing.size() + corners_) +
                             kCurveSamples * features_->length() / distance;
     RequestStep step{std::move(*domain), params};
@@ -192,17 +187,13 @@ Result<RequestStep> SurfaceSteps::on_faces(double distance, const Levels& levels
     SampleParams params = params_at(distance);
     if (has_levels()) {
         auto own = params_of_level(params, levels, level, standing); // 0: the existing ones.
-        if (!own) {
-            return own.error();
-        }
+        GEODISK_TRY(own);
         params = *own;
     } else if (has_features_) {
         params.existing = standing;
     }
     auto made = domain(params);
-    if (!made) {
-        return made.error();
-    }
+    GEODISK_TRY(made);
     RequestStep step{std::move(*made), params, request_.metric ? nullptr : &mesh_};
     step.may_share = step.surface != nullptr && request_.frame == nullptr &&
                      request_.split_from == nullptr && params.darts == 0 &&
@@ -255,9 +246,7 @@ void SurfaceSteps::describe(RequestedSet& found, std::size_t settled) const {
 
 Result<RequestStep> box_step(const BoxParams& box) {
     auto domain = Domain::box(box);
-    if (!domain) {
-        return domain.error();
-    }
+    GEODISK_TRY(domain);
     RequestStep step{std::move(*domain)};
     step.params.min_distance = box.min_distance;
     step.expected = expected_of(expected_count(box), box.stop_count);
@@ -324,9 +313,7 @@ struct RequestRun::Impl {
 
 Result<Done> RequestRun::Impl::use(Result<RequestStep> made) {
     step.reset();
-    if (!made) {
-        return made.error();
-    }
+    GEODISK_TRY(made);
     step = std::move(*made);
     step->attempt = tries.count();
     return Done{};
@@ -397,19 +384,13 @@ Result<RequestRun> RequestRun::create(const PreparedMesh& mesh,
                                       const SampleRequest& request) noexcept {
     return guarded([&]() -> Result<RequestRun> {
         SurfaceSteps steps(mesh, request);
-        if (const auto prepared = steps.prepare(); !prepared) {
-            return prepared.error();
-        }
+        GEODISK_TRY(steps.prepare());
         const auto distance = steps.first_distance();
-        if (!distance) {
-            return distance.error();
-        }
+        GEODISK_TRY(distance);
         auto impl = std::make_unique<Impl>(*distance, request.count, request.is_exact,
                                            request.params.stop_count);
         impl->surface.emplace(std::move(steps));
-        if (const auto begun = impl->begin_try(); !begun) {
-            return begun.error();
-        }
+        GEODISK_TRY(impl->begin_try());
         return RequestRun(std::move(impl));
     });
 }
@@ -422,9 +403,7 @@ Result<RequestRun> RequestRun::create(const BoxRequest& request) noexcept {
         alike.params.pool_ratio = request.params.pool_ratio;
         alike.params.darts = request.params.darts;
         alike.params.stop_count = request.params.stop_count;
-        if (const auto checked = check_rules(alike); !checked) {
-            return checked.error();
-        }
+        GEODISK_TRY(check_rules(alike));
         double first = request.params.min_distance;
         if (request.count != 0) {
             const double most = distance_for_count(request.params, first == 0 ? request.count : 1);
@@ -443,9 +422,7 @@ Result<RequestRun> RequestRun::create(const BoxRequest& request) noexcept {
             box.stop_count = has_count ? 0 : box.stop_count;
             return box_step(box);
         };
-        if (const auto begun = impl->begin_try(); !begun) {
-            return begun.error();
-        }
+        GEODISK_TRY(impl->begin_try());
         return RequestRun(std::move(impl));
     });
 }
@@ -455,9 +432,7 @@ Result<RequestRun> RequestRun::create(StepAt step_at, double min_distance, doubl
     return guarded([&]() -> Result<RequestRun> {
         auto impl = std::make_unique<Impl>(min_distance, count, is_exact);
         impl->step_at = std::move(step_at);
-        if (const auto begun = impl->begin_try(); !begun) {
-            return begun.error();
-        }
+        GEODISK_TRY(impl->begin_try());
         return RequestRun(std::move(impl));
     });
 }

@@ -11,6 +11,7 @@
 #include "engine/request/on_mesh.hpp"
 #include "support/guard.hpp"
 #include "support/invalid.hpp"
+#include "support/try.hpp"
 
 namespace geodisk {
 namespace {
@@ -93,9 +94,7 @@ Result<Done> RequestRuns::Impl::begin_job() {
         parts.push_back({step(i).surface, step(i).params, 1});
     }
     auto made = Domain::surfaces(parts);
-    if (!made) {
-        return made.error();
-    }
+    GEODISK_TRY(made);
     surfaces = std::move(*made);
     return Done{};
 }
@@ -163,9 +162,7 @@ Result<RequestRuns> RequestRuns::create(std::span<const MeshRequest> requests) n
 Result<RequestRuns> RequestRuns::create(const BoxRequest& request) noexcept {
     return guarded([&]() -> Result<RequestRuns> {
         auto run = RequestRun::create(request);
-        if (!run) {
-            return run.error();
-        }
+        GEODISK_TRY(run);
         std::vector<RequestRun> runs;
         runs.push_back(std::move(*run));
         return begin(std::move(runs));
@@ -174,9 +171,7 @@ Result<RequestRuns> RequestRuns::create(const BoxRequest& request) noexcept {
 
 Result<RequestRuns> RequestRuns::begin(std::vector<RequestRun> runs) {
     auto impl = std::make_unique<Impl>(std::move(runs));
-    if (const auto begun = impl->begin_job(); !begun) {
-        return begun.error();
-    }
+    GEODISK_TRY(impl->begin_job());
     return RequestRuns(std::move(impl));
 }
 

@@ -6,6 +6,7 @@
 
 #include "engine/request/on_mesh.hpp"
 #include "support/guard.hpp"
+#include "support/try.hpp"
 
 namespace geodisk {
 namespace {
@@ -17,9 +18,7 @@ Result<Done> put_farthest_first(Runner& runner, const PreparedMesh& mesh, std::u
         return Done{};
     }
     auto order = farthest_order(runner, mesh, found.set.samples, keep, progress);
-    if (!order) {
-        return order.error();
-    }
+    GEODISK_TRY(order);
     const auto chosen = [&](const auto& values) {
         std::remove_cvref_t<decltype(values)> rows;
         for (const std::uint32_t index : order->indices) {
@@ -49,17 +48,13 @@ Result<Done> complete(Runner& runner, const PreparedMesh& mesh, const SampleRequ
 /// Samples all jobs of runs.
 Result<std::vector<RequestedSet>> finished(Runner& runner, Result<RequestRuns> runs,
                                            const ProgressCallback& progress) {
-    if (!runs) {
-        return runs.error();
-    }
+    GEODISK_TRY(runs);
     while (const Domain* job = runs->job()) {
         auto set = runner.sample_and_wait(*job, progress);
         if (!set) {
             return runs->named(set.error());
         }
-        if (const auto taken = runs->take(std::move(*set)); !taken) {
-            return taken.error();
-        }
+        GEODISK_TRY(runs->take(std::move(*set)));
     }
     return std::move(*runs).finish();
 }

@@ -5,6 +5,7 @@
 
 #include "support/invalid.hpp"
 #include "support/number_text.hpp"
+#include "support/try.hpp"
 
 namespace geodisk {
 namespace {
@@ -33,9 +34,7 @@ Result<bool> Tries::note(std::uint64_t samples) {
         distance_.reset();
         return true;
     }
-    if (const auto checked = check_room(samples); !checked) {
-        return checked.error();
-    }
+    GEODISK_TRY(check_room(samples));
     max_ = std::max(max_, samples);
     distance_ = search_.note(distance, samples);
     if (!distance_ && is_exact_ && static_cast<double>(max_) < wanted_) {

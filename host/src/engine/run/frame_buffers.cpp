@@ -7,6 +7,7 @@
 #include "engine/domain/domain_impl.hpp"
 #include "engine/job/buffer_ranges.hpp"
 #include "engine/job/sampler_impl.hpp"
+#include "support/try.hpp"
 
 namespace geodisk {
 
@@ -15,9 +16,7 @@ Result<DeviceBuffer> make_frame_buffer(const Sampler& sampler, VkDeviceSize byte
     const Sampler::Impl& engine = Sampler::Impl::of(sampler);
     const auto instance =
         load_instance_table(engine.device.get_instance_proc_addr, engine.device.instance);
-    if (!instance) {
-        return instance.error();
-    }
+    GEODISK_TRY(instance);
     VkPhysicalDeviceMemoryProperties memory{};
     instance->vkGetPhysicalDeviceMemoryProperties(engine.device.physical_device, &memory);
     return DeviceBuffer::create(engine.device, engine.vk, memory, bytes, usage, kind);
@@ -31,9 +30,7 @@ Result<FrameUploads> FrameUploads::create(const Sampler& sampler, const Domain& 
     }
     auto staging =
         make_frame_buffer(sampler, bytes, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, MemoryKind::host);
-    if (!staging) {
-        return staging.error();
-    }
+    GEODISK_TRY(staging);
     FrameUploads made;
     made.staging_ = std::move(*staging);
     return made;

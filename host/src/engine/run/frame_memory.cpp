@@ -9,6 +9,7 @@
 #include "engine/job/sampler_impl.hpp"
 #include "samples.h"
 #include "support/invalid.hpp"
+#include "support/try.hpp"
 
 namespace geodisk {
 namespace {
@@ -55,9 +56,7 @@ Result<FrameMesh> FrameMesh::copy(const Domain& domain, std::span<const MeshView
     for (std::size_t i = 0; i < meshes.size(); ++i) {
         const MeshView& mesh = meshes[i];
         const std::string name = meshes.size() == 1 ? "the mesh" : "mesh " + std::to_string(i);
-        if (auto checked = check_surface(mesh, first[i + 1] - first[i], name); !checked) {
-            return checked.error();
-        }
+        GEODISK_TRY(check_surface(mesh, first[i + 1] - first[i], name));
         const std::uint64_t base = all.positions.size() / kPositionFloats;
         if (base + mesh.vertex_count() > kMaxVertices) {
             return invalid("the meshes have more vertices than can be numbered");
@@ -81,13 +80,9 @@ Result<std::unique_ptr<FrameMemory>> FrameMemory::create(const Sampler& sampler,
                                                          const FrameSamplerOptions& options) {
     auto made = std::make_unique<FrameMemory>();
     made->plan_ = plan;
-    if (auto allocated = made->allocate(sampler, domain, mesh, options); !allocated) {
-        return allocated.error();
-    }
+    GEODISK_TRY(made->allocate(sampler, domain, mesh, options));
     auto job = sampler.make_job(domain, plan, made->layout_.in(made->buffer_.handle()));
-    if (!job) {
-        return job.error();
-    }
+    GEODISK_TRY(job);
     made->job_.emplace(std::move(*job));
     PlacementSource source;
     source.vertices = made->range(made->vertices_, bytes_of(mesh.positions).size());
@@ -96,22 +91,16 @@ Result<std::unique_ptr<FrameMemory>> FrameMemory::create(const Sampler& sampler,
         made->range(made->placed_, VkDeviceSize{plan.sample_capacity} * sizeof(gpu::PlacedRec)),
         made->range(made->arguments_, sizeof(VkDrawIndirectCommand)), options.vertices_each};
     auto placement = Placement::create(sampler, domain, *made->job_, source, target);
-    if (!placement) {
-        return placement.error();
-    }
+    GEODISK_TRY(placement);
     made->placement_.emplace(std::move(*placement));
-    if (auto staged = made->stage(sampler, domain, mesh); !staged) {
-        return staged.error();
-    }
+    GEODISK_TRY(made->stage(sampler, domain, mesh));
     return made;
 }
 
 Result<Done> FrameMemory::allocate(const Sampler& sampler, const Domain& domain,
                                    const FrameMesh& mesh, const FrameSamplerOptions& options) {
     const auto needs = sampler.workspace_needs(domain, plan_);
-    if (!needs) {
-        return needs.error();
-    }
+    GEODISK_TRY(needs);
     layout_ = sampler.lay_out(*needs);
     RangeCutter cutter(layout_.alignment);
     cutter.cut(layout_.bytes);
@@ -123,22 +112,16 @@ Result<Done> FrameMemory::allocate(const Sampler& sampler, const Domain& domain,
     auto buffer =
         make_frame_buffer(sampler, cutter.end(),
                           kWorkspaceUsage | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, MemoryKind::device);
-    if (!buffer) {
-        return buffer.error();
-    }
+    GEODISK_TRY(buffer);
     buffer_ = std::move(*buffer);
     auto uploads = FrameUploads::create(
         sampler, domain, bytes_of(mesh.positions).size() + bytes_of(mesh.indices).size());
-    if (!uploads) {
-        return uploads.error();
-    }
+    GEODISK_TRY(uploads);
     uploads_ = std::move(*uploads);
     auto controls =
         make_frame_buffer(sampler, VkDeviceSize{options.frames} * sizeof(gpu::ControlRec),
                           VK_BUFFER_USAGE_TRANSFER_DST_BIT, MemoryKind::host);
-    if (!controls) {
-        return controls.error();
-    }
+    GEODISK_TRY(controls);
     controls_ = std::move(*controls);
     return Done{};
 }

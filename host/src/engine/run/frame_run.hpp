@@ -5,6 +5,7 @@
 
 #include "engine/run/runner_impl.hpp"
 #include "support/invalid.hpp"
+#include "support/try.hpp"
 
 namespace geodisk {
 
@@ -21,12 +22,8 @@ Result<Done> run_frames(Frames& frames, Runner& runner, const ProgressCallback& 
         Result<bool> recorded = false;
         const auto submitted = with.submitter->run(
             [&](VkCommandBuffer commands) { recorded = frames.record_next(commands, 1); });
-        if (!submitted) {
-            return submitted.error();
-        }
-        if (!recorded) {
-            return recorded.error();
-        }
+        GEODISK_TRY(submitted);
+        GEODISK_TRY(recorded);
         if (progress && !progress(progress_now())) {
             return Error{Status::cancelled, "cancelled"};
         }

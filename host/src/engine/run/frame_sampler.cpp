@@ -12,6 +12,7 @@
 #include "engine/run/frame_run.hpp"
 #include "support/guard.hpp"
 #include "support/invalid.hpp"
+#include "support/try.hpp"
 #include "vk/barriers.hpp"
 
 namespace geodisk {
@@ -75,9 +76,7 @@ struct FrameSampler::Impl {
 
 Result<Done> FrameSampler::Impl::replace(const RunPlan& plan) {
     auto made = FrameMemory::create(*sampler, domain, mesh, plan, options);
-    if (!made) {
-        return made.error();
-    }
+    GEODISK_TRY(made);
     if (now) {
         retired.push_back({std::move(now), calls});
     }
@@ -106,9 +105,7 @@ Result<Advice> FrameSampler::Impl::look(std::uint32_t lag) {
         control = now->control(static_cast<std::uint32_t>((calls - lag) % options.frames));
     }
     const auto next = advance_or_grow(now->job(), control, options.pool_bytes, engine().report);
-    if (!next) {
-        return next.error();
-    }
+    GEODISK_TRY(next);
     const Advice& advice = next->advice;
     RunPlan plan = now->plan();
     if (next->outgrown) {
@@ -119,9 +116,7 @@ Result<Advice> FrameSampler::Impl::look(std::uint32_t lag) {
         ready = advice.ready - std::min(advice.ready, Domain::Impl::of(domain).avoided);
         return advice;
     }
-    if (auto replaced = replace(plan); !replaced) {
-        return replaced.error();
-    }
+    GEODISK_TRY(replace(plan));
     return now->job().advance({});
 }
 
@@ -159,9 +154,7 @@ Result<bool> FrameSampler::Impl::record_next(VkCommandBuffer commands, std::uint
         return true;
     }
     const auto advice = look(lag);
-    if (!advice) {
-        return advice.error();
-    }
+    GEODISK_TRY(advice);
     if (advice->next == Next::complete) {
         is_complete = true;
         ++calls;
@@ -179,9 +172,7 @@ Result<bool> FrameSampler::Impl::record_next(VkCommandBuffer commands, std::uint
         barrier(kCopies, {Sampler::kFirstUse.stages | options.readers.stages,
                           Sampler::kFirstUse.access | options.readers.access});
     }
-    if (auto recorded = record_work(commands, *advice); !recorded) {
-        return recorded.error();
-    }
+    GEODISK_TRY(record_work(commands, *advice));
     barrier(Sampler::kLastUse,
             {kCopies.stages | options.readers.stages, kCopies.access | options.readers.access});
     now->record_control(vk, commands, static_cast<std::uint32_t>(calls % options.frames));
@@ -197,22 +188,14 @@ Result<FrameSampler> FrameSampler::create(std::shared_ptr<const Sampler> sampler
         if (!sampler) {
             return invalid("the sampler is null");
         }
-        if (auto checked = check_options(options); !checked) {
-            return checked.error();
-        }
+        GEODISK_TRY(check_options(options));
         auto impl = std::make_unique<Impl>(std::move(sampler), domain, options);
         auto mesh = FrameMesh::copy(domain, meshes);
-        if (!mesh) {
-            return mesh.error();
-        }
+        GEODISK_TRY(mesh);
         impl->mesh = std::move(*mesh);
         const auto plan = impl->sampler->plan_run(domain, options.pool_bytes);
-        if (!plan) {
-            return plan.error();
-        }
-        if (auto made = impl->replace(*plan); !made) {
-            return made.error();
-        }
+        GEODISK_TRY(plan);
+        GEODISK_TRY(impl->replace(*plan));
         return FrameSampler(std::move(impl));
     });
 }

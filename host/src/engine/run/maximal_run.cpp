@@ -10,6 +10,7 @@
 #include "engine/maximal/gaps.hpp"
 #include "engine/maximal/lit_faces.hpp"
 #include "engine/run/run.hpp"
+#include "support/try.hpp"
 
 namespace geodisk {
 namespace {
@@ -66,9 +67,7 @@ Task<Result<SampleSet>> MaximalRun::run_pool() {
     params.existing = job_.existing;
     params.avoid = job_.avoid;
     const auto domain = SurfaceDomain::plain(*job_.mesh, params, job_.frame);
-    if (!domain) {
-        co_return domain.error();
-    }
+    GEODISK_CO_TRY(domain);
     co_return co_await run_job(runner_, *domain, nullptr);
 }
 
@@ -85,14 +84,10 @@ Task<Result<Done>> MaximalRun::light(std::span<const Sample> samples,
         const double expected = records_per_disk_ * settled + kMinRecords;
         const auto domain = SurfaceDomain::recording(*job_.mesh, params, job_.frame, Ending::light,
                                                      {}, static_cast<std::uint32_t>(expected));
-        if (!domain) {
-            co_return domain.error();
-        }
+        GEODISK_CO_TRY(domain);
         DiskRecords lit;
         const auto set = co_await run_job(runner_, *domain, &lit);
-        if (!set) {
-            co_return set.error();
-        }
+        GEODISK_CO_TRY(set);
         set_.report.add(set->report);
         if (lit.wanted > lit.lights.size()) {
             records_per_disk_ = std::max(lit.wanted / settled, records_per_disk_) * kSpareRecords;
@@ -115,13 +110,9 @@ Task<Result<std::vector<Sample>>> MaximalRun::fill(std::uint32_t round, double g
     ++set_.report.maximal.rounds;
     set_.report.maximal.darts += darts.size();
     const auto domain = SurfaceDomain::listed(*job_.mesh, job_.params, job_.frame, darts);
-    if (!domain) {
-        co_return domain.error();
-    }
+    GEODISK_CO_TRY(domain);
     auto filled = co_await run_job(runner_, *domain, nullptr);
-    if (!filled) {
-        co_return filled.error();
-    }
+    GEODISK_CO_TRY(filled);
     set_.report.add(filled->report);
     co_return std::move(filled->samples);
 }
@@ -143,16 +134,12 @@ void MaximalRun::report_gaps() {
 
 Task<Result<SampleSet>> MaximalRun::go() {
     auto first = co_await run_pool();
-    if (!first) {
-        co_return first.error();
-    }
+    GEODISK_CO_TRY(first);
     set_ = std::move(*first);
     const RunReport& report = set_.report;
     records_per_disk_ =
         kSpareRecords * (static_cast<double>(report.windows) / std::max(report.disks, 1u) + 8);
-    if (auto lit = co_await light(set_.samples, job_.avoid); !lit) {
-        co_return lit.error();
-    }
+    GEODISK_CO_TRY(co_await light(set_.samples, job_.avoid));
     double goal = kFirstGoal;
     if (gaps_.size() < kFewCells) {
         refine(kCoarseGoal, 0);
@@ -162,16 +149,12 @@ Task<Result<SampleSet>> MaximalRun::go() {
     }
     for (std::uint32_t round = 1; !gaps_.empty(); ++round) {
         auto samples = co_await fill(round, goal);
-        if (!samples) {
-            co_return samples.error();
-        }
+        GEODISK_CO_TRY(samples);
         if (samples->empty() && gaps_.are_smallest()) {
             break;
         }
         const std::size_t before = lit_.size();
-        if (auto lit = co_await light(*samples, {}); !lit) {
-            co_return lit.error();
-        }
+        GEODISK_CO_TRY(co_await light(*samples, {}));
         set_.samples.insert(set_.samples.end(), samples->begin(), samples->end());
         goal = std::max(goal * kGoalFactor, kMinGoal);
         refine(goal, before);

@@ -7,6 +7,7 @@
 #include "engine/capacity.hpp"
 #include "engine/domain/domain_impl.hpp"
 #include "engine/job/plan.hpp"
+#include "support/try.hpp"
 
 namespace geodisk {
 namespace {
@@ -43,9 +44,7 @@ Result<Fitting> fit_plan(const Runner::Impl& runner, const Domain& domain, std::
     std::uint32_t stages = stages_at_once(of.stages, candidates_in(runner.memory, of));
     for (;;) {
         const auto planned = sampler.plan_run(domain, pool);
-        if (!planned) {
-            return planned.error();
-        }
+        GEODISK_TRY(planned);
         RunPlan wanted = runner.options.plan;
         wanted.disks_by = of.kernels.records() ? DisksBy::automatic : wanted.disks_by;
         Fitting fitting{overridden(*planned, wanted)};
@@ -56,9 +55,7 @@ Result<Fitting> fit_plan(const Runner::Impl& runner, const Domain& domain, std::
         plan.stages = is_fixed ? plan.stages : std::min(plan.stages, stages);
         plan.sample_capacity = std::max(plan.sample_capacity, samples);
         const auto needs = sampler.workspace_needs(domain, plan);
-        if (!needs) {
-            return needs.error();
-        }
+        GEODISK_TRY(needs);
         fitting.bytes = needs->total() + RunMemory::staging_bytes(upload_bytes(sampler, domain));
         const auto largest = std::max_element(needs->bytes.begin(), needs->bytes.end());
         fitting.largest = static_cast<BufferRole>(largest - needs->bytes.begin());

@@ -17,6 +17,7 @@
 #include "engine/run/run_result.hpp"
 #include "engine/run/submissions.hpp"
 #include "support/blocks.hpp"
+#include "support/try.hpp"
 #include "vk/barriers.hpp"
 
 namespace geodisk {
@@ -106,9 +107,7 @@ Result<Done> Run::prepare(const RunPlan& plan) {
                          " bytes, which may take " + std::to_string(runner_.options.pool_bytes)};
     }
     const auto needs = runner_.sampler.workspace_needs(domain_, plan);
-    if (!needs) {
-        return needs.error();
-    }
+    GEODISK_TRY(needs);
     const std::uint64_t uploaded = upload_bytes(runner_.sampler, domain_);
     if (auto allocated = memory_.allocate(*needs, uploaded, max_bytes_); !allocated) {
         return allocated;
@@ -120,9 +119,7 @@ Result<Done> Run::prepare(const RunPlan& plan) {
     } else {
         job_.reset();
         auto job = runner_.sampler.make_job(domain_, plan, memory_.workspace());
-        if (!job) {
-            return job.error();
-        }
+        GEODISK_TRY(job);
         job_.emplace(std::move(*job));
         kept_.made = memory_.made();
     }
@@ -183,9 +180,7 @@ Task<Result<Done>> Run::upload() {
         const std::size_t held =
             memory_.holds(role, of_.meshes) ? runner_.sampler.mesh_bytes(domain_, role) : 0;
         auto parts = of_.upload_parts(job_->plan(), role);
-        if (!parts) {
-            co_return parts.error();
-        }
+        GEODISK_CO_TRY(parts);
         all[i] = std::move(*parts);
         std::size_t at = 0;
         for (const UploadPart& part : all[i]) {
@@ -319,9 +314,7 @@ Task<Result<Advice>> Run::sample() {
             (advice->next == Next::larger_samples && !fit_samples(*advice))) {
             co_return advice;
         }
-        if (auto done = co_await follow(*advice); !done) {
-            co_return done.error();
-        }
+        GEODISK_CO_TRY(co_await follow(*advice));
     }
 }
 
@@ -409,13 +402,9 @@ void Run::record_samples(VkCommandBuffer commands) {
 /// Candidates of a run that is complete, which are counted if it stopped early.
 Task<Result<std::uint64_t>> Run::candidates(Advice advice) {
     if (advice.candidates == 0) {
-        if (auto done = co_await submissions_.run_passes(record_count, {}); !done) {
-            co_return done.error();
-        }
+        GEODISK_CO_TRY(co_await submissions_.run_passes(record_count, {}));
         const auto counted = job_->advance(control());
-        if (!counted) {
-            co_return counted.error();
-        }
+        GEODISK_CO_TRY(counted);
         advice = *counted;
     }
     co_return advice.candidates;
@@ -428,9 +417,7 @@ Task<Result<std::vector<gpu::SampleRec>>> Run::read_samples() {
         std::copy_n(there.begin(), bytes.size(), bytes.begin());
         co_return samples;
     }
-    if (auto read = co_await memory_.read(BufferRole::samples, bytes); !read) {
-        co_return read.error();
-    }
+    GEODISK_CO_TRY(co_await memory_.read(BufferRole::samples, bytes));
     co_return samples;
 }
 
@@ -455,50 +442,34 @@ Task<Result<Done>> Run::read_records() {
 
 Task<Result<std::optional<SampleSet>>> Run::go(RunPlan& plan) {
     double start = runner_.now();
-    if (auto done = runner_.sampler.prepare(domain_); !done) {
-        co_return done.error();
-    }
+    GEODISK_CO_TRY(runner_.sampler.prepare(domain_));
     report_.seconds.compile += runner_.now() - start;
     start = runner_.now();
-    if (auto done = prepare(plan); !done) {
-        co_return done.error();
-    }
+    GEODISK_CO_TRY(prepare(plan));
     report_.seconds.upload += runner_.now() - start;
     start = runner_.now();
-    if (auto done = co_await compile_at_dispatch(); !done) {
-        co_return done.error();
-    }
+    GEODISK_CO_TRY(co_await compile_at_dispatch());
     report_.seconds.compile += runner_.now() - start;
     start = runner_.now();
-    if (auto done = co_await upload(); !done) {
-        co_return done.error();
-    }
+    GEODISK_CO_TRY(co_await upload());
     report_.seconds.upload += runner_.now() - start;
     start = runner_.now();
     const auto advice = co_await sample();
     report_.seconds.sample += runner_.now() - start;
-    if (!advice) {
-        co_return advice.error();
-    }
+    GEODISK_CO_TRY(advice);
     if (advice->next == Next::larger_samples) {
         plan.sample_capacity = std::max(plan.sample_capacity, advice->sample_capacity);
         co_return std::optional<SampleSet>();
     }
     start = runner_.now();
     auto samples = co_await read_samples();
-    if (!samples) {
-        co_return samples.error();
-    }
+    GEODISK_CO_TRY(samples);
     if (records_ != nullptr) {
-        if (auto read = co_await read_records(); !read) {
-            co_return read.error();
-        }
+        GEODISK_CO_TRY(co_await read_records());
     }
     report_.seconds.readback += runner_.now() - start;
     const auto darts = co_await candidates(*advice);
-    if (!darts) {
-        co_return darts.error();
-    }
+    GEODISK_CO_TRY(darts);
     report_.candidates = static_cast<std::uint32_t>(*darts);
     report_.dispatches = static_cast<std::uint32_t>(job().dispatches);
     take_counts(control(), report_);
@@ -534,18 +505,14 @@ Task<Result<SampleSet>> run(Runner::Impl& runner, const Domain& domain) {
 }
 
 Task<Result<SampleSet>> run_job(Runner::Impl& runner, const Domain& domain, DiskRecords* records) {
-    if (auto usable = runner.submitter->ready(); !usable) {
-        co_return usable.error();
-    }
+    GEODISK_CO_TRY(runner.submitter->ready());
     Releaser releaser{runner};
     std::uint64_t most = runner.bytes_allowed();
     std::uint32_t samples = 0; // That there has to be room for.
     RunReport before;
     for (;;) {
         const auto fitting = fit_within(runner, domain, most, samples);
-        if (!fitting) {
-            co_return fitting.error();
-        }
+        GEODISK_CO_TRY(fitting);
         RunPlan plan = fitting->plan;
         runner.keep();
         Run run(runner, domain, most, before, records);

@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "support/try.hpp"
 #include "vk/barriers.hpp"
 #include "vk/debug.hpp"
 
@@ -67,9 +68,7 @@ Result<Done> RunMemory::reserve_staging(VkDeviceSize bytes) {
     auto made = create("staging", bytes,
                        VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
                        MemoryKind::host);
-    if (!made) {
-        return made.error();
-    }
+    GEODISK_TRY(made);
     staging_ = std::move(*made);
     return Done{};
 }
@@ -82,9 +81,7 @@ Result<Done> RunMemory::reserve(const WorkspaceNeeds& needs, VkDeviceSize stagin
         buffers_[i] = {};
         held_[i].clear();
         auto made = create(to_string(static_cast<BufferRole>(i)), needs.bytes[i]);
-        if (!made) {
-            return made.error();
-        }
+        GEODISK_TRY(made);
         buffers_[i] = std::move(*made);
     }
     return reserve_staging(staging_bytes);
@@ -254,9 +251,7 @@ Result<Done> RunMemory::enlarge_pool(VkDeviceSize bytes) {
     if (bytes > buffer(BufferRole::pool).size()) {
         buffer(BufferRole::pool) = {}; // Free the old pool first, so that there are never two.
         auto larger = create(to_string(BufferRole::pool), bytes);
-        if (!larger) {
-            return larger.error();
-        }
+        GEODISK_TRY(larger);
         buffer(BufferRole::pool) = std::move(*larger);
     }
     return Done{};
@@ -283,9 +278,7 @@ Task<Result<Done>> RunMemory::enlarge_samples(std::array<VkDeviceSize, 3> bytes,
     }
     for (std::size_t i = 0; i < kRoles.size(); ++i) {
         auto allocated = create(to_string(kRoles[i]), bytes[i]);
-        if (!allocated) {
-            co_return allocated.error();
-        }
+        GEODISK_CO_TRY(allocated);
         larger.buffers[i] = std::move(*allocated);
     }
     if (kept > 0 && !by_host) {

@@ -12,6 +12,7 @@
 #include "engine/run/runner_impl.hpp"
 #include "support/guard.hpp"
 #include "support/number_text.hpp"
+#include "support/try.hpp"
 
 namespace geodisk {
 namespace {
@@ -159,9 +160,7 @@ Result<Runner> Runner::create(const DeviceRefs& device, const QueueRef& queue,
                               const RunnerOptions& options) noexcept {
     return guarded([&]() -> Result<Runner> {
         auto sampler = Sampler::create(device, options.sampler);
-        if (!sampler) {
-            return sampler.error();
-        }
+        GEODISK_TRY(sampler);
         return create(std::make_shared<const Sampler>(std::move(*sampler)), queue, options);
     });
 }
@@ -176,16 +175,10 @@ Result<Runner> Runner::create(std::shared_ptr<const Sampler> sampler, const Queu
         const DeviceRefs& device = impl->engine().device;
         const DeviceTable& vk = impl->engine().vk;
         const auto instance = load_instance_table(device.get_instance_proc_addr, device.instance);
-        if (!instance) {
-            return instance.error();
-        }
+        GEODISK_TRY(instance);
         const auto family = check_queue(*instance, device.physical_device, queue);
-        if (!family) {
-            return family.error();
-        }
-        if (auto checked = check_seconds(options); !checked) {
-            return checked.error();
-        }
+        GEODISK_TRY(family);
+        GEODISK_TRY(check_seconds(options));
         impl->options = options;
         if (device.memory_budget) {
             constexpr const char* kName = "vkGetPhysicalDeviceMemoryProperties2";
@@ -200,22 +193,16 @@ Result<Runner> Runner::create(std::shared_ptr<const Sampler> sampler, const Queu
         }
         instance->vkGetPhysicalDeviceMemoryProperties(device.physical_device, &impl->memory);
         auto submitter = Submitter::create(device, vk, queue, impl->stall_limit());
-        if (!submitter) {
-            return submitter.error();
-        }
+        GEODISK_TRY(submitter);
         impl->submitter.emplace(std::move(*submitter));
         if (options.time_stages && family->timestampValidBits != 0) {
             auto clock = StageClock::create(device, impl->sampler.report().limits.timestamp_period,
                                             family->timestampValidBits);
-            if (!clock) {
-                return clock.error();
-            }
+            GEODISK_TRY(clock);
             impl->clock.emplace(std::move(*clock));
         }
         if (!impl->engine().rounds_well) {
-            if (auto checked = impl->check_rounding(); !checked) {
-                return checked.error();
-            }
+            GEODISK_TRY(impl->check_rounding());
             impl->engine().rounds_well = true;
         }
         return Runner(std::move(impl));
@@ -233,9 +220,7 @@ Result<SampleSet> Runner::sample_and_wait(const PreparedMesh& mesh, const Sample
                                           const ProgressCallback& progress) noexcept {
     return guarded([&]() -> Result<SampleSet> {
         const auto domain = Domain::surface(mesh, params);
-        if (!domain) {
-            return domain.error();
-        }
+        GEODISK_TRY(domain);
         return sample_and_wait(*domain, progress);
     });
 }

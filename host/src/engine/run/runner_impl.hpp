@@ -22,6 +22,7 @@
 #include "engine/run/task.hpp"
 #include "records.h"
 #include "support/guard.hpp"
+#include "support/try.hpp"
 #include "vk/buffer.hpp"
 
 namespace geodisk {
@@ -172,9 +173,7 @@ Result<std::optional<T>> Runner::Impl::poll(std::chrono::milliseconds patience) 
         std::optional<T> result;
         if (own->task.is_done()) {
             auto ended = own->task.take();
-            if (!ended) {
-                return ended.error();
-            }
+            GEODISK_TRY(ended);
             result = std::move(*ended);
         }
         if (goes_on && on_progress && !on_progress(progress)) {
@@ -194,14 +193,10 @@ template <class T>
 Result<T> Runner::Impl::complete(Task<Result<T>> task, std::uint32_t candidates,
                                  const ProgressCallback& callback) {
     constexpr std::chrono::milliseconds kPatience(50);
-    if (auto begun = begin(std::move(task), candidates, callback); !begun) {
-        return begun.error();
-    }
+    GEODISK_TRY(begin(std::move(task), candidates, callback));
     for (;;) {
         auto ended = poll<T>(kPatience);
-        if (!ended) {
-            return ended.error();
-        }
+        GEODISK_TRY(ended);
         if (*ended) {
             return std::move(**ended);
         }

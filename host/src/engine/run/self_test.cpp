@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "engine/run/runner_impl.hpp"
+#include "support/try.hpp"
 #include "vk/barriers.hpp"
 #include "vk/descriptors.hpp"
 
@@ -73,9 +74,7 @@ Result<Done> Runner::Impl::check_rounding() {
     const std::vector<Vector> vectors = operands();
     auto results = allocate(vectors.size() * sizeof(Vector), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
                             MemoryKind::host);
-    if (!results) {
-        return results.error();
-    }
+    GEODISK_TRY(results);
     std::memcpy(results->bytes().data(), vectors.data(), vectors.size() * sizeof(Vector));
     constexpr auto kKernel = static_cast<std::size_t>(Kernel::self_test);
     const VkDescriptorSetLayout set_layout = sampler_impl.pipelines.set_layout(kKernel);
@@ -115,9 +114,7 @@ Result<Done> Runner::Impl::check_rounding() {
     } else {
         vk.vkDestroyDescriptorPool(device, pool, allocator);
     }
-    if (!done) {
-        return done.error();
-    }
+    GEODISK_TRY(done);
     return compare(vectors, results->bytes(), sampler_impl.report.name);
 }
 

@@ -6,6 +6,7 @@
 
 #include "constants.h"
 #include "engine/run/run_result.hpp"
+#include "support/try.hpp"
 
 namespace geodisk {
 namespace {
@@ -50,9 +51,7 @@ Result<double> Submissions::took(Result<Done> end) {
     if (end && runner_.clock) {
         end = runner_.clock->collect();
     }
-    if (!end) {
-        return end.error();
-    }
+    GEODISK_TRY(end);
     control_ = memory_.control();
     if (control_.abi != gpu::kAbi && job().begun.is_at_start()) {
         return Error{Status::internal, "the device did not write its control record"};
@@ -81,9 +80,7 @@ Task<Result<Done>> Submissions::run_passes(Passes record, const InOne& in_one) {
             co_return done;
         }
         const auto seconds = took(co_await runner_.submitter->ended());
-        if (!seconds) {
-            co_return seconds.error();
-        }
+        GEODISK_CO_TRY(seconds);
         passes.took(*seconds, passes.items() - budget.items);
         if (budget.is_in_new) {
             passes.bound(items_of_new_);
@@ -138,9 +135,7 @@ Task<Result<Done>> Submissions::run_rounds(bool rewind) {
         co_return done;
     }
     const auto seconds = took(co_await runner_.submitter->ended());
-    if (!seconds) {
-        co_return seconds.error();
-    }
+    GEODISK_CO_TRY(seconds);
     took_rounds(*seconds, rounds, before);
     // Batches that take more than a round: fewer of the other dispatches go idle when a round
     // detects longer.

@@ -10,6 +10,7 @@
 #include "engine/update/mesh_part.hpp"
 #include "engine/update/update_checks.hpp"
 #include "support/invalid.hpp"
+#include "support/try.hpp"
 
 namespace geodisk {
 namespace {
@@ -56,9 +57,7 @@ Result<DartSet> DartSet::find(const MeshView& mesh, const SampleParams& params,
             }
         }
         const auto part = MeshPart::prepare(mesh, params, std::move(faces), threads);
-        if (!part) {
-            return part.error();
-        }
+        GEODISK_TRY(part);
         const CandidateDraw draw(part->mesh(), part->params(), frame);
         for (std::uint32_t f = 0; f < part->faces().size(); ++f) {
             drawn.clear();

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "engine/domain/face_mask.hpp"
+#include "support/try.hpp"
 
 namespace geodisk {
 namespace {
@@ -61,9 +62,7 @@ Result<MeshPart> MeshPart::prepare(const MeshView& mesh, const SampleParams& par
         std::iota(part.faces_.begin(), part.faces_.end(), 0u);
         prepared = prepare_shape(mesh, part.faces_, threads);
     }
-    if (!prepared) {
-        return prepared.error();
-    }
+    GEODISK_TRY(prepared);
     part.mesh_ = std::move(*prepared);
     if (params.radii != nullptr) {
         part.radii_ = params.radii->on_part(part.mesh_, part.faces_);

@@ -6,6 +6,7 @@
 
 #include "engine/domain/check_frame.hpp"
 #include "engine/domain/listed.hpp"
+#include "support/try.hpp"
 
 namespace geodisk {
 namespace {
@@ -77,12 +78,8 @@ Result<MeshPart> Region::prepare_part() {
     std::ranges::sort(members);
     auto part =
         MeshPart::prepare(surface_.mesh, surface_.params, std::move(members), surface_.threads);
-    if (!part) {
-        return part.error();
-    }
-    if (auto checked = check_frame(surface_.frame, part->mesh(), part->params()); !checked) {
-        return checked.error();
-    }
+    GEODISK_TRY(part);
+    GEODISK_TRY(check_frame(surface_.frame, part->mesh(), part->params()));
     return part;
 }
 
@@ -143,19 +140,13 @@ Result<std::vector<bool>> Region::accept(const MeshPart& part, const std::vector
     }
     params.avoid = avoided;
     const auto domain = listed_domain(part.mesh(), params, surface_.frame, points);
-    if (!domain) {
-        return domain.error();
-    }
+    GEODISK_TRY(domain);
     const auto set = runner_.sample_and_wait(*domain, surface_.progress);
-    if (!set) {
-        return set.error();
-    }
+    GEODISK_TRY(set);
     report.run.add(set->report);
     report.run.guard = std::max(report.run.guard, set->report.guard);
     const auto places = places_of(std::span(set->samples).subspan(set->existing), points);
-    if (!places) {
-        return places.error();
-    }
+    GEODISK_TRY(places);
     for (const std::size_t place : *places) {
         accepted[place] = true;
     }
@@ -202,14 +193,10 @@ Result<Changes> Region::decide(std::span<const std::uint32_t> sources, double av
     for (; !goes_on_.empty(); width = kFurtherWidth * reach_) {
         faces_.reach(goes_on_, {{width, region_}});
         const auto part = prepare_part();
-        if (!part) {
-            return part.error();
-        }
+        GEODISK_TRY(part);
         const std::vector<Entry> entries = list(*part);
         const auto accepted = accept(*part, entries, report);
-        if (!accepted) {
-            return accepted.error();
-        }
+        GEODISK_TRY(accepted);
         changes = compare(*part, entries, *accepted);
         ++report.rounds;
         report.faces = static_cast<std::uint32_t>(region_.size());

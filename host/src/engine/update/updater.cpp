@@ -23,6 +23,7 @@
 #include "mesh/checks.hpp"
 #include "support/guard.hpp"
 #include "support/invalid.hpp"
+#include "support/try.hpp"
 
 namespace geodisk {
 namespace {
@@ -89,9 +90,7 @@ Result<std::unique_ptr<Updater::Impl>> Updater::Impl::make(const SurfaceJob& job
     own.longest_edge = std::ceil(frame.longest_edge); // All tolerances go by it.
     const auto& [mesh, params] = job;
     auto darts = DartSet::find(mesh, params, own, std::move(samples), threads);
-    if (!darts) {
-        return darts.error();
-    }
+    GEODISK_TRY(darts);
     auto impl = std::make_unique<Impl>(Impl{.frame = own,
                                             .threads = threads,
                                             .seed = params.seed,
@@ -158,9 +157,7 @@ Result<bool> Updater::Impl::fits_frame(const MeshView& mesh, const SampleParams&
     std::vector<std::uint32_t> near = sources.members();
     std::ranges::sort(near);
     const auto part = MeshPart::prepare(mesh, params, std::move(near), threads);
-    if (!part) {
-        return part.error();
-    }
+    GEODISK_TRY(part);
     return fits(frame, part->mesh().statistics());
 }
 
@@ -168,29 +165,19 @@ Result<Changes> Updater::Impl::decide_all(Runner& runner, const MeshView& mesh,
                                           const SampleParams& params,
                                           const ProgressCallback& progress, UpdateReport& report) {
     const auto surface = PreparedMesh::prepare(mesh, threads);
-    if (!surface) {
-        return surface.error();
-    }
+    GEODISK_TRY(surface);
     const auto other = frame_for_edit(frame, *surface, params);
-    if (!other) {
-        return other.error();
-    }
+    GEODISK_TRY(other);
     const auto domain = Domain::surface(*surface, params, *other);
-    if (!domain) {
-        return domain.error();
-    }
+    GEODISK_TRY(domain);
     const auto set = runner.sample_and_wait(*domain, progress);
-    if (!set) {
-        return set.error();
-    }
+    GEODISK_TRY(set);
     std::vector<NumberedSample> found;
     for (std::size_t i = set->existing; i < set->samples.size(); ++i) {
         found.push_back({set->samples[i], i});
     }
     const auto all = DartSet::find(mesh, params, *other, std::move(found), threads);
-    if (!all) {
-        return all.error();
-    }
+    GEODISK_TRY(all);
     frame = *other;
     frame.longest_edge = std::ceil(frame.longest_edge);
     report.run = set->report;
@@ -219,9 +206,7 @@ Result<Updater> Updater::create(const MeshView& mesh, const SampleParams& params
                                 const JobFrame& frame, std::span<const Sample> samples,
                                 const ThreadOptions& threads) noexcept {
     return guarded([&]() -> Result<Updater> {
-        if (auto checked = check_start({mesh, params}, frame, samples, threads); !checked) {
-            return checked.error();
-        }
+        GEODISK_TRY(check_start({mesh, params}, frame, samples, threads));
         std::vector<NumberedSample> found;
         for (std::size_t i = params.existing.size(); i < samples.size(); ++i) {
             if (samples[i].face >= mesh.face_count()) {
@@ -230,9 +215,7 @@ Result<Updater> Updater::create(const MeshView& mesh, const SampleParams& params
             found.push_back({samples[i], i});
         }
         auto impl = Impl::make({mesh, params}, frame, std::move(found), threads);
-        if (!impl) {
-            return impl.error();
-        }
+        GEODISK_TRY(impl);
         (*impl)->existing.assign(params.existing.begin(), params.existing.end());
         (*impl)->avoid.assign(params.avoid.begin(), params.avoid.end());
         (*impl)->set_samples();
@@ -244,12 +227,8 @@ Result<Updater> Updater::create(const SurfaceJob& before, const SurfaceJob& afte
                                 const JobFrame& frame, std::span<const Sample> samples,
                                 const ThreadOptions& threads) noexcept {
     return guarded([&]() -> Result<Updater> {
-        if (auto checked = check_start(before, frame, samples, threads); !checked) {
-            return checked.error();
-        }
-        if (auto checked = check_edit(before, after, frame); !checked) {
-            return checked.error();
-        }
+        GEODISK_TRY(check_start(before, frame, samples, threads));
+        GEODISK_TRY(check_edit(before, after, frame));
         FaceMatch match = match_faces(before, after);
         std::vector<Sample> existing;
         std::vector<NumberedSample> kept;
@@ -270,9 +249,7 @@ Result<Updater> Updater::create(const SurfaceJob& before, const SurfaceJob& afte
             }
         }
         auto impl = Impl::make(after, frame, std::move(kept), threads);
-        if (!impl) {
-            return impl.error();
-        }
+        GEODISK_TRY(impl);
         for (KeepOut one : before.params.avoid) {
             one.center.face =
                 one.center.face < match.kept.size() ? match.kept[one.center.face] : kNoFace;
@@ -301,14 +278,10 @@ Result<UpdateReport> Updater::update(Runner& runner, const MeshView& mesh,
         for (std::size_t face = own.faces.face_count(); face < mesh.face_count(); ++face) {
             edited.push_back(static_cast<std::uint32_t>(face));
         }
-        if (auto checked = own.check_same_job(mesh, params, edited); !checked) {
-            return checked.error();
-        }
+        GEODISK_TRY(own.check_same_job(mesh, params, edited));
         own.undecided = std::move(edited);
         own.connect(mesh);
-        if (auto checked = check_places(own.faces, params); !checked) {
-            return checked.error();
-        }
+        GEODISK_TRY(check_places(own.faces, params));
         std::vector<Sample> existing(params.existing.begin(), params.existing.end());
         for (const Sample& sample : difference_of(own.existing, existing, order_of)) {
             own.sources.insert(sample.face);
@@ -319,17 +292,13 @@ Result<UpdateReport> Updater::update(Runner& runner, const MeshView& mesh,
             own.avoided = std::max(own.avoided, one.radius);
         }
         const auto fits = own.fits_frame(mesh, params);
-        if (!fits) {
-            return fits.error();
-        }
+        GEODISK_TRY(fits);
         UpdateReport report;
         Region region(runner,
                       {mesh, params, own.frame, own.faces, own.darts, own.threads, progress});
         const auto changes = *fits ? region.decide(own.sources.members(), own.avoided, report)
                                    : own.decide_all(runner, mesh, params, progress, report);
-        if (!changes) {
-            return changes.error();
-        }
+        GEODISK_TRY(changes);
         report.removed = static_cast<std::uint32_t>(changes->removed.size() + own.dropped);
         own.dropped = 0;
         report.added = static_cast<std::uint32_t>(changes->added.size());

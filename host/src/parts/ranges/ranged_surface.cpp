@@ -10,6 +10,7 @@
 #include "parts/ranges/examine.hpp"
 #include "parts/ranges/ranged_halo.hpp"
 #include "parts/ranges/talk.hpp"
+#include "support/try.hpp"
 
 namespace geodisk {
 namespace {
@@ -122,9 +123,7 @@ Result<JobFrame> RangedSurface::frame(const SampleParams& params) const {
         return needs_whole("the distance is larger than it");
     }
     const SampleParams own = with_radii(params);
-    if (auto checked = check_params(outline_, own); !checked) {
-        return checked.error();
-    }
+    GEODISK_TRY(check_params(outline_, own));
     auto frame = frame_with(outline_, own, fields_.areas());
     if (!frame && fields_.masked_faces()) {
         return needs_whole(frame.error().message);
