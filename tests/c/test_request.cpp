@@ -167,8 +167,8 @@ TEST_CASE("a request that contradicts itself is refused, and the sampler stays f
     cube.request.count = 50;
     cube.request.is_exact = 1;
     cube.params.darts = 100;
-    CHECK(cube.refusal() == "is_exact and darts exclude each other: darts stop at exactly "
-                            "stop_count samples");
+    CHECK(cube.refusal() == "is_exact and darts exclude each other: darts stop at an exact "
+                            "count already");
     cube.params.darts = 0;
     cube.request.order = 7;
     CHECK(cube.refusal() == "request->order is none of the three");

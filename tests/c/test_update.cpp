@@ -194,7 +194,7 @@ TEST_CASE("updates that cannot be are refused") {
     other = params;
     other.stop_count = 10;
     CHECK(refusal(mesh.get(), &other, points.data(), points.size()) ==
-          "samples up to a count cannot be updated; sample the surface again");
+          "update and stop_count exclude each other: the last sample of a number may lie anywhere");
     other = params;
     other.seed = 5;
     CHECK(refusal(mesh.get(), &other, points.data(), points.size()).starts_with("sample "));

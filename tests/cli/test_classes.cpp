@@ -216,8 +216,6 @@ TEST_CASE("what no classes are ends in an error, without a file") {
              {{"--classes", "1,1;1,1", "-d", "1"}, "takes no --min-distance"},
              {{"--classes", "1,1;1,1", "-n", "10"}, "takes no --count"},
              {{"--classes", "2"}, "no distance given"},
-             {{"--classes", "2", "-d", "1", "--density", "curvature"}, "no radii that vary"},
-             {{"--classes", "2", "-d", "1", "--metric", "euclidean"}, "--metric euclidean"},
              {{"--classes", "2", "-d", "1", "--existing", "a.ply"}, "its class is 2"}}) {
         const Outcome refused =
             run(folder, joined({"sample", kClassesMesh, "-o", "b.ply"}, options));

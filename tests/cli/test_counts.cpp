@@ -99,7 +99,6 @@ TEST_CASE("exact counts that cannot be are refused without a file") {
         {{"--exact", "-n", "5000000000"}, "is too many; the maximum is 4,294,967,295"},
         {{"-n", "1e9", "--exact"}, "samples need a pool of 2e+10 candidates, the maximum is"},
         {{"-n", "1e8", "--dense"}, "lower --count or the pool ratio"},
-        {{"--exact", "-n", "10", "--method", "darts", "-d", "1"}, "--exact is for --method pool"},
     };
     for (const Case& wrong : cases) {
         Arguments arguments{"sample", kCountsMesh, "-o", "a.ply"};
@@ -228,11 +227,6 @@ TEST_CASE("orders that cannot be are refused without a file") {
         {{"--order", "progressive", "--levels", "0"}, "--levels: '0' is not a whole number"},
         {{"--order", "progressive", "--levels", "33"}, "the maximum is 32"},
         {{"--order", "progressive", "--level-factor", "1"}, "--level-factor: '1'"},
-        {{"--order", "progressive", "--method", "darts", "--darts", "9"}, "is for --method pool"},
-        {{"--order", "progressive", "--metric", "euclidean"}, "it takes no --metric euclidean"},
-        {{"--order", "progressive", "--maximal"}, "takes no --maximal"},
-        {{"--order", "progressive", "--classes", "2"}, "takes no --classes"},
-        {{"--order", "progressive", "--features", "40"}, "takes no --features"},
         {{"--order", "progressive", "--dry-run"}, "--dry-run tries one run"},
     };
     for (const Case& wrong : cases) {

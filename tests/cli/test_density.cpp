@@ -354,8 +354,6 @@ TEST_CASE("radii that cannot be are refused, naming file and vertex") {
           {"--density", "file:bad.txt"});
     fails(3, "short.txt: has 2 values for the 625 vertices of the mesh",
           {"--density", "file:short.txt"});
-    fails(2, "takes no radii that vary, so neither --density nor --radius-factor",
-          {"--density", "q", "--metric", "euclidean"});
     check_fails(folder, 2, "g.txt: the report would replace the density",
                 {"sample", "mesh.ply", "-o", "a.ply", "-n", "9", "--density", "file:g.txt",
                  "--json", "g.txt"});

@@ -148,8 +148,6 @@ TEST_CASE("what farthest-point order does not go with is refused") {
         {{"--keep", "3"}, "--keep is for --order farthest"},
         {{"--order", "farthest", "--keep", "0"}, "--keep: '0' is not a whole number"},
         {{"--order", "farthest", "--levels", "3"}, "--levels is for --order progressive"},
-        {{"--order", "farthest", "--metric", "euclidean"}, "it takes no --metric euclidean"},
-        {{"--order", "farthest", "--existing", "a.csv"}, "--existing keeps its own as the first"},
         {{"--order", "farthest", "--dry-run"}, "it takes no --order farthest"},
     };
     for (const Case& wrong : cases) {

@@ -97,9 +97,6 @@ TEST_CASE("what takes no features ends in an error, without a file") {
              {{"--features", "0"}, "is not a number of 1 to 180"},
              {{"--features", "181"}, "is not a number of 1 to 180"},
              {{"--features", "sharp"}, "is not a number of 1 to 180"},
-             {{"--features", "30", "--classes", "2"}, "takes no --classes"},
-             {{"--features", "30", "--metric", "euclidean"}, "takes no --metric"},
-             {{"--features", "30", "--density", "curvature"}, "takes no --density"},
              {{"--features", "30", "--method", "darts", "-n", "20"}, "on features count too"}}) {
         const Outcome refused =
             run(folder, joined({"sample", "builtin:cube:4", "-o", "b.ply", "-d", "5%"}, options));

@@ -96,10 +96,7 @@ TEST_CASE("what contradicts dense and maximal sets is refused") {
     };
     CHECK(contains(cube({"--dense", "--pool-ratio", "50"}), "give just one of them"));
     CHECK(contains(cube({"--dense", "--maximal"}), "--dense adds nothing"));
-    CHECK(contains(cube({"--classes", "2", "--maximal"}), "--classes takes no --maximal"));
-    CHECK(contains(cube({"--maximal", "--method", "darts", "--darts", "9"}), "ends at a number"));
     CHECK(contains(cube({"--dense", "--method", "darts", "--darts", "9"}), "raise --darts"));
-    CHECK(contains(cube({"--maximal", "--metric", "euclidean"}), "takes no --maximal"));
     CHECK(contains(refusal({"box", "-o", "a.csv", "--dim", "2", "-d", "0.1", "--maximal"}),
                    "--maximal is for surfaces"));
 }

@@ -272,8 +272,6 @@ TEST_CASE("updates of other samples, meshes and kinds are refused") {
     folder.write("bare.csv", "x,y,z,face_index,bary_u,bary_v,bary_w\n0,0,0,0,1,0,0\n");
     refused(3, "does not say its seed and minimum distance",
             {"-d", "3", "--from", "old.ply", "--update", "bare.csv"});
-    refused(2, "--from takes no --count; give --min-distance", joined(edit, {"-n", "50"}));
-    refused(2, "--from takes no --maximal", joined(edit, {"-d", "3", "--maximal"}));
     refused(2, "--from takes no --avoid", joined(edit, {"-d", "3", "--avoid", "a.ply:1"}));
     // Errors name the files that they are about.
     std::string other_seed = bytes_of(folder / "a.ply");

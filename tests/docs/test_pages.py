@@ -115,3 +115,13 @@ def test_tests_of_reliability_exist():
     cases = [name for path in tests for name in case.findall(path.read_text())]
     gone = [name for name in named if not any(c.startswith(name.removesuffix(" ...")) for c in cases)]
     assert gone + [name for name in files if all(path.name != name for path in tests)] == []
+
+
+def test_exclusions_are_those_of_the_library():
+    """The last table of the page has the rules, in their order."""
+    source = (SOURCE / "host/src/engine/request/request_rules.cpp").read_text()
+    rules = re.findall(r'\{Field::(\w+), Field::(\w+),\s*"([^"]+)"\}', source)
+    page = (SOURCE / "host/docs/exclusions.md").read_text()
+    table = page.rpartition("|---|---|---|\n")[2]
+    assert len(rules) > 30
+    assert table == "".join(f"| `{a}` | `{b}` | {why} |\n" for a, b, why in rules)

@@ -158,7 +158,7 @@ TEST_SUITE("features") {
         params.darts = 0;
         const RadiusField density = density_field(mesh, rough_density(shape));
         params.radii = &density;
-        refuses(mesh, "no density");
+        refuses(mesh, "features and density");
         params.radii = nullptr;
         const TestMesh sphere = builtin("icosphere", 2);
         const PreparedMesh smooth = prepared(sphere);

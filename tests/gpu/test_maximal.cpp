@@ -168,19 +168,21 @@ TEST_SUITE("maximal") {
         SampleParams params = params_for(cube, 100);
         params.darts = 5;
         CHECK(refusal(cube, params) ==
-              "a maximal set ends when no sample fits, not after a number of darts");
+              "maximal and darts exclude each other: darts are no pool to complete");
         params = params_for(cube, 100);
         params.stop_count = 5;
-        CHECK(refusal(cube, params) == "a maximal set ends when no sample fits, not at a count");
+        CHECK(refusal(cube, params) == "maximal and stop_count exclude each other: a count drops "
+                                       "the last samples, which leaves gaps");
         const auto density =
             RadiusField::from_density(cube, std::vector<double>(cube.vertex_count(), 1));
         params = params_for(cube, 100, 1, &*density);
         CHECK(refusal(cube, params) ==
-              "a maximal set leaves no gaps, so it has no density; give radius factors");
+              "maximal and density exclude each other: a density leaves gaps by chance");
         params = params_for(cube, 100);
         const std::vector<float> classes{1, 0.5f, 0.5f, 1};
         params.class_factors = classes;
-        CHECK(refusal(cube, params) == "a maximal set has no classes");
+        CHECK(refusal(cube, params) == "maximal and class_factors exclude each other: gaps are "
+                                       "those of samples without classes");
         params = params_for(cube, 100);
         params.maximal = true;
         const SurfacePart part{&cube, params};

@@ -212,7 +212,8 @@ TEST_SUITE("parts") {
               "there are 13 processes, but the mesh has 12 faces; start at most as many processes");
         check_parts(cube, params, {12});
         params.maximal = true;
-        CHECK(refusal(cube, params, 2) == "many processes take no maximal set; sample with one");
+        CHECK(refusal(cube, params, 2) ==
+              "processes and maximal exclude each other: gaps are found on the whole surface");
         params = params_for(cube, 100);
         params.min_distance = -1;
         CHECK(refusal(cube, params, 2).starts_with("the minimum distance must be"));

@@ -32,6 +32,8 @@ class PairRequest {
     PairRequest(RequestField a, RequestField b)
         : shape_(builtin("cube", 2)), mesh_(prepared(shape_)),
           radii_(expect(RadiusField::prepare(mesh_, std::vector<double>(mesh_.vertex_count(), 1)))),
+          density_(expect(
+              RadiusField::from_density(mesh_, std::vector<double>(mesh_.vertex_count(), 1)))),
           view_(shape_.view()) {
         request_.view = &view_;
         request_.params.min_distance = 0.5;
@@ -71,11 +73,17 @@ class PairRequest {
         case RequestField::radii:
             params.radii = &radii_;
             break;
+        case RequestField::density:
+            params.radii = &density_;
+            break;
         case RequestField::class_factors:
             params.class_factors = factors_;
             break;
         case RequestField::existing:
             params.existing = given_;
+            break;
+        case RequestField::avoid:
+            params.avoid = avoided_;
             break;
         case RequestField::features:
             request_.features = 30;
@@ -101,16 +109,20 @@ class PairRequest {
         case RequestField::split_from:
             request_.split_from = &mesh_;
             break;
+        case RequestField::update:
+        case RequestField::processes:
+            break; // Of no request for Runner.
         }
     }
 
     TestMesh shape_;
     PreparedMesh mesh_;
-    RadiusField radii_;
+    RadiusField radii_, density_;
     MeshView view_;
     JobFrame frame_;
     std::array<float, 4> factors_{1, 0.5F, 0.5F, 1};
     std::array<Sample, 1> given_{{{0, {1, 0, 0}}}};
+    std::array<KeepOut, 1> avoided_{{{{0, {1, 0, 0}}, 0.1}}};
     SampleRequest request_;
 };
 
@@ -296,7 +308,7 @@ TEST_SUITE("request") {
             for (int k = 0; k <= last; ++k) {
                 const auto a = static_cast<RequestField>(i), b = static_cast<RequestField>(k);
                 const PairRequest pair(a, b);
-                const RequestRule* const rule = broken_rule(pair.request());
+                const RequestRule* const rule = broken_rule(fields_of(pair.request()));
                 const auto is_rule = [&](RequestField x, RequestField y) {
                     return std::ranges::any_of(request_rules(), [&](const RequestRule& one) {
                         return one.field == x && one.other == y;

@@ -208,7 +208,8 @@ TEST_SUITE("space") {
         const RadiusField radii = radius_field(mesh, wavy_factors(cube, 0.5));
         const auto refused = in_space(cube.view(), params_for(mesh, 100, 1, &radii));
         REQUIRE_FALSE(refused);
-        CHECK(refused.error().message == "SampleParams::radii is for geodesic distances alone");
+        CHECK(refused.error().message ==
+              "metric and radii exclude each other: distances through space do not vary");
     }
 
     TEST_CASE("the validation layer has nothing to say about a run in space") {

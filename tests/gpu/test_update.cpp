@@ -296,14 +296,15 @@ TEST_SUITE("update") {
         CHECK(refused(with([&](SampleParams& p) { p.face_keys = keys; })) ==
               "there are keys of 1279 faces for a mesh of 1280");
         CHECK(refused(with([](SampleParams& p) { p.darts = 500; })) ==
-              "a number of darts cannot be updated; sample the surface again");
+              "update and darts exclude each other: the last dart of a number may lie anywhere");
         CHECK(refused(with([](SampleParams& p) { p.stop_count = 500; })) ==
-              "samples up to a count cannot be updated; sample the surface again");
+              "update and stop_count exclude each other: the last sample of a number may lie "
+              "anywhere");
         CHECK(refused(with([](SampleParams& p) { p.maximal = true; })) ==
-              "a maximal set cannot be updated; sample the surface again");
+              "update and maximal exclude each other: gaps are filled from all over the surface");
         const float factors[4] = {1, 0.5f, 0.5f, 1};
         CHECK(refused(with([&](SampleParams& p) { p.class_factors = factors; })) ==
-              "samples of classes cannot be updated; sample the surface again");
+              "update and class_factors exclude each other: an update knows no classes");
         CHECK(refused(with([&](SampleParams& p) {
                   p.existing = std::span(samples).subspan(1, 2);
               })) == "the samples must begin with the 2 existing ones");

@@ -57,9 +57,9 @@ def test_report_tells_of_processes(tmp_path):
 
 
 @pytest.mark.parametrize("arguments, message", [
-    (["--count", "10", "--classes", "2"], "--classes is not for many processes"),
-    (["--count", "10", "--maximal"], "--maximal is not for many processes"),
-    (["--count", "10", "--metric", "euclidean"], "--metric euclidean is not for many processes"),
+    (["--count", "10", "--classes", "2"], "geodisk_mpi and --classes exclude each other"),
+    (["--count", "10", "--maximal"], "geodisk_mpi and --maximal exclude each other"),
+    (["--count", "10", "--metric", "euclidean"], "geodisk_mpi and --metric euclidean exclude each other"),
     (["--count", "0"], "--count"),
     ([], "give one of --min-distance"),
 ])

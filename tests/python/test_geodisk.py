@@ -360,7 +360,6 @@ def test_bad_values():
     fails(ValueError, "pool_ratio is 0, not from", pool_ratio=0)
     fails(ValueError, "levels is 33, not from 1 to 32", order="progressive", levels=33)
     fails(ValueError, "features is True, not an angle", features=True)
-    fails(ValueError, "features take no density", features=30, density=[1, 2, 3, 4])
     point = ([0], [[1, 0, 0]])
     fails(ValueError, "point to avoid 0 has the radius nan", avoid=(point, float("nan")))
     fails(ValueError, "mask of zeros and ones, which must be of type bool", face_mask=[0, 1, 1, 0])

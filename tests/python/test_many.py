@@ -78,7 +78,7 @@ def test_all_parameters_are_those_of_sample(options):
 
 
 def test_what_is_wrong_is_refused():
-    with pytest.raises(geodisk.InvalidArgument, match="^mesh 1: metric and radii that vary exclude"):
+    with pytest.raises(geodisk.InvalidArgument, match="^mesh 1: metric=.euclidean. and density exclude"):
         geodisk.sample_many(
             [MESHES[0]] * 2,
             min_distance=0.5,

@@ -17,7 +17,3 @@ def test_a_maximal_set_is_certified():
     assert (samples.points[: len(pool)] == pool.points).all()
     assert geodisk.verify(samples)
     assert len(geodisk.sample(VERTICES, FACES, min_distance=0.3, pool_ratio=100)) > len(pool)
-    with pytest.raises(geodisk.InvalidArgument, match="^maximal and stop_count exclude each other"):
-        geodisk.sample(VERTICES, FACES, min_distance=0.3, maximal=True, stop_count=5)
-    with pytest.raises(geodisk.InvalidArgument, match="no density"):
-        geodisk.sample(VERTICES, FACES, min_distance=0.3, maximal=True, density=VERTICES[:, 2] ** 2)

@@ -21,26 +21,13 @@ constexpr const char* kMpiSampleExamples[] = {
     "mpirun -n 4 geodisk_mpi sample bunny.obj -o points.ply -d 0.1% --checkpoint saved --resume",
 };
 
-void refuse(const std::string& option) {
-    fail_usage(option + " is not for many processes; use geodisk sample");
-}
-
-/// What takes the whole surface at once.
+/// Refuses what takes the whole surface at once.
 void check_shared(const SampleOptions& options) {
-    if (!options.classes.empty()) {
-        refuse("--classes");
-    }
-    if (options.method.is_maximal) {
-        refuse("--maximal");
-    }
-    if (options.metric != "geodesic") {
-        refuse("--metric " + options.metric);
-    }
-    if (!options.from.empty()) {
-        refuse("--from");
-    }
+    GivenFields given = given_fields(options, parse_classes(options.classes));
+    given.add(RequestField::processes, "geodisk_mpi");
+    given.check();
     if (options.out.is_dry_run) {
-        refuse("--dry-run");
+        fail_usage("--dry-run is not for many processes; use geodisk sample");
     }
 }
 

@@ -523,6 +523,18 @@ typedef struct geodisk_request {
     uint32_t keep;        /* Samples to keep of GEODISK_ORDER_FARTHEST; 0 for all. */
 } geodisk_request;
 
+/* Two fields of requests that exclude each other, as geodisk/request_rules.hpp names them. */
+typedef struct geodisk_rule {
+    size_t struct_size;
+    const char *field, *other;
+    const char *reason; /* A sentence without a full stop. */
+} geodisk_rule;
+
+/* Returns the rule with this number, from 0 on. Fails with GEODISK_INVALID_ARGUMENT after the last
+ * one. Its texts stay as long as the library. */
+GEODISK_C_API geodisk_status geodisk_request_rule(size_t number, geodisk_rule *rule,
+                                                  geodisk_error *error);
+
 /* Samples what the request asks for, and waits for the result. `progress` may be NULL, and is called
  * for each run anew; `user` is passed to it. Fields that exclude each other are refused by name. */
 GEODISK_C_API geodisk_status geodisk_sample_request(geodisk_sampler *sampler,

@@ -24,6 +24,7 @@
 #include <geodisk/process_report.hpp>
 #include <geodisk/radius_field.hpp>
 #include <geodisk/request.hpp>
+#include <geodisk/request_rules.hpp>
 #include <geodisk/runner.hpp>
 #include <geodisk/sample.hpp>
 #include <geodisk/sampler.hpp>

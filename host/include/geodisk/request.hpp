@@ -19,6 +19,7 @@
 #include <geodisk/mesh.hpp>
 #include <geodisk/mesh_view.hpp>
 #include <geodisk/params.hpp>
+#include <geodisk/request_rules.hpp>
 #include <geodisk/runner.hpp>
 #include <geodisk/status.hpp>
 
@@ -68,42 +69,6 @@ struct BoxRequest {
     double count = 0;      ///< As SampleRequest::count.
     bool is_exact = false; ///< As SampleRequest::is_exact.
 };
-
-/// Fields of a request that may exclude each other.
-enum class RequestField : std::uint8_t {
-    min_distance,
-    count,
-    is_exact,
-    darts,
-    stop_count,
-    maximal,
-    radii,
-    class_factors,
-    existing,
-    features,
-    progressive,
-    farthest,
-    keep,
-    metric,
-    frame,
-    split_from,
-};
-
-/// Returns the name of a field as spelled above.
-GEODISK_API const char* to_string(RequestField field) noexcept;
-
-/// Two fields that exclude each other.
-struct RequestRule {
-    RequestField field, other;
-    const char* reason; ///< A sentence without a full stop.
-};
-
-/// Returns all rules.
-GEODISK_API std::span<const RequestRule> request_rules() noexcept;
-
-/// Returns the first rule that a request breaks, or null. Front ends name both fields as their
-/// users spell them.
-GEODISK_API const RequestRule* broken_rule(const SampleRequest& request) noexcept;
 
 /// Samples that a request asked for.
 struct RequestedSet {

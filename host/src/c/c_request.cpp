@@ -1,5 +1,6 @@
 #include "c/c_request.hpp"
 
+#include <span>
 #include <string>
 #include <utility>
 
@@ -129,3 +130,19 @@ Result<std::shared_ptr<const DomainState>> at_found_distance(RequestState& state
 }
 
 } // namespace geodisk::c
+
+extern "C" {
+
+geodisk_status geodisk_request_rule(size_t number, geodisk_rule* rule, geodisk_error* error) {
+    using namespace geodisk;
+    return c::answer(error, [&]() -> Result<Done> {
+        const std::span<const RequestRule> rules = request_rules();
+        if (number >= rules.size()) {
+            return c::wrong("there are " + std::to_string(rules.size()) + " rules");
+        }
+        const auto& [field, other, reason] = rules[number];
+        return c::give(rule, "rule", {0, to_string(field), to_string(other), reason});
+    });
+}
+
+} // extern "C"

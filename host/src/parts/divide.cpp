@@ -7,6 +7,7 @@
 
 #include "engine/domain/stages.hpp"
 #include "engine/domain/tolerances.hpp"
+#include "engine/request/check_fields.hpp"
 #include "parts/halo.hpp"
 #include "parts/part.hpp"
 #include "parts/part_bytes.hpp"
@@ -21,13 +22,9 @@ namespace {
 constexpr double kMinMargin = 0x1p-6;
 
 Result<Done> check_params(const SampleParams& params) {
-    const auto no = [](const char* what) {
-        return invalid(std::string("many processes take no ") + what + "; sample with one");
-    };
-    if (!params.class_factors.empty()) {
-        return no("classes");
-    }
-    return params.maximal ? Result<Done>(no("maximal set")) : Result<Done>(Done{});
+    RequestFields fields = fields_of(params);
+    fields.add(RequestField::processes);
+    return check_fields(fields);
 }
 
 double margin_of(const JobFrame& frame) {

@@ -53,15 +53,11 @@ bool ConstraintOptions::reads_points() const {
     });
 }
 
-void ConstraintOptions::check(const std::string& metric) const {
+void ConstraintOptions::check() const {
     check_tolerance(tolerance);
     parsed_avoid();
     if (!reads_points() && !tolerance.empty()) {
         fail_usage("--tolerance is for points that are read; give --existing or --avoid");
-    }
-    if (is_given() && metric != "geodesic") {
-        fail_usage(std::string(existing.empty() ? "--avoid" : "--existing") +
-                   " goes by distances along the surface, so it takes no --metric " + metric);
     }
 }
 

@@ -37,9 +37,9 @@ struct ConstraintOptions {
     bool reads_points() const;
     /// Throws UserError(usage) for what is not POINTS:RADIUS.
     std::vector<AvoidOption> parsed_avoid() const;
-    /// Throws UserError(usage) for options that contradict each other, or `metric`, the name of the
-    /// job's, and for a tolerance that is no length.
-    void check(const std::string& metric) const;
+    /// Throws UserError(usage) for options that contradict each other, and for a tolerance that is
+    /// no length.
+    void check() const;
     /// Adds the files that are read.
     void add_files(std::vector<NamedFile>& read) const;
     /// Puts `place(name)` for each file that is named.

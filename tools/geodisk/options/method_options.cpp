@@ -35,21 +35,13 @@ void check_method(const MethodOptions& options) {
     }
 }
 
-/// Checks that --dense and --maximal contradict nothing.
+/// Checks that --dense contradicts nothing.
 void check_filling(const MethodOptions& options) {
     if (options.is_dense && options.throws_darts()) {
         fail_usage("--dense is for --method pool; with darts, raise --darts");
     }
     if (options.is_dense && !options.pool_ratio.empty()) {
         fail_usage("--dense is a --pool-ratio of 100; give just one of them");
-    }
-    if (options.is_maximal && options.throws_darts()) {
-        fail_usage("--maximal goes on until no sample fits, --method darts ends at a number; give "
-                   "just one of them");
-    }
-    if (options.is_maximal && options.exact) {
-        fail_usage("--maximal leaves no gaps, --exact drops the last samples; give just one of "
-                   "them");
     }
     if (options.is_maximal && options.is_dense) {
         fail_usage("--maximal leaves no gaps, so --dense adds nothing; give just one of them");
@@ -77,12 +69,6 @@ void parse_order(const MethodOptions& options, Method& method) {
     if (!method.has_levels && !(options.levels.empty() && options.level_factor.empty())) {
         fail_usage(std::string(options.levels.empty() ? "--level-factor" : "--levels") +
                    " is for --order progressive");
-    }
-    if (method.has_levels && options.throws_darts()) {
-        fail_usage("--order progressive is for --method pool; darts fill no level");
-    }
-    if (method.has_levels && options.is_maximal) {
-        fail_usage("--order progressive takes no --maximal; give --dense");
     }
     if (!options.levels.empty()) {
         const double count = parse_count("--levels", options.levels);
@@ -126,7 +112,22 @@ void Method::check_count(std::uint64_t samples, double min_distance, std::uint64
     }
 }
 
+GivenFields given_fields(const MethodOptions& options, const std::string& count) {
+    using Field = RequestField;
+    const bool is_darts = options.throws_darts();
+    GivenFields given;
+    given.add(is_darts ? Field::stop_count : Field::count, "--count", !count.empty());
+    given.add(Field::is_exact, "--exact", options.exact);
+    given.add(Field::darts, "--method darts", is_darts);
+    given.add(Field::maximal, "--maximal", options.is_maximal);
+    given.add(Field::progressive, "--order progressive", options.order == "progressive");
+    given.add(Field::farthest, "--order farthest", options.order == "farthest");
+    given.add(Field::keep, "--keep", !options.keep.empty());
+    return given;
+}
+
 Method parse_method(const MethodOptions& options, const std::string& count) {
+    given_fields(options, count).check();
     check_method(options);
     check_filling(options);
     Method method;
@@ -152,9 +153,6 @@ WantedCount parse_wanted_count(const MethodOptions& options, const std::string& 
                                double pool_ratio) {
     if (options.exact && count.empty()) {
         fail_usage("--exact needs a number of samples; give --count instead of a distance");
-    }
-    if (options.exact && options.throws_darts()) {
-        fail_usage("--exact is for --method pool; darts stop at exactly --count samples");
     }
     if (count.empty() || options.throws_darts()) {
         return {};

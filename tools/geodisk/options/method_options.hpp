@@ -10,6 +10,8 @@
 #include <geodisk/levels.hpp>
 #include <geodisk/params.hpp>
 
+#include "geodisk/options/given_fields.hpp"
+
 namespace geodisk::tools {
 
 class Command;
@@ -66,6 +68,9 @@ void add_keep_option(Command command, std::string& keep, const std::string& grou
 
 /// Adds --order and those that go with it.
 void add_order_options(Command command, MethodOptions& options);
+
+/// Returns the fields that the options set, with --count.
+GivenFields given_fields(const MethodOptions& options, const std::string& count);
 
 /// Throws UserError(usage) for values out of range and options that contradict each other.
 Method parse_method(const MethodOptions& options, const std::string& count);

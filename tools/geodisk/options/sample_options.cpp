@@ -35,22 +35,9 @@ void check_metric(const SampleOptions& options, const SampleJob& job) {
     if (job.is_geodesic()) {
         return;
     }
-    if (options.method.is_maximal) {
-        fail_usage("--metric " + options.metric + " takes no --maximal; give --dense");
-    }
-    if (job.method.has_levels) {
-        fail_usage("--order progressive goes by distances along the surface, so it takes no "
-                   "--metric " +
+    if (!options.constraints.existing.empty()) {
+        fail_usage("--existing goes by distances along the surface, so it takes no --metric " +
                    options.metric);
-    }
-    if (job.method.is_farthest) {
-        fail_usage("--order farthest goes by distances along the surface, so it takes no "
-                   "--metric " +
-                   options.metric);
-    }
-    if (options.density.is_given()) {
-        fail_usage("--metric " + options.metric +
-                   " takes no radii that vary, so neither --density nor --radius-factor");
     }
     for (const auto& [name, value] : options.mesh.additions()) {
         const bool is_kept = name == "weld" || name == "keep_seams" || name == "mesh_format";
@@ -63,41 +50,13 @@ void check_metric(const SampleOptions& options, const SampleJob& job) {
 
 /// Takes the classes, and their largest distance if a table has it.
 void take_classes(const SampleOptions& options, SampleJob& job) {
-    job.classes = parse_classes(options.classes);
     if (!job.classes.is_given()) {
         return;
     }
     job.classes_option = options.classes;
     job.class_factors = job.classes.factors();
-    if (options.density.is_given()) {
-        fail_usage("--classes takes no radii that vary, so neither --density nor --radius-factor");
-    }
-    if (options.method.is_maximal) {
-        fail_usage("--classes takes no --maximal; give --dense");
-    }
-    if (!job.is_geodesic()) {
-        fail_usage("--classes goes by distances along the surface, so it takes no --metric " +
-                   options.metric);
-    }
     if (!job.classes.distances.empty()) {
         job.min_distance = Length{job.classes.largest(), false};
-    }
-}
-
-void take_features(const SampleOptions& options, SampleJob& job) {
-    if (options.features.empty()) {
-        return;
-    }
-    job.features = parse_ratio("--features", options.features, 1, 180);
-    if (job.classes.is_given()) {
-        fail_usage("--features takes no --classes");
-    }
-    if (!job.is_geodesic()) {
-        fail_usage("--features goes by distances along the surface, so it takes no --metric " +
-                   options.metric);
-    }
-    if (options.density.is_density()) {
-        fail_usage("--features takes no --density; give --radius-factor to vary the distance");
     }
 }
 
@@ -112,14 +71,7 @@ void take_edit(const SampleOptions& options, SampleJob& job) {
         return;
     }
     const std::pair<const char*, bool> refused[] = {
-        {"--count; give --min-distance", !options.count.empty()},
-        {"--method darts", job.method.throws_darts},
-        {"--maximal", job.method.is_maximal},
-        {"--order", options.method.order != SampleOptions().method.order},
-        {"--classes", job.classes.is_given()},
         {"--avoid", !options.constraints.avoid.empty()},
-        {"--features", job.features.has_value()},
-        {"--metric", !job.is_geodesic()},
         {"--lift", !options.mesh.lifts.empty()},
         {"--edge-lengths", !options.mesh.edge_lengths.empty()},
         {"--coordinates", !options.mesh.coordinates.empty()},
@@ -153,6 +105,22 @@ void check_distance(const SampleOptions& options, const ClassTable& classes) {
 
 } // namespace
 
+GivenFields given_fields(const SampleOptions& options, const ClassTable& classes) {
+    using Field = RequestField;
+    const std::string metric = "--metric " + options.metric;
+    const std::optional<DensitySource> radii = options.density.source();
+    GivenFields given = given_fields(options.method, options.count);
+    given.add(Field::class_factors, "--classes", !classes.factors().empty());
+    given.add(Field::radii, radii ? radii->option : "", radii.has_value());
+    given.add(Field::density, "--density", options.density.is_density());
+    given.add(Field::existing, "--existing", !options.constraints.existing.empty());
+    given.add(Field::avoid, "--avoid", !options.constraints.avoid.empty());
+    given.add(Field::features, "--features", !options.features.empty());
+    given.add(Field::metric, metric, parse_metric(options.metric).has_value());
+    given.add(Field::update, "--from", !options.from.empty());
+    return given;
+}
+
 HeaderEntries SampleJob::additions() const {
     return with_entries(density.added_to(mesh.additions()), mask);
 }
@@ -185,9 +153,13 @@ SampleJob parse_job(const SampleOptions& options) {
     if (job.legend && job.picture.empty()) {
         fail_usage("--legend is for pictures; add --picture FILE");
     }
+    job.classes = parse_classes(options.classes);
+    given_fields(options, job.classes).check();
     job.method = parse_method(options.method, options.count);
     take_classes(options, job);
-    take_features(options, job);
+    if (!options.features.empty()) {
+        job.features = parse_ratio("--features", options.features, 1, 180);
+    }
     check_distance(options, job.classes);
     if (!options.min_distance.empty()) {
         job.min_distance = parse_length("--min-distance", options.min_distance);
@@ -205,20 +177,12 @@ SampleJob parse_job(const SampleOptions& options) {
     if (job.method.has_levels && job.out.is_dry_run) {
         fail_usage("--dry-run tries one run, but --order progressive takes one for each level");
     }
-    if (job.method.has_levels && (job.classes.is_given() || job.features)) {
-        fail_usage(std::string("--order progressive takes no ") +
-                   (job.features ? "--features" : "--classes"));
-    }
     if (job.method.is_farthest && job.out.is_dry_run) {
         fail_usage("--dry-run estimates the sampling alone, so it takes no --order farthest");
     }
-    if (job.method.is_farthest && !job.constraints.existing.empty()) {
-        fail_usage("--order farthest puts all samples in order, but --existing keeps its own as "
-                   "the first ones; give just one of them");
-    }
     check_metric(options, job);
     take_edit(options, job);
-    job.constraints.check(options.metric);
+    job.constraints.check();
     job.mesh.parsed_lifts(); // Wrong ones are known before a mesh is read.
     job.mesh.weld_distance();
     job.density.is_given();

@@ -11,6 +11,7 @@
 #include "geodisk/options/class_options.hpp"
 #include "geodisk/options/constraint_options.hpp"
 #include "geodisk/options/density_options.hpp"
+#include "geodisk/options/given_fields.hpp"
 #include "geodisk/options/mask_options.hpp"
 #include "geodisk/options/mesh_options.hpp"
 #include "geodisk/options/method_options.hpp"
@@ -75,6 +76,9 @@ struct SampleJob {
     /// What shapes the surface and its radii besides the mesh file, as the header names it.
     HeaderEntries additions() const;
 };
+
+/// Returns the fields of a request that the options set.
+GivenFields given_fields(const SampleOptions& options, const ClassTable& classes);
 
 /// Throws UserError(usage) for values out of range and options that contradict each other.
 SampleJob parse_job(const SampleOptions& options);

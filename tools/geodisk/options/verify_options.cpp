@@ -1,9 +1,11 @@
 #include "geodisk/options/verify_options.hpp"
 
+#include <optional>
 #include <string_view>
 
 #include "files/input_file.hpp"
 #include "geodisk/options/class_options.hpp"
+#include "geodisk/options/given_fields.hpp"
 #include "geodisk/options/tolerance_option.hpp"
 #include "program/arguments.hpp"
 #include "program/failure.hpp"
@@ -31,9 +33,11 @@ void check_box(const VerifyOptions& options) {
 
 void check_class_options(const VerifyOptions& options) {
     const ClassTable classes = parse_classes(options.classes);
-    if (classes.is_given() && options.density.is_given()) {
-        fail_usage("--classes takes no radii that vary, so neither --density nor --radius-factor");
-    }
+    const std::optional<DensitySource> radii = options.density.source();
+    GivenFields given;
+    given.add(RequestField::class_factors, "--classes", !classes.factors().empty());
+    given.add(RequestField::radii, radii ? radii->option : "", radii.has_value());
+    given.check();
     if (!classes.distances.empty() && !options.min_distance.empty()) {
         fail_usage("the table of --classes has all distances, so it takes no --min-distance");
     }

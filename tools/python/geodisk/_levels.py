@@ -15,21 +15,13 @@ class Levels:
     factor: float
 
 
-def levels_of(
-    order: str, levels: int | None, factor: float | None, metric: str, darts: int
-) -> Levels | None:
+def levels_of(order: str, levels: int | None, factor: float | None) -> Levels | None:
     """Returns the levels of a progressive order, None for other orders."""
-    if order == "farthest" and metric != "geodesic":
-        raise e.invalid(f"order='farthest' goes by distances along the surface, not {metric}")
     if order != "progressive":
         if levels is not None or factor is not None:
             name = "levels" if levels is not None else "level_factor"
             raise e.invalid(f"{name} is for order='progressive'")
         return None
-    if metric != "geodesic":
-        raise e.invalid(f"order='progressive' goes by distances along the surface, not {metric}")
-    if darts:
-        raise e.invalid("order='progressive' takes no darts; darts fill no level")
     count = 0 if levels is None else integer(levels, "levels", 2**32)
     if levels is not None and not 1 <= count <= 32:
         raise e.invalid(f"levels is {count}, not from 1 to 32")

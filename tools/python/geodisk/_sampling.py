@@ -21,6 +21,7 @@ from ._oddities import oddities_of_set, warn
 from ._protocols import Faces, MeshLike
 from ._record import Record, recorded
 from ._results import samples_of
+from ._rules import check_fields
 from ._running import ProgressCallback, Runs
 from ._samples import Samples
 from ._values import check_exact, check_pool, distance_of, flag, integer
@@ -274,8 +275,15 @@ def sample_box(
         raise e.invalid(f"extents has {len(sides)} dimensions, not 1 to 6")
     seed = integer(seed, "seed", 2**64 - 1)
     stop_count = integer(stop_count, "stop_count", 2**32 - 1)
-    check_exact(exact, count, stop_count)
+    check_exact(exact, count)
     check_pool(count, pool_ratio, darts)
+    check_fields(
+        {
+            "is_exact": "exact" if exact else None,
+            "darts": "darts" if darts else None,
+            "stop_count": "stop_count" if stop_count else None,
+        }
+    )
     params = s.BoxParams(
         extents=sides.ctypes.data_as(ctypes.POINTER(c_double)),
         dimension=len(sides),

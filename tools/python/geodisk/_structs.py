@@ -114,6 +114,15 @@ class MeshInfo(_Sized):
     ]
 
 
+class Rule(_Sized):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("field", c_char_p),
+        ("other", c_char_p),
+        ("reason", c_char_p),
+    ]
+
+
 class SurfaceParams(_Sized):
     _fields_ = [
         ("struct_size", c_size_t),

@@ -128,7 +128,7 @@ def names(given: Any, name: str) -> tuple[str, ...]:
     return tuple(text(one, name) for one in several)
 
 
-def check_exact(exact: bool, count: float | None, stop_count: int = 0) -> None:
+def check_exact(exact: bool, count: float | None) -> None:
     """Checks that an exact count is one."""
     if not flag(exact, "exact"):
         return
@@ -136,8 +136,6 @@ def check_exact(exact: bool, count: float | None, stop_count: int = 0) -> None:
         raise e.invalid("exact=True needs a count")
     if not (1 <= count < 2**32 and float(count).is_integer()):
         raise e.invalid(f"count is {count}, but exact=True needs a whole number from 1 to 4294967295")
-    if stop_count:
-        raise e.invalid("exact and stop_count contradict each other; give just one of them")
 
 
 def check_pool(count: float | None, pool_ratio: float, darts: int = 0) -> None:

@@ -20,8 +20,9 @@ from ._job import Job, JobFrame
 from ._levels import levels_of
 from ._mesh import Mesh, keys_of, mask_of
 from ._oddities import oddities_of_set, warn, warn_of_whole_mask
-from ._radii import radii_of
+from ._radii import one_of, radii_of
 from ._results import report_of, samples_of
+from ._rules import check_fields
 from ._running import ProgressCallback
 from ._samples import Samples
 from ._values import check_exact, check_pool, choice, distance_of, flag, integer
@@ -65,22 +66,31 @@ class Wanted:
         distance = distance_of(min_distance, radius, count, darts)
         seed = integer(seed, "seed", 2**64 - 1)
         stop_count = integer(stop_count, "stop_count", 2**32 - 1)
-        check_exact(exact, count, stop_count)
+        check_exact(exact, count)
         check_pool(count, pool_ratio, darts)
         choice(metric, "metric", s.METRICS)
         choice(order, "order", ("dart", "progressive", "farthest"))
-        if order == "farthest" and existing is not None:
-            raise e.invalid("order='farthest' takes no existing samples, which come first")
         maximal = flag(maximal, "maximal")
-        in_levels = levels_of(order, levels, level_factor, metric, darts)
-        if in_levels is not None and (classes is not None or features is not None or maximal):
-            raise e.invalid("order='progressive' takes no classes, features and maximal")
-        if maximal and (exact or (count is not None and stop_count)):
-            raise e.invalid("maximal leaves no gaps, exact and stop_count drop the last samples")
-        if features is not None and density is not None:
-            raise e.invalid("features take no density; give radius_factor to vary the distance")
-        if features is not None and kinds is not None:
-            raise e.invalid("features take no classes")
+        radii_name = one_of(density, radius_factor)
+        check_fields(
+            {
+                "count": None if count is None else "count",
+                "is_exact": "exact" if exact else None,
+                "darts": "darts" if darts else None,
+                "stop_count": "stop_count" if stop_count else None,
+                "maximal": "maximal" if maximal else None,
+                "radii": radii_name,
+                "density": None if density is None else "density",
+                "class_factors": "classes" if kinds is not None and kinds.count > 1 else None,
+                "existing": None if existing is None else "existing",
+                "avoid": None if avoid is None else "avoid",
+                "features": None if features is None else "features",
+                "progressive": "order='progressive'" if order == "progressive" else None,
+                "farthest": "order='farthest'" if order == "farthest" else None,
+                "metric": f"metric='{metric}'" if metric != "geodesic" else None,
+            }
+        )
+        in_levels = levels_of(order, levels, level_factor)
         degrees = 0.0 if features is None else degrees_of(features)
 
         self.mesh = mesh = read_mesh()

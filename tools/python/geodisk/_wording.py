@@ -12,14 +12,6 @@ _PARAMETERS = {
         "metric min-distance tolerance pool-ratio radius radius-factor seed size stop-count style up view weld"
     ).split()
 }
-# Fields of a request that have another name here.
-_FIELDS = {
-    "is_exact": "exact",
-    "class_factors": "classes",
-    "radii": "radii that vary",
-    "progressive": "order='progressive'",
-}
-_EXCLUSION = re.compile(r"(?<![^ ])(\w+) and (\w+)(?= exclude each other: )")
 # With the suffix of the options of two meshes. Not within the name of a file.
 _OPTION = re.compile(r"(?<![^\s(])--([a-z]+(?:-[a-z]+)*?)(?:-[ab])?(?![\w./-])")
 
@@ -29,9 +21,6 @@ def in_python(message: str) -> str:
 
     Leaves out advice on options that no function has.
     """
-    message = _EXCLUSION.sub(
-        lambda pair: " and ".join(_FIELDS.get(field, field) for field in pair.groups()), message
-    )
     message = re.sub(r" \(see geodisk \w+ --help\)", "", message)
     said, *advice = message.split("; ")
     kept = [said, *(clause for clause in advice if set(_OPTION.findall(clause)) <= _PARAMETERS.keys())]

@@ -116,9 +116,6 @@ Result<Done> check_classes(const SampleParams& params) {
     if (auto checked = check_factors(params); !checked) {
         return checked;
     }
-    if (params.radii != nullptr) {
-        return invalid("classes take no radii that vary");
-    }
     if (!params.existing_classes.empty() &&
         params.existing_classes.size() != params.existing.size()) {
         return invalid("there are " + std::to_string(params.existing_classes.size()) +

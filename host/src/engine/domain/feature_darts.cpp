@@ -8,6 +8,7 @@
 
 #include "constants.h"
 #include "engine/domain/face_mask.hpp"
+#include "engine/request/check_fields.hpp"
 #include "geodisk/detail/philox.hpp"
 #include "support/guard.hpp"
 #include "support/invalid.hpp"
@@ -98,12 +99,9 @@ Result<Done> check(const PreparedMesh& mesh, const SampleParams& params, const F
     if (params.darts != 0) {
         return invalid("samples on features come from no darts; leave out `darts`");
     }
-    if (!params.class_factors.empty()) {
-        return invalid("samples on features have no classes");
-    }
-    if (params.radii != nullptr && !params.radii->packing().empty()) {
-        return invalid("features take no density; give factors of the radius");
-    }
+    RequestFields fields = fields_of(params);
+    fields.add(RequestField::features);
+    GEODISK_TRY(check_fields(fields));
     if (!features.are_sampled(mesh, params)) {
         return invalid("no feature lies on a face that takes samples");
     }

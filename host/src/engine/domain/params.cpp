@@ -8,6 +8,7 @@
 #include "engine/domain/existing.hpp"
 #include "engine/domain/face_mask.hpp"
 #include "engine/domain/stages.hpp"
+#include "engine/request/check_fields.hpp"
 #include "support/guard.hpp"
 #include "support/invalid.hpp"
 #include "support/number_text.hpp"
@@ -71,26 +72,6 @@ double border_length(const PreparedMesh& mesh, const SampleParams& params) {
         length += border_part(edges[h].length, params.radii, h);
     }
     return length;
-}
-
-/// Checks that nothing else ends a maximal set, or leaves gaps in it.
-Result<Done> check_maximal(const SampleParams& params) {
-    if (!params.maximal) {
-        return Done{};
-    }
-    if (params.darts != 0) {
-        return invalid("a maximal set ends when no sample fits, not after a number of darts");
-    }
-    if (params.stop_count != 0) {
-        return invalid("a maximal set ends when no sample fits, not at a count");
-    }
-    if (params.radii != nullptr && !params.radii->packing().empty()) {
-        return invalid("a maximal set leaves no gaps, so it has no density; give radius factors");
-    }
-    if (!params.class_factors.empty()) {
-        return invalid("a maximal set has no classes");
-    }
-    return Done{};
 }
 
 } // namespace
@@ -167,7 +148,7 @@ Result<Done> check_params(const PreparedMesh& mesh, const SampleParams& params) 
     }
     GEODISK_TRY(check_classes(params));
     GEODISK_TRY(check_mask(mesh, params));
-    GEODISK_TRY(check_maximal(params));
+    GEODISK_TRY(check_fields(fields_of(params)));
     return check_existing(mesh, params);
 }
 

@@ -15,6 +15,7 @@
 #include "engine/domain/face_mask.hpp"
 #include "engine/domain/stages.hpp"
 #include "engine/domain/tolerances.hpp"
+#include "engine/request/check_fields.hpp"
 #include "support/guard.hpp"
 #include "support/try.hpp"
 
@@ -119,22 +120,9 @@ Result<Domain> Domain::surface_in_space(const MeshView& view, const PreparedMesh
                                         const SampleParams& params, Metric metric) noexcept {
     return guarded([&]() -> Result<Domain> {
         GEODISK_TRY(pool_size(mesh, params));
-        if (params.radii != nullptr) {
-            return Error{Status::invalid_argument,
-                         "SampleParams::radii is for geodesic distances alone"};
-        }
-        if (!params.class_factors.empty()) {
-            return Error{Status::invalid_argument,
-                         "SampleParams::class_factors is for geodesic distances alone"};
-        }
-        if (params.maximal) {
-            return Error{Status::invalid_argument,
-                         "SampleParams::maximal is for geodesic distances alone"};
-        }
-        if (!params.avoid.empty()) {
-            return Error{Status::invalid_argument,
-                         "SampleParams::avoid is for geodesic distances alone"};
-        }
+        RequestFields fields = fields_of(params);
+        fields.add(RequestField::metric);
+        GEODISK_TRY(check_fields(fields));
         GEODISK_TRY(check_view(view, mesh));
         SpaceFrame frame(view, params);
         if (!(frame.guard() <= kWidestGuard)) {

@@ -1,7 +1,13 @@
 // Which fields of a request exclude each other.
 #include <algorithm>
+#include <iterator>
+
+#include <string>
 
 #include <geodisk/request.hpp>
+
+#include "engine/request/check_fields.hpp"
+#include "support/invalid.hpp"
 
 namespace geodisk {
 namespace {
@@ -9,16 +15,18 @@ namespace {
 using Field = RequestField;
 
 constexpr RequestRule kRules[] = {
-    {Field::is_exact, Field::darts, "darts stop at exactly stop_count samples"},
-    {Field::is_exact, Field::stop_count, "an exact count is one already"},
+    {Field::is_exact, Field::darts, "darts stop at an exact count already"},
+    {Field::is_exact, Field::stop_count, "an exact count is one to stop at"},
     {Field::is_exact, Field::maximal, "an exact count drops the last samples, which leaves gaps"},
     {Field::maximal, Field::darts, "darts are no pool to complete"},
     {Field::maximal, Field::stop_count, "a count drops the last samples, which leaves gaps"},
     {Field::maximal, Field::class_factors, "gaps are those of samples without classes"},
+    {Field::maximal, Field::density, "a density leaves gaps by chance"},
     {Field::maximal, Field::metric, "gaps are found along the surface"},
     {Field::class_factors, Field::radii, "classes have the distances of their table"},
     {Field::class_factors, Field::metric, "classes go by distances along the surface"},
     {Field::features, Field::class_factors, "samples on features have no class"},
+    {Field::features, Field::density, "curves have no area that a density could fill"},
     {Field::features, Field::metric, "features keep distances along the surface"},
     {Field::features, Field::frame, "features are those of a whole mesh"},
     {Field::features, Field::split_from, "features are those of the mesh before it was split"},
@@ -33,57 +41,66 @@ constexpr RequestRule kRules[] = {
     {Field::farthest, Field::split_from, "samples are ordered where they are told"},
     {Field::farthest, Field::metric, "the order goes by distances along the surface"},
     {Field::metric, Field::radii, "distances through space do not vary"},
+    {Field::metric, Field::avoid, "disks to avoid lie along the surface"},
     {Field::metric, Field::frame, "frames are for distances along the surface"},
     {Field::frame, Field::count, "a frame has a distance already"},
     {Field::frame, Field::split_from, "samples in a frame are told on the faces that it samples"},
+    {Field::update, Field::count, "an update keeps the distance"},
+    {Field::update, Field::darts, "the last dart of a number may lie anywhere"},
+    {Field::update, Field::stop_count, "the last sample of a number may lie anywhere"},
+    {Field::update, Field::maximal, "gaps are filled from all over the surface"},
+    {Field::update, Field::class_factors, "an update knows no classes"},
+    {Field::update, Field::features, "features are those of a whole mesh"},
+    {Field::update, Field::progressive, "each level would be an update of its own"},
+    {Field::update, Field::farthest, "an edit changes the order of all samples"},
+    {Field::update, Field::metric, "an edit reaches as far as distances along the surface"},
+    {Field::processes, Field::maximal, "gaps are found on the whole surface"},
+    {Field::processes, Field::class_factors, "processes exchange samples without classes"},
+    {Field::processes, Field::metric, "processes divide a surface by distances along it"},
+    {Field::processes, Field::frame, "processes have the frame of their own surface"},
+    {Field::processes, Field::update, "processes sample a surface anew"},
 };
 
-bool is_set(const SampleRequest& request, Field field) {
-    const SampleParams& params = request.params;
-    switch (field) {
-    case Field::min_distance:
-        return params.min_distance != 0;
-    case Field::count:
-        return request.count != 0;
-    case Field::is_exact:
-        return request.is_exact;
-    case Field::darts:
-        return params.darts != 0;
-    case Field::stop_count:
-        return params.stop_count != 0;
-    case Field::maximal:
-        return params.maximal;
-    case Field::radii:
-        return params.radii != nullptr;
-    case Field::class_factors:
-        return !params.class_factors.empty();
-    case Field::existing:
-        return !params.existing.empty();
-    case Field::features:
-        return request.features != 0;
-    case Field::progressive:
-        return request.order == SampleOrder::progressive;
-    case Field::farthest:
-        return request.order == SampleOrder::farthest;
-    case Field::keep:
-        return request.keep != 0;
-    case Field::metric:
-        return request.metric.has_value();
-    case Field::frame:
-        return request.frame != nullptr;
-    case Field::split_from:
-        return request.split_from != nullptr;
-    }
-    return false;
-}
+static_assert(kRequestFields == static_cast<std::uint32_t>(Field::processes) + 1 &&
+              kRequestFields <= 32);
 
 } // namespace
 
+RequestFields fields_of(const SampleParams& params) noexcept {
+    RequestFields fields;
+    fields.add(Field::min_distance, params.min_distance != 0);
+    fields.add(Field::darts, params.darts != 0);
+    fields.add(Field::stop_count, params.stop_count != 0);
+    fields.add(Field::maximal, params.maximal);
+    fields.add(Field::radii, params.radii != nullptr);
+    fields.add(Field::density, params.radii != nullptr && !params.radii->packing().empty());
+    fields.add(Field::class_factors, !params.class_factors.empty());
+    fields.add(Field::existing, !params.existing.empty());
+    fields.add(Field::avoid, !params.avoid.empty());
+    return fields;
+}
+
+RequestFields fields_of(const SampleRequest& request) noexcept {
+    RequestFields fields = fields_of(request.params);
+    fields.add(Field::count, request.count != 0);
+    fields.add(Field::is_exact, request.is_exact);
+    fields.add(Field::features, request.features != 0);
+    fields.add(Field::progressive, request.order == SampleOrder::progressive);
+    fields.add(Field::farthest, request.order == SampleOrder::farthest);
+    fields.add(Field::keep, request.keep != 0);
+    fields.add(Field::metric, request.metric.has_value());
+    fields.add(Field::frame, request.frame != nullptr);
+    fields.add(Field::split_from, request.split_from != nullptr);
+    return fields;
+}
+
 const char* to_string(RequestField field) noexcept {
-    constexpr const char* kNames[] = {"min_distance", "count",    "is_exact",    "darts",
-                                      "stop_count",   "maximal",  "radii",       "class_factors",
-                                      "existing",     "features", "progressive", "farthest",
-                                      "keep",         "metric",   "frame",       "split_from"};
+    constexpr const char* kNames[] = {"min_distance",  "count",      "is_exact", "darts",
+                                      "stop_count",    "maximal",    "radii",    "density",
+                                      "class_factors", "existing",   "avoid",    "features",
+                                      "progressive",   "farthest",   "keep",     "metric",
+                                      "frame",         "split_from", "update",   "processes"};
+    static_assert(std::size(kNames) == kRequestFields);
     return kNames[static_cast<std::size_t>(field)];
 }
 
@@ -91,11 +108,19 @@ std::span<const RequestRule> request_rules() noexcept {
     return kRules;
 }
 
-const RequestRule* broken_rule(const SampleRequest& request) noexcept {
+const RequestRule* broken_rule(RequestFields fields) noexcept {
     const auto* const found = std::ranges::find_if(kRules, [&](const RequestRule& rule) {
-        return is_set(request, rule.field) && is_set(request, rule.other);
+        return fields.has(rule.field) && fields.has(rule.other);
     });
     return found != std::end(kRules) ? found : nullptr;
+}
+
+Result<Done> check_fields(RequestFields fields) {
+    if (const RequestRule* const rule = broken_rule(fields)) {
+        return invalid(std::string(to_string(rule->field)) + " and " + to_string(rule->other) +
+                       " exclude each other: " + rule->reason);
+    }
+    return Done{};
 }
 
 } // namespace geodisk

@@ -9,6 +9,7 @@
 #include <geodisk/request.hpp>
 
 #include "engine/domain/stages.hpp"
+#include "engine/request/check_fields.hpp"
 #include "engine/request/tries.hpp"
 #include "support/guard.hpp"
 #include "support/invalid.hpp"
@@ -25,10 +26,7 @@ constexpr double kCurveSamples = 0.75;
 
 /// Fails for fields that exclude each other, and for a count out of range.
 Result<Done> check_rules(const SampleRequest& request) {
-    if (const RequestRule* rule = broken_rule(request)) {
-        return invalid(std::string(to_string(rule->field)) + " and " + to_string(rule->other) +
-                       " exclude each other: " + rule->reason);
-    }
+    GEODISK_TRY(check_fields(fields_of(request)));
     const double count = request.count;
     if (count != 0 && !(count >= 1 && std::isfinite(count))) {
         return invalid("count is " + number_text(count) + ", not a number of samples");

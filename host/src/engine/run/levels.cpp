@@ -6,8 +6,10 @@
 
 #include <geodisk/detail/philox.hpp>
 
+#include "engine/request/check_fields.hpp"
 #include "support/invalid.hpp"
 #include "support/number_text.hpp"
+#include "support/try.hpp"
 
 namespace geodisk {
 namespace {
@@ -58,12 +60,9 @@ Result<SampleParams> params_of_level(const SampleParams& last, const Levels& lev
         return invalid("there is no level " + std::to_string(level) + " of " +
                        std::to_string(levels.count));
     }
-    if (last.darts != 0) {
-        return invalid("levels are sampled from pools; darts have none");
-    }
-    if (!last.class_factors.empty()) {
-        return invalid("samples in levels have no classes");
-    }
+    RequestFields fields = fields_of(last);
+    fields.add(RequestField::progressive);
+    GEODISK_TRY(check_fields(fields));
     SampleParams params = last;
     params.min_distance = last.min_distance * levels.scale(level);
     params.seed = seed_of_level(last.seed, level);

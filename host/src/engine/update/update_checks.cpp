@@ -5,6 +5,7 @@
 #include <string>
 
 #include "engine/domain/check_frame.hpp"
+#include "engine/request/check_fields.hpp"
 #include "mesh/checks.hpp"
 #include "support/invalid.hpp"
 #include "support/number_text.hpp"
@@ -14,25 +15,13 @@ namespace {
 
 /// Checks that a job is one whose samples can be updated.
 Result<Done> check_kind(const SampleParams& params) {
-    const auto refuse = [](const std::string& what) {
-        return invalid(what + " cannot be updated; sample the surface again");
-    };
-    if (params.darts != 0) {
-        return refuse("a number of darts");
-    }
-    if (params.stop_count != 0) {
-        return refuse("samples up to a count");
-    }
-    if (!params.class_factors.empty()) {
-        return refuse("samples of classes");
-    }
-    if (params.maximal) {
-        return refuse("a maximal set");
-    }
-    return Done{};
+    RequestFields fields = fields_of(params);
+    fields.add(RequestField::update);
+    return check_fields(fields);
 }
 
 } // namespace
+
 Result<Done> check_sizes(const MeshView& mesh, const SampleParams& params) {
     const std::size_t faces = mesh.face_count();
     const auto check = [&](const char* what, std::size_t count) -> Result<Done> {
