@@ -291,8 +291,6 @@ TEST_CASE("points that cannot be avoided are refused") {
     REQUIRE(run(folder, {"sample", kExistingMesh, "-o", "other.csv", "-n", "50"}).status == 0);
     fails(3, "other.csv: point 0", {"--avoid", "other.csv:1"});
     fails(3, "none.csv", {"--avoid", "none.csv:1"});
-    fails(2, "--avoid goes by distances along the surface",
-          {"--avoid", "wells.csv:1", "--metric", "euclidean"});
 }
 
 TEST_CASE("empty files of samples to keep and points to avoid change nothing, with a word") {

@@ -69,7 +69,6 @@ constexpr std::string_view key_of_column(std::string_view name) {
 
 /// Keys of header entries that a reader of samples goes by.
 inline constexpr std::string_view kSampleCount = "samples", kOrigin = "origin",
-                                  kPoolRatio = "pool_ratio", kJobFrame = "job_frame",
-                                  kSamplingVersion = "sampling_version";
+                                  kJobFrame = "job_frame", kSamplingVersion = "sampling_version";
 
 } // namespace geodisk::tools

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <utility>
 
+#include <geodisk/fields.hpp>
 #include <geodisk/update.hpp>
 
 #include "files/job_frame_text.hpp"
@@ -15,6 +16,7 @@
 #include "geodisk/checks/sample_checks.hpp"
 #include "geodisk/checks/sample_input.hpp"
 #include "geodisk/outputs/outputs.hpp"
+#include "geodisk/reports/number_entries.hpp"
 #include "geodisk/sample_run.hpp"
 #include "program/exact_text.hpp"
 #include "program/failure.hpp"
@@ -141,17 +143,22 @@ void check_job(const SampleFile& file, const SampleJob& job, double min_distance
     }
     HeaderEntries wanted = with_entries(job.density.added_to({}), job.mask);
     wanted.emplace_back("seed", exact_text(job.params.seed));
-    if (job.params.pool_ratio != kDefaultPoolRatio) {
-        wanted.emplace_back(kPoolRatio, exact_text(job.params.pool_ratio));
+    for (auto& entry : number_entries(job.params)) {
+        wanted.push_back(std::move(entry));
     }
     const auto fail = [&](std::string_view key, const std::string& is, const std::string& should) {
         const auto told = [](const std::string& text) { return text.empty() ? "none" : text; };
         fail_input(job.update, "has as its " + std::string(key) + " " + told(is) + ", not " +
                                    told(should) + "; give the options it was made with");
     };
-    constexpr std::string_view kKeys[] = {
-        "seed", kPoolRatio, "density", "radius_factor", "radius_factor_floor", "mask", "only"};
-    for (const std::string_view key : kKeys) {
+    std::vector<std::string_view> keys{"density", "radius_factor", "radius_factor_floor", "mask",
+                                       "only"};
+    for_each_number(job.params, [&](std::string_view name, auto) {
+        if (name != "min_distance") { // It may be relative.
+            keys.push_back(name);
+        }
+    });
+    for (const std::string_view key : keys) {
         const std::string is = values_of(key, file.header.entries);
         const std::string should = values_of(key, wanted);
         if (is != should) {

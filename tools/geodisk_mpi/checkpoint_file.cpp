@@ -8,6 +8,7 @@
 #include <type_traits>
 #include <vector>
 
+#include <geodisk/fields.hpp>
 #include <geodisk/job_frame.hpp>
 #include <geodisk/version.hpp>
 
@@ -67,13 +68,8 @@ std::uint64_t digest_of(std::string_view bytes) {
 std::uint64_t job_digest(const JobFrame& frame, const SampleParams& params) {
     Digest options;
     options.add_bytes(to_bytes(frame));
-    for (const double number : {params.min_distance, params.pool_ratio}) {
-        options.add_all(std::span(&number, 1));
-    }
-    for (const std::uint64_t number : {std::uint64_t{params.seed}, std::uint64_t{params.darts},
-                                       std::uint64_t{params.stop_count}}) {
-        options.add(number);
-    }
+    for_each_number(
+        params, [&](const char*, const auto& number) { options.add_all(std::span(&number, 1)); });
     options.add_all(params.face_keys);
     options.add_all(params.existing);
     options.add_all(params.avoid);

@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include <geodisk/fields.hpp>
 #include <geodisk/version.hpp>
 
 #include "cut_surface.hpp"
@@ -61,26 +62,6 @@ Result<Record> all_hear(Exchange& exchange, const Record& of_first) {
     std::memcpy(&record, heard->data(), sizeof record);
     return record;
 }
-
-/// A job on a surface that is read in ranges.
-struct RangedJob {
-    double min_distance, pool_ratio;
-    std::uint64_t seed;
-    std::uint32_t darts, stop_count;
-
-    explicit RangedJob(const SampleParams& params)
-        : min_distance(params.min_distance), pool_ratio(params.pool_ratio), seed(params.seed),
-          darts(params.darts), stop_count(params.stop_count) {}
-    SampleParams params() const {
-        SampleParams params;
-        params.min_distance = min_distance;
-        params.pool_ratio = pool_ratio;
-        params.seed = seed;
-        params.darts = darts;
-        params.stop_count = stop_count;
-        return params;
-    }
-};
 
 /// Returns what a job takes from a mesh file that all read in ranges; nothing without a job.
 RangeWants wants_of(const SampleJob* job) {
@@ -231,8 +212,8 @@ Result<SampleSet> Session::sample(Runner& runner, const RequestStep& step,
             return well.error();
         }
         if (ranges_) {
-            const auto job = all_hear(*exchange_, RangedJob(step.params));
-            return job ? ranges_->sample(runner, job->params(), checkpoints, progress)
+            const auto job = all_hear(*exchange_, numbers_of(step.params));
+            return job ? ranges_->sample(runner, *job, checkpoints, progress)
                        : Result<PartsResult>(job.error());
         }
         const Cut cut = cut_surface;
@@ -292,8 +273,8 @@ void Session::help_to_sample(RunDevice* device, bool has_ranges) {
     const ProgressCallback progress = [](const Progress&) { return goes_on(); };
     if (!has_ranges) {
         (void)sample_parts(*exchange_, device->runner(), nullptr, progress);
-    } else if (const auto job = all_hear(*exchange_, RangedJob(SampleParams()))) {
-        (void)ranges_->sample(device->runner(), job->params(), nullptr, progress);
+    } else if (const auto job = all_hear(*exchange_, SampleParams())) {
+        (void)ranges_->sample(device->runner(), *job, nullptr, progress);
     }
 }
 

@@ -10,6 +10,7 @@
 #include <geodisk/domain.hpp>
 #include <geodisk/farthest.hpp>
 #include <geodisk/features.hpp>
+#include <geodisk/fields.hpp>
 #include <geodisk/frame_neighbours.hpp>
 #include <geodisk/frame_sampler.hpp>
 #include <geodisk/job_frame.hpp>

@@ -66,7 +66,9 @@ Result<StagesReport> decide_stages(Exchange& exchange, Part& part, PartRun& run,
     const Stages& stages = run.stages();
     std::uint64_t accepted = part.all_existing + part.checkpoints.samples;
     std::uint32_t first = part.checkpoints.first_stage;
-    const auto is_enough = [&] { return part.stop_count != 0 && accepted >= part.stop_count; };
+    const auto is_enough = [&] {
+        return part.of_whole.stop_count != 0 && accepted >= part.of_whole.stop_count;
+    };
     const auto has_more = [&] {
         return first != kNoStage && !is_enough() && stages.left(first, report.candidates) > 0;
     };

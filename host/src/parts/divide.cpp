@@ -5,6 +5,8 @@
 #include <string>
 #include <utility>
 
+#include <geodisk/fields.hpp>
+
 #include "engine/domain/stages.hpp"
 #include "engine/domain/tolerances.hpp"
 #include "engine/request/check_fields.hpp"
@@ -158,10 +160,7 @@ Part part_for(const SampleParams& params, const JobFrame& frame, double max_cand
     Part part;
     part.frame = frame;
     part.reach = params.min_distance * (1 + margin_of(frame));
-    part.seed = params.seed;
-    part.pool_ratio = params.pool_ratio;
-    part.darts = params.darts;
-    part.stop_count = params.stop_count;
+    part.of_whole = numbers_of(params);
     part.all_existing = static_cast<std::uint32_t>(params.existing.size());
     part.checkpoints = checkpoints;
     part.max_stages = stages_at_once(stages_in(frame, params), max_candidates);

@@ -60,10 +60,7 @@ struct Part {
     std::vector<Sample> existing;
     std::vector<KeepOut> avoid;
     std::vector<Neighbour> neighbours;
-    std::uint64_t seed = 0;
-    double pool_ratio = 0;          ///< Pool ratio that was asked for.
-    std::uint32_t darts = 0;        ///< SampleParams::darts.
-    std::uint32_t stop_count = 0;   ///< SampleParams::stop_count.
+    SampleParams of_whole{};        ///< Numbers of the job, see numbers_of().
     std::uint32_t all_existing = 0; ///< Number of existing samples of the whole.
     std::uint32_t max_stages = 1;   ///< Stages that are drawn at a time.
     CheckpointTerms checkpoints;

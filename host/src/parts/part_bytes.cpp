@@ -14,10 +14,7 @@ namespace {
 template <class AnyPart, class One, class All>
 void for_fields(AnyPart& part, const One& one, const All& all) {
     one(part.reach);
-    one(part.seed);
-    one(part.pool_ratio);
-    one(part.darts);
-    one(part.stop_count);
+    one(part.of_whole);
     one(part.all_existing);
     one(part.max_stages);
     one(part.checkpoints);
@@ -34,10 +31,9 @@ void for_fields(AnyPart& part, const One& one, const All& all) {
 } // namespace
 
 SampleParams Part::params() const {
-    SampleParams params;
-    params.min_distance = frame.min_distance;
-    params.seed = seed;
-    params.pool_ratio = pool_ratio;
+    SampleParams params = of_whole;
+    params.darts = 0; // They are counted over all parts, as samples are.
+    params.stop_count = 0;
     params.radii = radii ? &*radii : nullptr;
     params.face_keys = has_keys ? keys : faces;
     params.face_mask = mask;
@@ -47,9 +43,9 @@ SampleParams Part::params() const {
 }
 
 CandidateDraw Part::draw() const {
-    SampleParams of_whole = params();
-    of_whole.darts = darts;
-    return {mesh, of_whole, frame};
+    SampleParams drawn = params();
+    drawn.darts = of_whole.darts;
+    return {mesh, drawn, frame};
 }
 
 Result<Bytes> message_of(const Part& part) {

@@ -245,8 +245,8 @@ SampleHeader SampleReport::header() const {
             header.entries.emplace_back(key, path);
         }
     }
-    if (job_.params.pool_ratio != kDefaultPoolRatio) {
-        header.entries.emplace_back(kPoolRatio, exact_text(job_.params.pool_ratio));
+    for (auto& entry : number_entries(job_.params)) {
+        header.entries.push_back(std::move(entry));
     }
     if (result_.frame && !is_told(*result_.frame, distance)) {
         header.entries.emplace_back(kJobFrame, job_frame_text(*result_.frame));
@@ -352,6 +352,7 @@ Json SampleReport::document(const SecondsByStage& after) const {
                      {"regrown", run.regrown},
                      {"starts", run.starts}});
     document.update(run_json(result_.done, seconds(after)));
+    add_numbers(document, params);
     return document;
 }
 
