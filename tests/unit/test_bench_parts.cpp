@@ -6,7 +6,6 @@
 #include "test_files.hpp"
 
 #include <cmath>
-#include <string>
 #include <vector>
 
 using namespace geodisk::bench;
