@@ -82,4 +82,16 @@ bool BoxGrid::is_free(std::span<const double> at) const {
     return is_free;
 }
 
+std::vector<double> throw_in_order(const Box& box, double min_distance,
+                                   std::span<const double> pool) {
+    BoxGrid samples(box, min_distance);
+    for (std::size_t at = 0; at < pool.size(); at += box.dimension()) {
+        const auto dart = pool.subspan(at, box.dimension());
+        if (samples.is_free(dart)) {
+            samples.add(dart);
+        }
+    }
+    return samples.coordinates();
+}
+
 } // namespace geodisk::ref

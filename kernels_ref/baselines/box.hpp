@@ -87,6 +87,11 @@ class BoxGrid {
     std::vector<double> coordinates_;
 };
 
+/// Visits the points of `pool` and accepts each that has no accepted one closer than
+/// `min_distance`. Returns the coordinates of those, in this order.
+std::vector<double> throw_in_order(const Box& box, double min_distance,
+                                   std::span<const double> pool);
+
 template <class Visit>
 void BoxCells::for_around(std::span<const double> point, Visit&& visit) const {
     std::array<Places, kMaxDimensions> places;

@@ -134,18 +134,6 @@ std::vector<double> draw_points(const Box& box, std::uint32_t count, std::uint64
     return points;
 }
 
-std::vector<double> throw_in_order(const Box& box, double min_distance,
-                                   std::span<const double> pool) {
-    BoxGrid samples(box, min_distance);
-    for (std::size_t at = 0; at < pool.size(); at += box.dimension()) {
-        const auto dart = pool.subspan(at, box.dimension());
-        if (samples.is_free(dart)) {
-            samples.add(dart);
-        }
-    }
-    return samples.coordinates();
-}
-
 std::vector<double> throw_around_samples(const Box& box, double min_distance, std::uint32_t trials,
                                          std::uint64_t seed) {
     RandomStream random(seed);

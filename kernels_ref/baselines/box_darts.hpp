@@ -13,11 +13,6 @@ namespace geodisk::ref {
 /// Returns `count` uniform points in the box.
 std::vector<double> draw_points(const Box& box, std::uint32_t count, std::uint64_t seed);
 
-/// Visits the points of `pool` and accepts each that has no accepted one closer than
-/// `min_distance`.
-std::vector<double> throw_in_order(const Box& box, double min_distance,
-                                   std::span<const double> pool);
-
 /// Throws darts at one to two minimum distances from a random accepted sample, which retires after
 /// `trials` failures in a row (Bridson, "Fast Poisson disk sampling in arbitrary dimensions",
 /// 2007).

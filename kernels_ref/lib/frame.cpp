@@ -1,7 +1,6 @@
 #include "lib/frame.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <vector>
 

@@ -66,7 +66,6 @@ GEODISK_CONST uint kBindOffsets = 26u;   // where the neighbours of each source 
                                          // number of sources whose neighbours are complete
 GEODISK_CONST uint kBindTargets = 27u;   // number of each neighbour
 GEODISK_CONST uint kBindDistances = 28u; // its distance, a float
-GEODISK_CONST uint kBindCount = 29u;
 
 GEODISK_END_SHARED
 

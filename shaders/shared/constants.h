@@ -153,7 +153,6 @@ GEODISK_CONST uint kSlotReady = 0u;     // waits for its disk
 GEODISK_CONST uint kSlotListed = 1u;    // the disk is complete, and the active ones in it have blocks
 GEODISK_CONST uint kSlotDecided = 2u;
 
-GEODISK_CONST uint kNoSlot = 0xffffffffu;
 // Place of a sample of an earlier chunk, whose disk only rejects.
 GEODISK_CONST uint kNoPlace = 0xffffffffu;
 

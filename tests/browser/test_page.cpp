@@ -3,10 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <set>
 #include <string>
-#include <vector>
 
 #include "browser/web_driver.hpp"
 #include "cli/command.hpp"

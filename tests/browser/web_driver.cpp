@@ -1,6 +1,5 @@
 #include "browser/web_driver.hpp"
 
-#include <cerrno>
 #include <chrono>
 #include <csignal>
 #include <cstdlib>

@@ -1,8 +1,6 @@
 // The C API on a device of the caller's.
 #include <doctest/doctest.h>
 
-#include <cstring>
-
 #include "c/api.hpp"
 #include "c/lent.hpp"
 #include "embed/app_device.hpp"

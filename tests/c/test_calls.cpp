@@ -2,7 +2,6 @@
 // threads, and the lifetime of objects.
 #include <doctest/doctest.h>
 
-#include <atomic>
 #include <cstring>
 #include <string>
 #include <thread>

@@ -6,7 +6,6 @@
 #include <filesystem>
 #include <fstream>
 #include <string>
-#include <vector>
 
 #include "cli/command.hpp"
 #include "cli/json_file.hpp"

@@ -3,7 +3,6 @@
 
 #include <filesystem>
 #include <string>
-#include <vector>
 
 #include "cli/command.hpp"
 #include "cli/json_file.hpp"

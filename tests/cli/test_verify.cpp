@@ -1,7 +1,6 @@
 // `geodisk verify` accepts what `geodisk sample` wrote, and nothing else.
 #include <doctest/doctest.h>
 
-#include <algorithm>
 #include <string>
 
 #include <nlohmann/json.hpp>

@@ -9,11 +9,11 @@
 #include <geodisk/runner.hpp>
 #include <geodisk/sampler.hpp>
 
-#include "failing_new.hpp"
 #include "gpu/device_run.hpp"
 #include "gpu/sets.hpp"
 #include "support/meshes.hpp"
 #include "support/radius_fields.hpp"
+#include "support/runtime_memory.hpp"
 #include "watched_bench.hpp"
 
 namespace geodisk::test {

@@ -10,7 +10,6 @@
 #include <fstream>
 #include <iterator>
 #include <optional>
-#include <random>
 #include <string>
 #include <thread>
 #include <vector>
@@ -18,27 +17,13 @@
 #include <geodisk/context.hpp>
 
 #include "owned/pipeline_file.hpp"
+#include "unit/test_files.hpp"
 
 using namespace geodisk;
 
 namespace {
 
 namespace fs = std::filesystem;
-
-/// A folder that is removed with its contents.
-class ScratchFolder {
-  public:
-    ScratchFolder() { fs::create_directories(path_); }
-    ~ScratchFolder() {
-        std::error_code error;
-        fs::remove_all(path_, error);
-    }
-    const fs::path& path() const { return path_; }
-
-  private:
-    fs::path path_ =
-        fs::temp_directory_path() / ("geodisk_pipelines_" + std::to_string(std::random_device()()));
-};
 
 VkPhysicalDeviceProperties device_of_tests() {
     VkPhysicalDeviceProperties device{};
@@ -62,14 +47,8 @@ std::vector<std::byte> contents_for(const VkPhysicalDeviceProperties& device, st
     return contents;
 }
 
-std::vector<char> read_all(const fs::path& path) {
-    std::ifstream in(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), {}};
-}
-
-void write_all(const fs::path& path, const std::vector<char>& bytes) {
-    std::ofstream out(path, std::ios::binary);
-    out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+void write_all(const fs::path& path, const std::string& bytes) {
+    std::ofstream(path, std::ios::binary).write(bytes.data(), std::ssize(bytes));
 }
 
 std::size_t files_in(const fs::path& folder) {
@@ -81,7 +60,7 @@ std::size_t files_in(const fs::path& folder) {
 
 TEST_SUITE("pipeline file") {
     TEST_CASE("contents come back, and later ones replace them") {
-        const ScratchFolder scratch;
+        const tools::TemporaryFolder scratch;
         const VkPhysicalDeviceProperties device = device_of_tests();
         const PipelineFile file(scratch.path() / "made" / "for it", device);
         CHECK(file.load().empty());
@@ -94,16 +73,16 @@ TEST_SUITE("pipeline file") {
     }
 
     TEST_CASE("a damaged file is ignored, and replaced") {
-        const ScratchFolder scratch;
+        const tools::TemporaryFolder scratch;
         const VkPhysicalDeviceProperties device = device_of_tests();
         const PipelineFile file(scratch.path(), device);
         const auto contents = contents_for(device, 40);
         file.store(contents);
-        const std::vector<char> whole = read_all(file.path());
+        const std::string whole = tools::bytes_of(file.path());
         REQUIRE(whole.size() > contents.size());
         std::size_t accepted = 0;
         for (std::size_t i = 0; i < whole.size(); ++i) {
-            std::vector<char> damaged = whole;
+            std::string damaged = whole;
             damaged[i] = static_cast<char>(damaged[i] ^ 1);
             write_all(file.path(), damaged);
             accepted += std::size_t{!file.load().empty()};
@@ -118,7 +97,7 @@ TEST_SUITE("pipeline file") {
     }
 
     TEST_CASE("devices and drivers have files of their own, and take no other's") {
-        const ScratchFolder scratch;
+        const tools::TemporaryFolder scratch;
         const VkPhysicalDeviceProperties device = device_of_tests();
         const PipelineFile file(scratch.path(), device);
         std::array<VkPhysicalDeviceProperties, 4> others;
@@ -148,7 +127,7 @@ TEST_SUITE("pipeline file") {
     }
 
     TEST_CASE("a folder that cannot be written is no error") {
-        const ScratchFolder scratch;
+        const tools::TemporaryFolder scratch;
         const fs::path taken = scratch.path() / "taken";
         write_all(taken, {'x'});
         const VkPhysicalDeviceProperties device = device_of_tests();
@@ -163,7 +142,7 @@ TEST_SUITE("pipeline file") {
     }
 
     TEST_CASE("several may write and read at once") {
-        const ScratchFolder scratch;
+        const tools::TemporaryFolder scratch;
         const VkPhysicalDeviceProperties device = device_of_tests();
         const std::array contents = {contents_for(device, 20000), contents_for(device, 30000)};
         PipelineFile(scratch.path(), device).store(contents[0]);
@@ -195,7 +174,7 @@ TEST_SUITE("pipeline file") {
 
 #ifndef _WIN32
     TEST_CASE("a context keeps pipelines only if asked to, and not with GEODISK_CACHE=off") {
-        const ScratchFolder scratch;
+        const tools::TemporaryFolder scratch;
         const char* const before = std::getenv("XDG_CACHE_HOME");
         const std::optional<std::string> old =
             before != nullptr ? std::optional<std::string>(before) : std::nullopt;
@@ -218,10 +197,10 @@ TEST_SUITE("pipeline file") {
         CHECK(has_cache(true));
         CHECK(files_in(*cache_folder()) == 1);
         for (const fs::directory_entry& entry : fs::directory_iterator(*cache_folder())) {
-            const std::vector<char> whole = read_all(entry.path());
+            const std::string whole = tools::bytes_of(entry.path());
             write_all(entry.path(), {'n', 'o', 'n', 'e'});
             CHECK(has_cache(true));
-            CHECK(read_all(entry.path()).size() == whole.size());
+            CHECK(tools::bytes_of(entry.path()).size() == whole.size());
         }
 #endif
         old ? ::setenv("XDG_CACHE_HOME", old->c_str(), 1) : ::unsetenv("XDG_CACHE_HOME");

@@ -6,8 +6,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
-#include <span>
-#include <utility>
 #include <vector>
 
 #include "fuzz/complex_input.hpp"

@@ -1,5 +1,4 @@
 // Files that users give: meshes, samples, points and lines, materials, images, values and tuning.
-#include <cstddef>
 #include <cstdint>
 #include <cstdlib>
 #include <filesystem>

@@ -12,7 +12,7 @@
 
 #include <geodisk/runner.hpp>
 
-#include "baselines/box_darts.hpp"
+#include "baselines/box.hpp"
 #include "constants.h"
 #include "device_run.hpp"
 #include "engine/domain/box_grid.hpp"

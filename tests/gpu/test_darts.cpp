@@ -2,7 +2,6 @@
 // throwing, whatever the chunks; and runs that stop at a count.
 #include <doctest/doctest.h>
 
-#include <algorithm>
 #include <utility>
 #include <vector>
 

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <bit>
 #include <tuple>
-#include <utility>
 
 #include "constants.h"
 #include "device_run.hpp"

@@ -3,9 +3,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <cstring>
-#include <map>
-#include <string>
 #include <utility>
 
 #include "engine/kernels/kernel_table.hpp"

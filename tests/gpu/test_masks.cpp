@@ -2,10 +2,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
-#include <array>
 #include <numeric>
-#include <set>
-#include <utility>
 #include <vector>
 
 #include <geodisk/domain.hpp>

@@ -1,7 +1,6 @@
 // Whole runs against sequential dart throwing, set against set, and what must not change a set.
 #include <doctest/doctest.h>
 
-#include <algorithm>
 #include <cstdio>
 #include <set>
 #include <tuple>

@@ -1,7 +1,6 @@
 // Samples that follow edits, against whole runs over the edited surfaces.
 #include <doctest/doctest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <numeric>

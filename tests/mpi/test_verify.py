@@ -3,8 +3,6 @@
 import os
 import subprocess
 
-import pytest
-
 from launching import ENVIRONMENT, alone, run
 
 MESH = "builtin:torus-knot"

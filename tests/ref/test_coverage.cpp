@@ -1,9 +1,6 @@
 // The certificate that samples leave no gap.
 #include <doctest/doctest.h>
 
-#include <cmath>
-#include <vector>
-
 #include "coverage.hpp"
 #include "support/meshes.hpp"
 

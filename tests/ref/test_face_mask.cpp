@@ -1,6 +1,5 @@
 // Masks of faces without a device: areas, distances for counts, candidates and errors.
 #include <algorithm>
-#include <numeric>
 #include <string>
 #include <vector>
 

@@ -1,7 +1,5 @@
 // Random pairs on meshes of every kind against CGAL, and what holds for any distance.
-#include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include <doctest/doctest.h>
 

@@ -1,6 +1,5 @@
 // Surfaces with distances through space: the reference's sets against brute force over double
 // coordinates.
-#include <algorithm>
 #include <vector>
 
 #include <doctest/doctest.h>

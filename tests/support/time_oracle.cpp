@@ -10,9 +10,7 @@
 
 #include <chrono>
 #include <cstdio>
-#include <cstdlib>
 #include <exception>
-#include <string>
 #include <vector>
 
 #include "files/mesh_file.hpp"

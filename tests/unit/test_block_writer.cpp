@@ -3,7 +3,6 @@
 #include "program/exact_text.hpp"
 #include "test_files.hpp"
 
-#include <algorithm>
 #include <new>
 #include <string>
 

@@ -26,6 +26,11 @@ std::vector<std::string> names_in(const TemporaryFolder& folder, const char* fil
 
 using Names = std::vector<std::string>;
 
+bool is_same_file(const Path& a, const Path& b) {
+    const std::string identity = file_identity(a);
+    return !identity.empty() && identity == file_identity(b);
+}
+
 } // namespace
 
 TEST_CASE("a file is the same by whatever name") {

@@ -1,8 +1,8 @@
 // glTF files: the memory that reading them takes.
 #include "files/mesh_file.hpp"
 
-#include "allocated_bytes.hpp"
 #include "gltf_parts.hpp"
+#include "support/runtime_memory.hpp"
 
 #include <cstdint>
 #include <vector>

@@ -5,7 +5,6 @@
 #include "mesh_facts.hpp"
 #include "test_files.hpp"
 
-#include <cstring>
 #include <string>
 
 using namespace geodisk::tools;

@@ -4,10 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <numbers>
 #include <random>
-#include <set>
 #include <string>
 #include <utility>
 #include <vector>

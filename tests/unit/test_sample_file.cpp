@@ -6,7 +6,6 @@
 #include "test_files.hpp"
 
 #include <cmath>
-#include <cstring>
 
 using namespace geodisk::tools;
 

@@ -5,7 +5,6 @@
 #include <limits>
 #include <map>
 #include <set>
-#include <string_view>
 #include <vector>
 
 #include <doctest/doctest.h>

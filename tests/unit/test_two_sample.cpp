@@ -8,9 +8,10 @@
 #include <random>
 #include <vector>
 
-#include "analysis/two_sample.hpp"
+#include "paper/two_sample.hpp"
 
-using namespace geodisk::tools::analysis;
+using namespace geodisk::paper;
+using geodisk::tools::analysis::SurfaceSpectrum;
 
 namespace {
 

@@ -5,9 +5,7 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
-#include <string>
 #include <thread>
-#include <utility>
 #include <vector>
 
 #include <Eigen/SparseCholesky>

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <memory>
-#include <utility>
 
 #include "files/tuning_file.hpp"
 #include "program/arguments.hpp"

@@ -1,6 +1,5 @@
 #include "bench/subdivision.hpp"
 
-#include <algorithm>
 #include <cstddef>
 #include <unordered_map>
 #include <vector>

@@ -1,6 +1,5 @@
 #include "files/file_identity.hpp"
 
-#include <optional>
 #include <system_error>
 
 #include "files/input_file.hpp"
@@ -86,11 +85,6 @@ std::string file_identity(const Path& path, int standard) {
         return number;
     }
     return identity_in_folder(followed(path).value_or(path));
-}
-
-bool is_same_file(const Path& a, const Path& b) {
-    const std::string identity = file_identity(a);
-    return !identity.empty() && identity == file_identity(b);
 }
 
 } // namespace geodisk::tools

@@ -12,7 +12,4 @@ namespace geodisk::tools {
 /// exist. "-" is the descriptor `standard`; devices that are not open have no identity, "".
 std::string file_identity(const Path& path, int standard = 1);
 
-/// Returns true if both paths lead to the same file, also where neither exists yet.
-bool is_same_file(const Path& a, const Path& b);
-
 } // namespace geodisk::tools

@@ -1,7 +1,6 @@
 #include "files/files_in_use.hpp"
 
 #include <filesystem>
-#include <optional>
 #include <system_error>
 #include <utility>
 

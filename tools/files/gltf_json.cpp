@@ -1,7 +1,6 @@
 #include "files/gltf_json.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 

@@ -1,6 +1,5 @@
 #include "files/gltf_scene.hpp"
 
-#include <algorithm>
 #include <utility>
 
 #include <glm/gtc/quaternion.hpp>

@@ -1,6 +1,5 @@
 #include "files/material_fields.hpp"
 
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <utility>

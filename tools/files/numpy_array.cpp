@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstdint>
 #include <limits>
-#include <optional>
 
 #include "files/byte_order.hpp"
 #include "program/exact_text.hpp"

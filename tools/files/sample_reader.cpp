@@ -3,7 +3,6 @@
 #include <optional>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include "files/fingerprint.hpp"
 #include "files/input_file.hpp"

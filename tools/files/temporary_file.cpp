@@ -14,6 +14,8 @@
 #include <unistd.h>
 #endif
 
+#include <geodisk/detail/fnv1a.hpp>
+
 #include "files/descriptor.hpp"
 
 namespace geodisk::tools {
@@ -21,16 +23,12 @@ namespace {
 
 /// The name without the number. Short, as that of the target may be as long as names can be.
 std::filesystem::path name_for(const std::filesystem::path& target) {
-    std::uint64_t hash = 0xcbf29ce484222325; // FNV-1a
+    detail::Fnv1a hash;
     const std::filesystem::path target_name = target.filename();
     for (const auto unit : target_name.native()) {
-        hash = (hash ^ static_cast<std::uint64_t>(unit)) * 0x100000001b3;
+        hash.add(static_cast<std::uint64_t>(unit));
     }
-    std::string digits;
-    for (int shift = 60; shift >= 0; shift -= 4) {
-        digits += "0123456789abcdef"[hash >> shift & 15u];
-    }
-    return target.parent_path() / ("geodisk-" + digits + ".tmp");
+    return target.parent_path() / ("geodisk-" + detail::hexadecimal(hash.value()) + ".tmp");
 }
 
 #ifdef _WIN32

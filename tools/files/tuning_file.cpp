@@ -1,12 +1,12 @@
 #include "files/tuning_file.hpp"
 
 #include <cstdio>
-#include <cstdlib>
 #include <limits>
 #include <system_error>
 
 #include <nlohmann/json.hpp>
 
+#include <geodisk/detail/cache_folder.hpp>
 #include <geodisk/version.hpp>
 
 #include "files/output_file.hpp"
@@ -20,23 +20,6 @@ namespace geodisk::tools {
 namespace {
 
 using OrderedJson = nlohmann::ordered_json;
-
-std::filesystem::path cache_folder() {
-    const auto variable = [](const char* name) {
-        const char* const value = std::getenv(name);
-        return std::filesystem::path(value != nullptr ? value : "");
-    };
-#ifdef _WIN32
-    return variable("LOCALAPPDATA");
-#else
-    // Relative paths are to be ignored (XDG Base Directory Specification).
-    if (auto cache = variable("XDG_CACHE_HOME"); cache.is_absolute()) {
-        return cache;
-    }
-    const auto home = variable("HOME");
-    return home.is_absolute() ? home / ".cache" : std::filesystem::path();
-#endif
-}
 
 constexpr const char* kRemedy = "; run geodisk_bench --tune again, or remove the file";
 
@@ -90,13 +73,13 @@ std::optional<Reads> reads_named(const std::string& name) {
 }
 
 std::filesystem::path tuning_path(const DeviceReport& device) {
-    const std::filesystem::path folder = cache_folder();
+    const std::filesystem::path folder = detail::cache_folder();
     if (folder.empty()) {
         return {};
     }
     char driver[16];
     std::snprintf(driver, sizeof driver, "%08x", device.driver_version);
-    return folder / "geodisk" / ("tuning-" + uuid_text(device.uuid) + "-" + driver + ".json");
+    return folder / ("tuning-" + uuid_text(device.uuid) + "-" + driver + ".json");
 }
 
 std::optional<Tuning> load_tuning(const DeviceReport& device) {

@@ -6,7 +6,6 @@
 #include <string>
 #include <string_view>
 #include <type_traits>
-#include <vector>
 
 #include <geodisk/fields.hpp>
 #include <geodisk/job_frame.hpp>

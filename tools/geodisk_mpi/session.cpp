@@ -1,6 +1,5 @@
 #include "session.hpp"
 
-#include <algorithm>
 #include <cstdlib>
 #include <cstring>
 #include <iostream>

@@ -1,7 +1,6 @@
 #include "shared_pairs.hpp"
 
 #include <algorithm>
-#include <memory>
 #include <string>
 #include <utility>
 

@@ -3,7 +3,6 @@
 
 #include <new>
 #include <type_traits>
-#include <utility>
 
 #include <geodisk/status.hpp>
 

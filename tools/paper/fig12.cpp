@@ -39,13 +39,13 @@ BoxParams box_of(std::size_t dimension, double radius, std::uint64_t seed) {
     return box;
 }
 
-bench::LinePlot spectrum_plot(const char* title, const char* y_label, const char* y_unit) {
-    bench::LinePlot plot{.title = title,
-                         .x_label = "waves per minimum distance",
-                         .y_label = y_label,
-                         .y_unit = y_unit,
-                         .is_linear_y = true,
-                         .is_linear_x = true};
+LinePlot spectrum_plot(const char* title, const char* y_label, const char* y_unit) {
+    LinePlot plot{.title = title,
+                  .x_label = "waves per minimum distance",
+                  .y_label = y_label,
+                  .y_unit = y_unit,
+                  .is_linear_y = true,
+                  .is_linear_x = true};
     plot.lines.push_back({"geodisk", 0, false, {}, false});
     return plot;
 }
@@ -79,8 +79,8 @@ void run(const Options& options) {
         samples += static_cast<double>(set.points.size()) / 2 / common.repeats;
         spectrum.add(set.points, [](double) { tools::check_interrupted(); });
     }
-    bench::LinePlot mean = spectrum_plot("Radial mean of the power", "power", "");
-    bench::LinePlot anisotropy = spectrum_plot("Anisotropy", "anisotropy", "dB");
+    LinePlot mean = spectrum_plot("Radial mean of the power", "power", "");
+    LinePlot anisotropy = spectrum_plot("Anisotropy", "anisotropy", "dB");
     Table table({"waves per D", "frequencies", "radial mean", "anisotropy dB"});
     const std::vector<SpectrumRing> rings = spectrum.rings();
     for (const SpectrumRing& ring : rings) {

@@ -84,7 +84,7 @@ double middle(const std::vector<Comparison>& runs, Quantity&& quantity) {
 struct Figure {
     Table table{{"mesh", "samples", "exact s", "closed form s", "speed-up", "phase groups s",
                  "phase samples", "relative %", "samples/disk %", "too close %"}};
-    bench::LinePlot speed_up, relative;
+    LinePlot speed_up, relative;
 
     explicit Figure(const std::string& ratio) {
         speed_up.title = "Speed-up by the closed form";

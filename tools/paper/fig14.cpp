@@ -62,7 +62,7 @@ void add_row(Table& table, const std::string& method, const std::string& domain,
                tools::fixed(densities.least, 4), tools::fixed(densities.most, 4)});
 }
 
-void add_level(bench::LinePlot& plot, const std::string& label, double rho,
+void add_level(LinePlot& plot, const std::string& label, double rho,
                const std::vector<bench::Point>& along) {
     if (!along.empty()) {
         plot.lines.push_back(
@@ -78,7 +78,7 @@ void run(const Options& options) {
     const double expected = expected_count(1, min_distance);
 
     Table table({"method", "square", "|P|", "|P|/|S|", "samples", "rho", "least", "most"});
-    bench::LinePlot plot;
+    LinePlot plot;
     plot.title = "Packing density in the unit square, r = " + options.radius;
     plot.x_label = "candidates per sample";
     plot.y_label = "rho";
@@ -86,7 +86,7 @@ void run(const Options& options) {
     for (const bool is_periodic : {false, true}) {
         const std::string domain = is_periodic ? "periodic" : "open";
         const ref::Box box{{1, 1}, is_periodic};
-        bench::LinePlot::Line line{"from a pool, " + domain, plot.lines.size(), false, {}};
+        LinePlot::Line line{"from a pool, " + domain, plot.lines.size(), false, {}};
         for (const double ratio : ratios) {
             const auto size = static_cast<std::uint32_t>(std::min(ratio * expected, 4e9));
             const Densities densities =

@@ -10,7 +10,6 @@
 #include <glm/vec3.hpp>
 
 #include "analysis/surface_spectrum.hpp"
-#include "analysis/two_sample.hpp"
 #include "baselines/geodesic_disks.hpp"
 #include "baselines/phase_groups.hpp"
 #include "baselines/space_disks.hpp"
@@ -19,6 +18,7 @@
 #include "paper/metrics.hpp"
 #include "paper/options.hpp"
 #include "paper/outputs.hpp"
+#include "paper/two_sample.hpp"
 #include "program/arguments.hpp"
 #include "program/exact_text.hpp"
 #include "program/failure.hpp"
@@ -29,10 +29,8 @@ namespace geodisk::paper {
 namespace {
 
 using tools::analysis::decibels;
-using tools::analysis::Difference;
 using tools::analysis::mean_anisotropy;
 using tools::analysis::PlacedSamples;
-using tools::analysis::SpectrumDifference;
 using tools::analysis::SpectrumRing;
 using tools::analysis::SurfaceSpectrum;
 
@@ -123,7 +121,7 @@ struct Figure {
     Table table{{"mesh", "method", "samples", "anisotropy dB", "mean off %", "p", "detectable",
                  "anisotropy off dB", "p", "detectable"}};
     Table curves{{"mesh", "method", "waves per D", "harmonics", "radial mean", "anisotropy dB"}};
-    std::vector<bench::LinePlot> radial_means, anisotropies;
+    std::vector<LinePlot> radial_means, anisotropies;
 
     void begin_mesh(const std::string& mesh) {
         radial_means.push_back({.title = "Power on " + mesh,
@@ -140,8 +138,8 @@ struct Figure {
     void add_curve(const std::string& mesh, std::size_t method,
                    const std::vector<SpectrumRing>& rings, double distance) {
         const auto& [name, group, is_dashed] = kMethods[method];
-        bench::LinePlot::Line radial_mean{name, group, is_dashed, {}, false};
-        bench::LinePlot::Line anisotropy = radial_mean;
+        LinePlot::Line radial_mean{name, group, is_dashed, {}, false};
+        LinePlot::Line anisotropy = radial_mean;
         for (const SpectrumRing& ring : rings) {
             const double frequency = ring.frequency * distance;
             if (ring.count >= kDrawnRing) {
@@ -203,7 +201,7 @@ void add_mesh(Figure& figure, const PaperMesh& mesh, const Options& options, dou
         } else {
             tools::check_interrupted();
             const SpectrumDifference difference =
-                tools::analysis::compare_groups(spectrum, group, truth, deals, common.seed);
+                compare_groups(spectrum, group, truth, deals, common.seed);
             figure.add_row(mesh.name, method, samples, rings, &difference);
         }
         if (method != 1) { // It lies upon the first.

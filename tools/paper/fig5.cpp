@@ -22,7 +22,7 @@ struct Options {
 /// Draws the three parts of the figure while it fills the table.
 struct Figure {
     Table table{{"mesh", "sweep", "|P|/|S|", "samples", "seconds", "samples/s", "rho"}};
-    bench::LinePlot speed_by_count, speed_by_ratio, rho_by_ratio;
+    LinePlot speed_by_count, speed_by_ratio, rho_by_ratio;
 
     explicit Figure(const std::string& device) {
         speed_by_count.title = "Speed by samples, " + device;
@@ -31,16 +31,16 @@ struct Figure {
         rho_by_ratio.title = "Packing density by candidates per sample";
         rho_by_ratio.y_label = "rho";
         rho_by_ratio.is_linear_y = true;
-        for (bench::LinePlot* const plot : {&speed_by_ratio, &rho_by_ratio}) {
+        for (LinePlot* const plot : {&speed_by_ratio, &rho_by_ratio}) {
             plot->x_label = "candidates per sample";
         }
-        for (bench::LinePlot* const plot : {&speed_by_count, &speed_by_ratio}) {
+        for (LinePlot* const plot : {&speed_by_count, &speed_by_ratio}) {
             plot->y_label = "samples per second";
         }
     }
 
     void begin_mesh(const std::string& name) {
-        for (bench::LinePlot* const plot : {&speed_by_count, &speed_by_ratio, &rho_by_ratio}) {
+        for (LinePlot* const plot : {&speed_by_count, &speed_by_ratio, &rho_by_ratio}) {
             plot->lines.push_back({name, plot->lines.size(), false, {}});
         }
     }

@@ -67,11 +67,11 @@ Comparison compare(const PaperMesh& mesh, const std::optional<PaperMesh>& flat, 
 struct Figure {
     Table table{{"surface", "D", "metric", "samples", "lost %", "pairs too close", "too close %",
                  "as laid flat"}};
-    bench::LinePlot plot{.title = "Samples lost to false conflicts",
-                         .x_label = "minimum distance",
-                         .y_label = "samples lost",
-                         .y_unit = "%",
-                         .is_linear_y = true};
+    LinePlot plot{.title = "Samples lost to false conflicts",
+                  .x_label = "minimum distance",
+                  .y_label = "samples lost",
+                  .y_unit = "%",
+                  .is_linear_y = true};
 
     void begin_surface(const std::string& name) {
         const std::size_t group = plot.lines.size() / 2;

@@ -30,7 +30,7 @@ void run(const Options& options) {
 
     Table table(
         {"mesh", "triangles", "area", "radius", "samples", "rho", "least", "most", "seconds"});
-    bench::LinePlot plot;
+    LinePlot plot;
     plot.title = "Packing density of " + options.count + " samples by triangles";
     plot.x_label = "triangles";
     plot.y_label = "rho";

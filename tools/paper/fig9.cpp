@@ -56,7 +56,7 @@ void run(const Options& options) {
     const Context context = open_context(options.device, /* graphics */ true);
     const Painter painter(context);
     Table table({"mesh", "metric", "samples", "pairs too close", "samples too close", "%"});
-    bench::LinePlot plot;
+    LinePlot plot;
     plot.title = "Samples of the closed form that are too close";
     plot.x_label = "samples";
     plot.y_label = "too close to another by exact distance";

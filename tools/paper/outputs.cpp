@@ -24,7 +24,7 @@ Outputs::Outputs(const std::string& folder, const std::string& name, bool has_pl
     : prefix_((std::filesystem::path(folder) / name).string()) {
     tools::check_writable(prefix_ + ".csv");
     if (has_plots) {
-        bench::check_gnuplot();
+        check_gnuplot();
     }
 }
 
@@ -48,8 +48,8 @@ void Outputs::add_data(const std::string& ending, const Table& table) {
     files_.push_back({prefix_ + ending + ".csv", circumstances_ + table.csv()});
 }
 
-void Outputs::add_plot(const std::string& ending, const bench::LinePlot& plot) {
-    files_.push_back({prefix_ + ending + ".svg", bench::svg_text(plot)});
+void Outputs::add_plot(const std::string& ending, const LinePlot& plot) {
+    files_.push_back({prefix_ + ending + ".svg", svg_text(plot)});
 }
 
 void Outputs::add_picture(const std::string& ending, tools::picture::Pixels picture) {

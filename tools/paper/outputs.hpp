@@ -6,7 +6,7 @@
 #include <variant>
 #include <vector>
 
-#include "bench/line_plot.hpp"
+#include "paper/line_plot.hpp"
 #include "picture/picture.hpp"
 #include "program/table.hpp"
 
@@ -36,7 +36,7 @@ class Outputs {
     void add_picture(const std::string& ending, tools::picture::Pixels picture);
 
     /// `name` + `ending`.svg.
-    void add_plot(const std::string& ending, const bench::LinePlot& plot);
+    void add_plot(const std::string& ending, const LinePlot& plot);
 
     /// Writes all of them, or throws and writes none. Prints their names.
     void write() const;

@@ -43,9 +43,9 @@ std::vector<std::string> columns() {
 }
 
 /// `group` is that of the ratio: measured and printed lines share a colour.
-void add_line(bench::LinePlot& plot, const std::string& label, std::size_t group, bool is_printed,
+void add_line(LinePlot& plot, const std::string& label, std::size_t group, bool is_printed,
               const std::array<double, 10>& percent) {
-    bench::LinePlot::Line line{label, group, is_printed, {}};
+    LinePlot::Line line{label, group, is_printed, {}};
     for (std::size_t i = 0; i < percent.size(); ++i) {
         line.points.push_back({static_cast<double>(i + 1), percent[i]});
     }
@@ -53,7 +53,7 @@ void add_line(bench::LinePlot& plot, const std::string& label, std::size_t group
 }
 
 /// Adds the printed row for the same ratio where there is one.
-void add_printed(Table& table, bench::LinePlot& plot, double ratio, std::size_t group) {
+void add_printed(Table& table, LinePlot& plot, double ratio, std::size_t group) {
     for (const PrintedRow& printed : kPrinted) {
         if (printed.ratio != ratio) {
             continue;
@@ -134,7 +134,7 @@ void run(const Options& options) {
     const PaperMesh mesh = load_mesh(options.mesh);
 
     Table table(columns());
-    bench::LinePlot plot;
+    LinePlot plot;
     plot.title = "Calls of CheckStatus, " + mesh.name +
                  ", |P|/N = " + tools::rounded(pool_ratios.front(), 4);
     plot.x_label = "calls, the last point for 10 and more";

@@ -1,6 +1,5 @@
 #include "picture/box_frame.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <cstdint>
 

@@ -1,7 +1,6 @@
 #include "picture/png.hpp"
 
 #include <exception>
-#include <string_view>
 #include <vector>
 
 #include "program/failure.hpp"

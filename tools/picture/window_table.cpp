@@ -4,7 +4,6 @@
 #include <atomic>
 #include <cmath>
 #include <numeric>
-#include <string>
 #include <utility>
 
 #include "kernels/bins.hpp"

@@ -251,7 +251,7 @@ struct SyncScope {
     VkAccessFlags access;
 };
 
-/// Next step of a job.
+/// Next step of a job. The numbers are those of geodisk_next, whose GEODISK_START_OVER only C has.
 enum class Next : std::uint32_t {
     begin,          ///< record_begin(): for the first stages, for more, or for the rest of it.
     go_on,          ///< record_rounds(). Also the answer to a copy that is too old.
@@ -259,8 +259,7 @@ enum class Next : std::uint32_t {
                     ///< decided.
     larger_pool,    ///< Job::set_plan() with Advice::plan, then record_rewind().
     larger_samples, ///< Job::set_samples() with Advice::sample_capacity, then record_rewind().
-    start_over,     ///< Never from Job::advance(): a job of geodisk.h needs all buffers again.
-    complete,       ///< The samples are complete, Advice::ready of them.
+    complete = 6,   ///< The samples are complete, Advice::ready of them.
     count,          ///< record_count(), or the rest of it: an exact number of darts is thrown.
     paused,         ///< All candidates below Job::set_end_order() are decided, and the first
                     ///< Advice::ready samples are theirs. Set another order to go on.

@@ -46,10 +46,12 @@ struct geodisk_job {
     geodisk::Workspace workspace{};
     std::optional<geodisk::Job> recorded; ///< Set once buffers are bound.
 
-    /// Step that needs new buffers: larger_pool, larger_samples, or start_over, as for a new job.
-    std::optional<geodisk::Next> to_bind = geodisk::Next::start_over;
-    /// Step that has its buffers and must be recorded: larger_pool or larger_samples.
-    std::optional<geodisk::Next> to_record;
+    /// Step that needs new buffers: GEODISK_LARGER_POOL, GEODISK_LARGER_SAMPLES, or
+    /// GEODISK_START_OVER as for a new job.
+    std::optional<geodisk_next> to_bind = GEODISK_START_OVER;
+    /// Step that has its buffers and must be recorded: GEODISK_LARGER_POOL or
+    /// GEODISK_LARGER_SAMPLES.
+    std::optional<geodisk_next> to_record;
     bool is_begun = false; ///< True if begun with these buffers and this seed.
     std::array<bool, geodisk::kBufferRoles> uploaded{}; ///< True if the upload was written for
                                                         ///< these buffers.
@@ -57,7 +59,7 @@ struct geodisk_job {
     std::atomic<bool> is_held = false; ///< True while a call uses it.
 
     /// Returns true if it has buffers for its domain, even if some must become larger.
-    bool is_bound() const { return to_bind != geodisk::Next::start_over; }
+    bool is_bound() const { return to_bind != GEODISK_START_OVER; }
 };
 
 namespace geodisk::c {

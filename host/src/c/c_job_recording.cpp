@@ -24,7 +24,6 @@ static_assert(GEODISK_BEGIN == static_cast<int>(Next::begin) &&
               GEODISK_FINISH == static_cast<int>(Next::finish) &&
               GEODISK_LARGER_POOL == static_cast<int>(Next::larger_pool) &&
               GEODISK_LARGER_SAMPLES == static_cast<int>(Next::larger_samples) &&
-              GEODISK_START_OVER == static_cast<int>(Next::start_over) &&
               GEODISK_COMPLETE == static_cast<int>(Next::complete) &&
               GEODISK_COUNT == static_cast<int>(Next::count) &&
               GEODISK_PAUSED == static_cast<int>(Next::paused) && GEODISK_ALL_ORDERS == kAllOrders);
@@ -61,12 +60,12 @@ Result<Done> ask_for_buffers(geodisk_job& job, const Advice& advice) {
     } else {
         return Done{};
     }
-    job.to_bind = advice.next;
+    job.to_bind = static_cast<geodisk_next>(advice.next);
     return Done{};
 }
 
-bool is_larger(BufferRole role, Next next) noexcept {
-    if (next == Next::larger_pool) {
+bool is_larger(BufferRole role, geodisk_next next) noexcept {
+    if (next == GEODISK_LARGER_POOL) {
         return role == BufferRole::pool;
     }
     return role == BufferRole::samples || role == BufferRole::accepted ||
@@ -94,7 +93,7 @@ Result<Done> bind_all(geodisk_job& job, const Workspace& workspace) {
     return Done{};
 }
 
-Result<Done> bind_larger(geodisk_job& job, const Workspace& workspace, Next next) {
+Result<Done> bind_larger(geodisk_job& job, const Workspace& workspace, geodisk_next next) {
     for (std::size_t i = 0; i < kBufferRoles; ++i) {
         if (!(workspace[i] == job.workspace[i]) && !is_larger(static_cast<BufferRole>(i), next)) {
             return wrong("ranges[" + std::to_string(i) + "] is not what it was");
@@ -103,7 +102,7 @@ Result<Done> bind_larger(geodisk_job& job, const Workspace& workspace, Next next
     const auto at = [&workspace](BufferRole role) -> const BufferRange& {
         return workspace[static_cast<std::size_t>(role)];
     };
-    if (next == Next::larger_pool) {
+    if (next == GEODISK_LARGER_POOL) {
         return job.recorded->set_plan(job.plan, at(BufferRole::pool));
     }
     return job.recorded->set_samples(job.sample_capacity, at(BufferRole::samples),
@@ -116,15 +115,15 @@ Result<Done> bind(geodisk_job& job, const geodisk_buffer_range* ranges) {
     if (!job.to_bind) {
         return wrong("the job needs no other buffers");
     }
-    const Next next = *job.to_bind;
+    const geodisk_next next = *job.to_bind;
     Workspace workspace;
     std::transform(ranges, ranges + kBufferRoles, workspace.begin(), range_of);
     const auto bound =
-        next == Next::start_over ? bind_all(job, workspace) : bind_larger(job, workspace, next);
+        next == GEODISK_START_OVER ? bind_all(job, workspace) : bind_larger(job, workspace, next);
     GEODISK_TRY(bound);
     job.workspace = workspace;
     job.to_bind.reset();
-    if (next != Next::start_over) {
+    if (next != GEODISK_START_OVER) {
         job.to_record = next;
     }
     return Done{};
@@ -200,7 +199,7 @@ Result<bool> record(geodisk_job& job, VkCommandBuffer commands, geodisk_next wha
         return sampler.record_finish(commands, *job.recorded, dispatches);
     case GEODISK_LARGER_POOL:
     case GEODISK_LARGER_SAMPLES:
-        if (!job.to_record || static_cast<geodisk_next>(*job.to_record) != what) {
+        if (job.to_record != what) {
             return wrong("no larger buffers of this kind were bound");
         }
         sampler.record_rewind(commands, *job.recorded);
@@ -218,7 +217,7 @@ Result<geodisk_advice> advise(geodisk_job& job, const gpu::ControlRec& control) 
     geodisk_advice advice{};
     // Until that is done, the control record stays the same.
     if (job.to_bind || job.to_record) {
-        advice.next = static_cast<geodisk_next>(job.to_bind ? *job.to_bind : *job.to_record);
+        advice.next = job.to_bind ? *job.to_bind : *job.to_record;
         advice.ready = job.ready;
         return advice;
     }
@@ -232,7 +231,7 @@ Result<geodisk_advice> advise(geodisk_job& job, const gpu::ControlRec& control) 
 }
 
 void start_over(geodisk_job& job) {
-    job.to_bind = Next::start_over;
+    job.to_bind = GEODISK_START_OVER;
     job.to_record.reset();
     job.is_begun = false;
 }

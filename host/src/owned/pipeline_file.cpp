@@ -12,6 +12,8 @@
 #include <string_view>
 #include <system_error>
 
+#include <geodisk/detail/cache_folder.hpp>
+#include <geodisk/detail/fnv1a.hpp>
 #include <geodisk/version.hpp>
 
 #include "support/checksums.hpp"
@@ -30,21 +32,12 @@ void append(std::vector<std::byte>& bytes, const T& value) {
     bytes.insert(bytes.end(), first, first + sizeof value);
 }
 
-/// Returns the FNV-1a hash.
 std::uint64_t hash_of(std::span<const std::byte> bytes) {
-    std::uint64_t hash = 0xcbf29ce484222325u;
+    detail::Fnv1a hash;
     for (const std::byte byte : bytes) {
-        hash = (hash ^ static_cast<std::uint64_t>(byte)) * 0x100000001b3u;
+        hash.add(static_cast<std::uint64_t>(byte));
     }
-    return hash;
-}
-
-std::string in_hexadecimal(std::uint64_t value) {
-    std::string text;
-    for (int shift = 60; shift >= 0; shift -= 4) {
-        text += "0123456789abcdef"[value >> shift & 15];
-    }
-    return text;
+    return hash.value();
 }
 
 /// Returns what tells the device, driver and version of geodisk from others.
@@ -80,21 +73,6 @@ bool is_of_device(std::span<const std::byte> contents, const VkPhysicalDevicePro
            std::memcmp(header.pipelineCacheUUID, device.pipelineCacheUUID, VK_UUID_SIZE) == 0;
 }
 
-/// Returns the folder that an environment variable names, or nothing.
-std::optional<std::filesystem::path> folder_of(const char* variable) {
-#ifdef _WIN32
-    const std::wstring wide(variable, variable + std::strlen(variable));
-    const wchar_t* const value = _wgetenv(wide.c_str());
-#else
-    const char* const value = std::getenv(variable);
-#endif
-    if (value == nullptr) {
-        return std::nullopt;
-    }
-    std::filesystem::path folder(value);
-    return folder.is_absolute() ? std::optional(std::move(folder)) : std::nullopt;
-}
-
 } // namespace
 
 std::optional<std::filesystem::path> cache_folder() {
@@ -102,31 +80,14 @@ std::optional<std::filesystem::path> cache_folder() {
     if (wanted != nullptr && std::string_view(wanted) == "off") {
         return std::nullopt;
     }
-    std::optional<std::filesystem::path> folder;
-#if defined(_WIN32)
-    folder = folder_of("LOCALAPPDATA");
-#elif defined(__APPLE__)
-    if (folder = folder_of("HOME"); folder) {
-        *folder = *folder / "Library" / "Caches";
-    }
-#else
-    folder = folder_of("XDG_CACHE_HOME");
-    if (!folder) {
-        if (folder = folder_of("HOME"); folder) {
-            *folder = *folder / ".cache";
-        }
-    }
-#endif
-    if (folder) {
-        *folder = *folder / "geodisk";
-    }
-    return folder;
+    std::filesystem::path folder = detail::cache_folder();
+    return folder.empty() ? std::nullopt : std::optional(std::move(folder));
 }
 
 PipelineFile::PipelineFile(const std::filesystem::path& folder,
                            const VkPhysicalDeviceProperties& device)
     : identity_(identity_of(device)), device_(device) {
-    path_ = folder / ("pipelines-" + in_hexadecimal(hash_of(identity_)));
+    path_ = folder / ("pipelines-" + detail::hexadecimal(hash_of(identity_)));
 }
 
 std::vector<std::byte> PipelineFile::load() const {
@@ -157,7 +118,7 @@ void PipelineFile::store(std::span<const std::byte> contents) const {
     std::filesystem::create_directories(path_.parent_path(), error);
     std::filesystem::path temporary = path_;
     std::random_device random;
-    temporary += "." + in_hexadecimal(std::uint64_t{random()} << 32 | random()) + ".tmp";
+    temporary += "." + detail::hexadecimal(std::uint64_t{random()} << 32 | random()) + ".tmp";
     {
         std::ofstream out(temporary, std::ios::binary);
         const std::uint64_t hash = hash_of(contents);

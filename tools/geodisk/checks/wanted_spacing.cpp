@@ -1,7 +1,6 @@
 #include "geodisk/checks/wanted_spacing.hpp"
 
 #include <cmath>
-#include <string>
 
 #include "files/sample_columns.hpp"
 #include "geodisk/checks/sample_checks.hpp"

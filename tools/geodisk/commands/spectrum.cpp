@@ -5,7 +5,6 @@
 #include <numbers>
 #include <string>
 #include <system_error>
-#include <utility>
 #include <vector>
 
 #include <geodisk/version.hpp>

@@ -1,7 +1,6 @@
 #include "geodisk/inputs/line_input.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <iterator>
 #include <limits>

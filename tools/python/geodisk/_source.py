@@ -12,7 +12,6 @@ from numpy.typing import NDArray
 
 from . import _library as c
 from . import _structs as s
-from ._arrays import real
 from ._attributes import Attribute
 from ._polygons import Polygons
 from ._values import path_of

@@ -1,7 +1,6 @@
 // What samples get of their mesh besides attributes: normals, colours of textures, frames.
 #include <algorithm>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "c/c_call.hpp"

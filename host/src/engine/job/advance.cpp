@@ -59,7 +59,7 @@ constexpr double kSurelySome = 60;
 
 const char* to_string(Next next) noexcept {
     constexpr const char* kNames[] = {"begin",       "go_on",          "finish",
-                                      "larger_pool", "larger_samples", "start_over",
+                                      "larger_pool", "larger_samples", "",
                                       "complete",    "count",          "paused"};
     return kNames[static_cast<std::size_t>(next)];
 }

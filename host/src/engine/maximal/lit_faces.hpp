@@ -83,7 +83,6 @@ class LitFaces {
     std::uint32_t face_count() const { return mesh_.face_count(); }
 
   private:
-    FaceWeights weights_at(std::uint32_t face, FaceWeights weights) const;
     double radius_at(std::uint32_t face, FaceWeights weights) const;
     /// Names the longest edge of a triangle by the corner across it.
     struct LongestEdge {

@@ -1,10 +1,16 @@
-#include "allocated_bytes.hpp"
+#include "support/runtime_memory.hpp"
 
 #include <cstdlib>
+#include <limits>
 #include <new>
 
 namespace {
 
+constexpr std::uint32_t kNever = std::numeric_limits<std::uint32_t>::max();
+
+// Allocations left before the one that fails.
+thread_local std::uint32_t left = kNever;
+thread_local bool failed = false;
 thread_local std::uint64_t allocated = 0;
 
 } // namespace
@@ -13,6 +19,11 @@ thread_local std::uint64_t allocated = 0;
 // here, as sanitizers bring one that does not, whose memory would reach this operator delete.
 void* operator new(std::size_t size) {
     allocated += size;
+    if (left != kNever && left-- == 0) {
+        left = kNever;
+        failed = true;
+        throw std::bad_alloc();
+    }
     if (void* const memory = std::malloc(size == 0 ? 1 : size)) {
         return memory;
     }
@@ -39,6 +50,19 @@ namespace geodisk::test {
 
 std::uint64_t allocated_bytes() {
     return allocated;
+}
+
+FailingNew::FailingNew(std::uint32_t after) {
+    failed = false;
+    left = after;
+}
+
+FailingNew::~FailingNew() {
+    left = kNever;
+}
+
+bool FailingNew::has_failed() const {
+    return failed;
 }
 
 } // namespace geodisk::test

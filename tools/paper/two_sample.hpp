@@ -7,7 +7,7 @@
 
 #include "analysis/surface_spectrum.hpp"
 
-namespace geodisk::tools::analysis {
+namespace geodisk::paper {
 
 /// By a permutation test: of the same sets dealt out anew to two groups of the same sizes.
 struct Difference {
@@ -24,9 +24,9 @@ struct SpectrumDifference {
 
 /// Of sets of `spectrum`, as many in one group as in the other: the anisotropy hangs on how many
 /// are averaged. `deals` are permutations, by `seed`.
-SpectrumDifference compare_groups(const SurfaceSpectrum& spectrum,
+SpectrumDifference compare_groups(const tools::analysis::SurfaceSpectrum& spectrum,
                                   std::span<const std::size_t> group,
                                   std::span<const std::size_t> other, std::uint32_t deals,
                                   std::uint64_t seed);
 
-} // namespace geodisk::tools::analysis
+} // namespace geodisk::paper

@@ -7,7 +7,7 @@
 
 #include "bench/statistics.hpp"
 
-namespace geodisk::bench {
+namespace geodisk::paper {
 
 struct LinePlot {
     struct Line {
@@ -16,8 +16,8 @@ struct LinePlot {
         /// by their markers.
         std::size_t group = 0;
         bool is_dashed = false;
-        std::vector<Point> points; ///< Those that an axis cannot show are left out.
-        bool has_markers = true;   ///< For points that are not too many.
+        std::vector<bench::Point> points; ///< Those that an axis cannot show are left out.
+        bool has_markers = true;          ///< For points that are not too many.
     };
 
     std::string title;
@@ -34,4 +34,4 @@ void check_gnuplot();
 /// An SVG document. Throws UserError(bad_output) as check_gnuplot(), or if gnuplot fails.
 std::string svg_text(const LinePlot& plot);
 
-} // namespace geodisk::bench
+} // namespace geodisk::paper

@@ -1,10 +1,9 @@
-#include "bench/line_plot.hpp"
+#include "paper/line_plot.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <iterator>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -22,7 +21,7 @@ extern char** environ;
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
 
-namespace geodisk::bench {
+namespace geodisk::paper {
 namespace {
 
 /// Neighbours differ for the colour blind as well (after Okabe and Ito 2008).
@@ -92,7 +91,7 @@ std::string script_of(const LinePlot& plot) {
         const LinePlot::Line& line = plot.lines[i];
         const std::string name = "$line" + std::to_string(i);
         std::string points;
-        for (const Point& point : line.points) {
+        for (const bench::Point& point : line.points) {
             if (is_drawable(point.x, plot.is_linear_x) && is_drawable(point.y, plot.is_linear_y)) {
                 x.add(point.x);
                 y.add(point.y);
@@ -173,4 +172,4 @@ std::string svg_text(const LinePlot& plot) {
     return *svg;
 }
 
-} // namespace geodisk::bench
+} // namespace geodisk::paper

@@ -1,4 +1,4 @@
-#include "analysis/two_sample.hpp"
+#include "paper/two_sample.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,8 +7,12 @@
 
 #include "baselines/random.hpp"
 
-namespace geodisk::tools::analysis {
+namespace geodisk::paper {
 namespace {
+
+using tools::analysis::decibels;
+using tools::analysis::SpectrumRing;
+using tools::analysis::SurfaceSpectrum;
 
 constexpr double kLevel = 0.05, kPower = 0.9;
 /// Halvings of what might be detectable.
@@ -123,4 +127,4 @@ SpectrumDifference compare_groups(const SurfaceSpectrum& spectrum,
             anisotropy.judge(found.anisotropy, random)};
 }
 
-} // namespace geodisk::tools::analysis
+} // namespace geodisk::paper

@@ -1,0 +1,62 @@
+"""The structs of the package have the fields that the headers of C give them."""
+
+import ctypes
+import os
+import re
+import subprocess
+
+import pytest
+
+from geodisk import _structs
+from geodisk._existing import POINT
+
+#: Structs with other names in Python.
+NAMES = {"CError": "geodisk_error", "Oddity": "geodisk_warning"}
+#: Structs of geodisk.h that the package does not use: those of programs that record, or lend a device.
+UNUSED = """
+    geodisk_advice geodisk_buffer_need geodisk_buffer_range geodisk_frame_neighbour_lists
+    geodisk_frame_neighbour_options geodisk_frame_options geodisk_frame_samples geodisk_job_frame
+    geodisk_job_options geodisk_memory_grant geodisk_memory_request geodisk_placed_record
+    geodisk_placement_params geodisk_sample_record geodisk_surface_part geodisk_vulkan_device
+""".split()
+
+
+def mirrored():
+    """Returns the structs of the package by their names in C."""
+    return {
+        NAMES.get(name) or "geodisk" + re.sub("([A-Z])", r"_\1", name).lower(): struct
+        for name, struct in vars(_structs).items()
+        if isinstance(struct, type) and issubclass(struct, _structs._Sized) and name != "_Sized"
+    }
+
+
+@pytest.fixture(scope="module")
+def layouts():
+    """Size and fields of each struct in C: name, offset and size."""
+    program = os.environ.get("GEODISK_STRUCT_LAYOUTS")
+    if not program:
+        pytest.skip("GEODISK_STRUCT_LAYOUTS names no program")
+    found = {}
+    for line in subprocess.run([program], check=True, capture_output=True, text=True).stdout.splitlines():
+        struct, *field, size = line.split()
+        if field:
+            found[struct][1].append((field[0], int(field[1]), int(size)))
+        else:
+            found[struct] = (int(size), [])
+    return found
+
+
+def test_each_struct_is_mirrored_or_unused(layouts):
+    assert sorted(layouts) == sorted([*mirrored(), "geodisk_surface_point", *UNUSED])
+
+
+@pytest.mark.parametrize("name", sorted(mirrored()))
+def test_fields_lie_where_they_do_in_c(layouts, name):
+    struct = mirrored()[name]
+    fields = [(field, getattr(struct, field).offset, getattr(struct, field).size) for field, _ in struct._fields_]
+    assert (ctypes.sizeof(struct), fields) == layouts[name]
+
+
+def test_points_lie_as_they_do_in_c(layouts):
+    fields = [(name, offset, kind.itemsize) for name, (kind, offset) in POINT.fields.items()]
+    assert (POINT.itemsize, fields) == layouts["geodisk_surface_point"]
