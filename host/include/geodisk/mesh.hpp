@@ -1,4 +1,5 @@
 // PreparedMesh: a triangle mesh in intrinsic form, ready for sampling.
+// Stable.
 #pragma once
 
 #include <cstddef>

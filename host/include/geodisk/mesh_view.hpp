@@ -1,4 +1,5 @@
 // MeshView and LengthMeshView: triangle meshes in the caller's memory.
+// Stable.
 #pragma once
 
 #include <array>

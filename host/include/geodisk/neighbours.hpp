@@ -1,4 +1,5 @@
 // Neighbours: which points of a surface are near which, and how far it is along the surface.
+// Experimental.
 #pragma once
 
 #include <chrono>

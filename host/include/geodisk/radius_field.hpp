@@ -1,4 +1,5 @@
 // RadiusField: radii that vary over a surface (paper section 5.8).
+// Stable.
 #pragma once
 
 #include <cstddef>

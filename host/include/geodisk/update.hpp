@@ -1,4 +1,5 @@
 // Updater: samples of a surface that follow its edits.
+// Experimental.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,5 @@
 // Joins vertices at the same place, for example in files that store three vertices per triangle.
+// Stable.
 #pragma once
 
 #include <cstdint>
