@@ -92,7 +92,7 @@ Result<Mesh> make_by_positions(const geodisk_mesh_params& params, const IndexVie
     if (!positions) {
         return positions.error();
     }
-    MeshView view{*positions, indices, dimension};
+    MeshView view{*positions, indices, dimension, true};
     std::optional<WeldedMesh> welded;
     if (params.keep_seams == 0) {
         auto result = params.weld != 0 ? weld(view, params.weld_distance) : join_seams(view);

@@ -145,10 +145,14 @@ Result<RadiusField> RadiusField::from_density(const PreparedMesh& mesh,
         if (auto checked = check_density(mesh, density); !checked) {
             return checked.error();
         }
-        const DensityUnit unit = unit_of(mesh, density);
+        const auto means = values_on(mesh, density);
+        if (!means) {
+            return means.error();
+        }
+        const DensityUnit unit = unit_of(mesh, *means);
         std::vector<float> scaled(density.size(), 0.0f);
         for (std::size_t v = 0; v < density.size(); ++v) {
-            scaled[v] = is_used(mesh, v) ? unit.scaled(density[v]) : 0.0f;
+            scaled[v] = is_used(mesh, v) ? unit.scaled((*means)[v]) : 0.0f;
         }
         std::vector<float> packing = packing_for(mesh, scaled);
         RadiusField field =

@@ -47,10 +47,14 @@ Result<RadiusField> RadiusField::prepare(const PreparedMesh& mesh,
         if (auto checked = check_factors(mesh, factors); !checked) {
             return checked.error();
         }
+        const auto means = values_on(mesh, factors);
+        if (!means) {
+            return means.error();
+        }
         // Ignored faces may name vertices that no other face uses.
         std::vector<float> values(factors.size(), 1.0f);
         for (std::size_t v = 0; v < factors.size(); ++v) {
-            values[v] = is_used(mesh, v) ? static_cast<float>(factors[v]) : 1.0f;
+            values[v] = is_used(mesh, v) ? static_cast<float>((*means)[v]) : 1.0f;
         }
         return on_mesh(mesh, VertexRadii::of_factors(std::move(values)));
     });

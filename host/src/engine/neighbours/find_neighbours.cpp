@@ -37,7 +37,8 @@ Result<Neighbours> find_neighbours(Runner& runner, const PreparedMesh& mesh,
             return checked.error();
         }
         Runner::Impl& impl = Runner::Impl::of(runner);
-        return impl.complete(search(impl, mesh, query), count_of(query), progress);
+        return impl.complete(search(impl, mesh, with_joined(mesh, query)), count_of(query),
+                             progress);
     });
 }
 
@@ -48,7 +49,7 @@ Result<Done> start_neighbours(Runner& runner, const PreparedMesh& mesh, const Ne
             return checked;
         }
         Runner::Impl& impl = Runner::Impl::of(runner);
-        return impl.begin(search(impl, mesh, query), count_of(query), progress);
+        return impl.begin(search(impl, mesh, with_joined(mesh, query)), count_of(query), progress);
     });
 }
 
@@ -58,8 +59,9 @@ Result<std::optional<Neighbours>> poll_neighbours(Runner& runner,
 }
 
 Result<VertexPoints> vertex_points(const PreparedMesh& mesh,
-                                   std::span<const std::uint32_t> joined) noexcept {
+                                   std::span<const std::uint32_t> given) noexcept {
     return guarded([&]() -> Result<VertexPoints> {
+        const auto joined = given.empty() ? mesh.joined_vertices() : given;
         if (auto checked = check_joined(mesh, joined); !checked) {
             return checked.error();
         }

@@ -531,7 +531,8 @@ Result<FrameNeighbours> FrameNeighbours::create(std::shared_ptr<const Sampler> s
         if (!jobs) {
             return jobs.error();
         }
-        auto impl = std::make_unique<Impl>(std::move(sampler), query, options, std::move(*jobs));
+        auto impl = std::make_unique<Impl>(std::move(sampler), with_joined(mesh, query), options,
+                                           std::move(*jobs));
         const auto all = impl->jobs.job(0, query.sources.size(), 0);
         if (!all) {
             return all.error();
