@@ -1,5 +1,5 @@
 # Fails unless LIBRARY, as NM and READELF tell, shows the functions of SYMBOLS and nothing else,
-# and has SONAME.
+# and has the soname and the version of symbols of SOVERSION.
 execute_process(COMMAND "${NM}" -D --defined-only "${LIBRARY}"
     OUTPUT_VARIABLE told COMMAND_ERROR_IS_FATAL ANY)
 string(REGEX MATCHALL " [TDBRVWi] [^\n@]+" found "${told}")
@@ -14,8 +14,13 @@ if(NOT found STREQUAL expected)
     list(REMOVE_ITEM lost ${found})
     message(FATAL_ERROR "${LIBRARY} shows in addition: ${added}; and no longer: ${lost}")
 endif()
+string(REGEX MATCHALL "@@GEODISK_[^\n]+" versions "${told}")
+list(REMOVE_DUPLICATES versions)
+if(NOT versions STREQUAL "@@GEODISK_${SOVERSION}")
+    message(FATAL_ERROR "symbols of ${LIBRARY} have the version ${versions}")
+endif()
 execute_process(COMMAND "${READELF}" -d "${LIBRARY}"
     OUTPUT_VARIABLE told COMMAND_ERROR_IS_FATAL ANY)
-if(NOT told MATCHES "SONAME[^\n]*\\[${SONAME}\\]")
-    message(FATAL_ERROR "${LIBRARY} is not ${SONAME}: ${told}")
+if(NOT told MATCHES "SONAME[^\n]*\\[libgeodisk\\.so\\.${SOVERSION}\\]")
+    message(FATAL_ERROR "${LIBRARY} is not libgeodisk.so.${SOVERSION}: ${told}")
 endif()

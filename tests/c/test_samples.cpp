@@ -453,13 +453,7 @@ TEST_CASE("meshes of lengths, welded and saved ones") {
     CHECK(geodisk_samples_width(bare.get(), GEODISK_POSITION) == 0);
 
     // A vertex for each corner.
-    TestMesh soup;
-    for (const std::uint32_t vertex : cube.triangles) {
-        soup.triangles.push_back(static_cast<std::uint32_t>(soup.triangles.size()));
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            soup.positions.push_back(cube.positions[std::size_t{3} * vertex + axis]);
-        }
-    }
+    const TestMesh soup = soup_of(cube);
     params = params_of(soup);
     for (const std::int32_t weld : {0, 1}) { // Along seams, or by place.
         params.weld = weld;

@@ -1,7 +1,9 @@
 // Samples that follow edits by the C API are those of whole runs.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cstdint>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -139,6 +141,69 @@ TEST_CASE("an edited mesh is found out about, and existing samples are followed"
     const geodisk_job_frame frame = frame_of(updater.get());
     CHECK(samples_of(updater.get()) == whole_run(after.get(), edited, &frame));
     CHECK(samples_of(updater.get()).faces.front() == 200);
+}
+
+TEST_CASE("seams that edits open and close are followed on both sides") {
+    const TestMesh knot = builtin("torus-knot", 8);
+    TestMesh shape = soup_of(knot);
+    std::vector<std::uint8_t> mask(shape.face_count(), 1);
+    auto params = job_at(0.15);
+    params.face_mask = mask.data();
+    auto mesh = mesh_of(shape);
+    const auto updater = begin(mesh.get(), params, points_of(whole_run(mesh.get(), params)));
+    const auto follow = [&](std::uint32_t changed) {
+        mesh = mesh_of(shape);
+        REQUIRE(geodisk_update(updater.get(), shared_sampler(), mesh.get(), &params, &changed, 1,
+                               nullptr, nullptr, nullptr, nullptr) == GEODISK_OK);
+        const geodisk_job_frame frame = frame_of(updater.get());
+        CHECK(samples_of(updater.get()) == whole_run(mesh.get(), params, &frame));
+    };
+    const std::uint32_t moved = 20; // Other faces are joined with its vertices, the lowest ones.
+    const auto move = [&](double by) {
+        for (std::uint32_t corner = 0; corner < 3; ++corner) {
+            shape.positions[9 * moved + 3 * corner] += by;
+        }
+        follow(moved);
+    };
+    move(0.25);
+    for (std::uint32_t face = 0; face < knot.face_count(); ++face) {
+        const auto* const corners = &knot.triangles[3 * face];
+        if (face != moved && std::find_first_of(corners, corners + 3, &knot.triangles[3 * moved],
+                                                &knot.triangles[3 * moved] + 3) != corners + 3) {
+            for (const bool takes : {false, true}) {
+                mask[face] = takes ? 1 : 0;
+                follow(face);
+            }
+        }
+    }
+    move(-0.25);
+}
+
+TEST_CASE("a sheet that comes to lie at another one joins it") {
+    const TestMesh sheet = flat_grid(10, 10, 1, 1);
+    const auto at = [&](double gap) { // Two sheets; the first one is this far from the second one.
+        TestMesh both = sheet;
+        for (std::uint32_t v = 0; v < sheet.vertex_count(); ++v) {
+            both.positions[3 * v] -= 1 + gap;
+        }
+        both.positions.insert(both.positions.end(), sheet.positions.begin(), sheet.positions.end());
+        for (const std::uint32_t vertex : sheet.triangles) {
+            both.triangles.push_back(sheet.vertex_count() + vertex);
+        }
+        return both;
+    };
+    std::vector<std::uint32_t> changed(sheet.face_count());
+    std::iota(changed.begin(), changed.end(), 0u);
+    const auto params = job_at(0.08);
+    const auto apart = mesh_of(at(0.5));
+    const auto updater = begin(apart.get(), params, points_of(whole_run(apart.get(), params)));
+    for (const double gap : {0.0, 0.5}) {
+        const auto mesh = mesh_of(at(gap));
+        REQUIRE(geodisk_update(updater.get(), shared_sampler(), mesh.get(), &params, changed.data(),
+                               changed.size(), nullptr, nullptr, nullptr, nullptr) == GEODISK_OK);
+        const geodisk_job_frame frame = frame_of(updater.get());
+        CHECK(samples_of(updater.get()) == whole_run(mesh.get(), params, &frame));
+    }
 }
 
 TEST_CASE("updates go by the frame of a plain run, and by another one where an edit needs it") {

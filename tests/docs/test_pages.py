@@ -43,6 +43,20 @@ def test_every_guide_is_told_of():
         assert f"`tools/examples/guides/{program.name}`" in page, program.name
 
 
+def test_public_names_are_stable_or_experimental():
+    """Comments of functions in geodisk.h and first comments of C++ headers end with the mark."""
+    include = SOURCE / "host/include/geodisk"
+    comments = re.findall(r"(.*)\nGEODISK_C_API[^;]*?\b(geodisk_\w+)\(", (include / "geodisk.h").read_text())
+    functions = (SOURCE / "tests/c/symbols.txt").read_text().split()
+    assert sorted(name for _, name in comments) == functions
+    mark = re.compile(r"\b(Stable|Experimental)\.( \*/)?$")
+    assert [name for comment, name in comments if not mark.search(comment)] == []
+    headers = [*include.glob("*.hpp*"), SOURCE / "host/mpi/include/geodisk/mpi.hpp"]
+    assert len(headers) > 30
+    firsts = {path.name: path.read_text().split("\n#pragma once")[0] for path in headers}
+    assert [name for name, first in firsts.items() if not mark.search(first)] == []
+
+
 def test_samplers_of_other_projects_are_there():
     """tools/bench/peers names functions of peer_samplers.py and calls them by name."""
     peers = (SOURCE / "tools/bench/peers").read_text()

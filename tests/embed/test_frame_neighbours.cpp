@@ -318,28 +318,32 @@ TEST_SUITE("frame neighbours") {
                 check_complete(bench, frames, bench.wanted(subject.mesh, query));
             }
             // Each face with vertices of its own, joined where they coincide.
-            const TestMesh whole = builtin("torus-knot", 6);
-            TestMesh apart;
-            for (const std::uint32_t vertex : whole.triangles) {
-                apart.add_vertex(whole.vertex(vertex));
-            }
-            for (std::uint32_t v = 0; v < apart.vertex_count(); v += 3) {
-                apart.add_triangle(v, v + 1, v + 2);
-            }
+            const TestMesh apart = soup_of(builtin("torus-knot", 6));
             const WeldedMesh welded = expect(join_seams(apart.view()));
-            const PreparedMesh mesh =
-                expect(PreparedMesh::prepare({apart.view().positions, welded.triangles}));
-            const std::vector<Sample> all = expect(vertex_points(mesh, welded.vertices)).points;
+            const PreparedMesh by_hand =
+                expect(PreparedMesh::prepare({apart.view().positions, welded.triangles, 3, true}));
+            const PreparedMesh joined = expect(PreparedMesh::prepare(apart.view()));
+            const std::vector<Sample> all = expect(vertex_points(by_hand, welded.vertices)).points;
+            CHECK(expect(vertex_points(joined)).points.size() == all.size());
             query = {};
             query.sources = all;
-            query.joined = welded.vertices;
             query.within = 2 * subject.spacing;
             for (const std::uint32_t nearest : {0u, 5u}) {
                 query.nearest = nearest;
-                FrameNeighbours frames = bench.frames(mesh, query, narrow(bench, mesh, query));
-                record_all(bench, frames);
-                CHECK(frames.lists().pairs > all.size());
-                check_complete(bench, frames, bench.wanted(mesh, query));
+                query.joined = welded.vertices;
+                const Neighbours wanted = bench.wanted(by_hand, query);
+                for (const PreparedMesh* mesh : {&by_hand, &joined}) {
+                    query.joined = {};
+                    if (mesh == &by_hand) {
+                        query.joined = welded.vertices;
+                    }
+                    FrameNeighbours frames =
+                        bench.frames(*mesh, query, narrow(bench, *mesh, query));
+                    record_all(bench, frames);
+                    CHECK(frames.lists().pairs > all.size());
+                    check_complete(bench, frames, bench.wanted(*mesh, query));
+                    check_complete(bench, frames, wanted);
+                }
             }
         }
         check_silent(context);

@@ -93,6 +93,48 @@ TEST_SUITE("update") {
         Scene moebius(builtin("moebius", 40), 400, 6);
         check_edits(moebius, 15);
     }
+    TEST_CASE("seams that edits open and close") {
+        Scene knot(soup_of(builtin("torus-knot", 8)), 800, 11);
+        knot.begin();
+        const std::vector<double> closed = knot.mesh.positions;
+        for (const std::uint32_t face : {900u, 20u}) {
+            for (std::uint32_t corner = 0; corner < 3; ++corner) {
+                knot.mesh.positions[9 * face + 3 * corner] += 0.01;
+            }
+            knot.follow({face});
+        }
+        CHECK(knot.prepare().statistics().boundary_edges == 12);
+        knot.mesh.positions = closed;
+        knot.follow({900, 20});
+        CHECK(knot.prepare().statistics().boundary_edges == 0);
+
+        // Two sheets. The first one comes to lie at the second one, whose vertices have higher
+        // numbers.
+        TestMesh both = flat_grid(10, 10, 1, 1);
+        const std::uint32_t vertices = both.vertex_count(), faces = both.face_count();
+        for (std::uint32_t v = 0; v < vertices; ++v) {
+            both.add_vertex(both.vertex(v));
+        }
+        for (std::uint32_t i = 0; i < 3 * faces; ++i) {
+            both.triangles.push_back(both.triangles[i] + vertices);
+        }
+        both.keep_seams = false;
+        const auto place = [&](TestMesh& mesh, double gap) {
+            for (std::uint32_t v = 0; v < vertices; ++v) {
+                mesh.positions[3 * v] = mesh.positions[3 * (vertices + v)] - 1 - gap;
+            }
+        };
+        place(both, 0.5);
+        Scene sheets(both, 300, 12);
+        sheets.begin();
+        std::vector<std::uint32_t> moved(faces);
+        std::iota(moved.begin(), moved.end(), 0u);
+        for (const double gap : {0.0, 0.5}) {
+            place(sheets.mesh, gap);
+            sheets.follow(moved);
+            CHECK(sheets.prepare().statistics().components == (gap == 0 ? 1 : 2));
+        }
+    }
     TEST_CASE("with radii that vary") {
         Scene knot(builtin("torus-knot", 8), 800, 7, 0.4);
         check_edits(knot, 25);

@@ -1,4 +1,5 @@
 // Joining border edges that lie on each other, and nothing else.
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <limits>
@@ -8,6 +9,7 @@
 
 #include <doctest/doctest.h>
 
+#include "geodisk/radius_field.hpp"
 #include "geodisk/weld.hpp"
 #include "support/meshes.hpp"
 
@@ -31,15 +33,6 @@ TestMesh soup(const std::vector<double>& places, const Faces& faces, std::uint32
     return mesh;
 }
 
-TestMesh soup_of(const TestMesh& mesh) {
-    Faces faces;
-    for (std::size_t f = 0; f < mesh.face_count(); ++f) {
-        faces.push_back(
-            {mesh.triangles[3 * f], mesh.triangles[3 * f + 1], mesh.triangles[3 * f + 2]});
-    }
-    return soup(mesh.positions, faces, mesh.dimension);
-}
-
 /// The mesh after joining, which a second call leaves alone.
 struct Joined : WeldedMesh {
     explicit Joined(const TestMesh& mesh) : WeldedMesh(take(mesh, mesh.triangles)) {
@@ -47,7 +40,15 @@ struct Joined : WeldedMesh {
         CHECK(again.joined_edges == 0);
         CHECK(again.triangles == triangles);
         statistics =
-            PreparedMesh::prepare({mesh.positions, triangles, mesh.dimension})->statistics();
+            PreparedMesh::prepare({mesh.positions, triangles, mesh.dimension, true})->statistics();
+        const auto joins = PreparedMesh::prepare({mesh.positions, mesh.triangles, mesh.dimension});
+        REQUIRE(joins);
+        CHECK(joins->joined_edges() == joined_edges);
+        CHECK(joins->joined_vertices().empty() == (joined_edges == 0));
+        CHECK(joins->save().value() ==
+              PreparedMesh::prepare({mesh.positions, triangles, mesh.dimension, true})
+                  ->save()
+                  .value());
         CHECK(statistics.coinciding_border_edges == 0);
     }
 
@@ -238,6 +239,53 @@ TEST_CASE("join_seams: is no more than welding, and done after one call") {
             REQUIRE(all->vertices[joined.vertices[v]] == all->vertices[v]);
         }
     }
+}
+
+TEST_CASE("PreparedMesh joins seams unless the view keeps them") {
+    const TestMesh mesh = soup_of(builtin("icosphere", 2));
+    const PreparedMesh joined = prepared(mesh);
+    const WeldedMesh welded = *join_seams(mesh.view());
+    CHECK(std::ranges::equal(joined.joined_vertices(), welded.vertices));
+    CHECK(joined.vertex_count() == mesh.vertex_count());
+    CHECK(joined.face_count() == mesh.face_count());
+    CHECK(joined.statistics().components == 1);
+    MeshView view = mesh.view();
+    view.keep_seams = true;
+    const PreparedMesh kept = *PreparedMesh::prepare(view);
+    CHECK(kept.joined_vertices().empty());
+    CHECK(kept.joined_edges() == 0);
+    CHECK(kept.statistics().components == mesh.face_count());
+    CHECK(kept.statistics().coinciding_border_edges == 3 * mesh.face_count());
+
+    // A face and its copy have one border, which a mesh without edges of a single face may have.
+    TestMesh twice = soup(kPlaces, {{0, 1, 2}, {0, 2, 3}});
+    twice.keep_seams = false;
+    for (std::size_t i = 0; i < 6; ++i) {
+        twice.triangles.push_back(twice.triangles[i]);
+    }
+    CHECK(prepared(twice).joined_edges() == 2);
+    CHECK(prepared(twice).statistics().components == 1);
+}
+
+TEST_CASE("values of joined vertices are means") {
+    const TestMesh mesh = soup_of(builtin("icosphere", 2));
+    const WeldedMesh welded = *join_seams(mesh.view());
+    const PreparedMesh joined = prepared(mesh);
+    const PreparedMesh by_hand =
+        *PreparedMesh::prepare({mesh.positions, welded.triangles, 3, true});
+    std::vector<double> values;
+    for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) {
+        values.push_back(0.25 + v % 7 / 10.0);
+    }
+    const std::vector<double> means = *means_of_joined(welded.vertices, values);
+    CHECK(*RadiusField::prepare(joined, values)->save() ==
+          *RadiusField::prepare(by_hand, means)->save());
+    CHECK(*RadiusField::from_density(joined, values)->save() ==
+          *RadiusField::from_density(by_hand, means)->save());
+    values[40] = -1; // A vertex that is merged into another one.
+    REQUIRE(welded.vertices[40] != 40);
+    CHECK(RadiusField::prepare(joined, values).error().element == 40);
+    CHECK(RadiusField::from_density(joined, values).error().element == 40);
 }
 
 TEST_CASE("join_seams: what is refused") {

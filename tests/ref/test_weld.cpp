@@ -34,7 +34,7 @@ WeldedMesh welded(const TestMesh& mesh, double epsilon) {
 }
 
 MeshStatistics statistics_of(const TestMesh& mesh, const std::vector<std::uint32_t>& triangles) {
-    const auto result = PreparedMesh::prepare({mesh.positions, triangles, mesh.dimension});
+    const auto result = PreparedMesh::prepare({mesh.positions, triangles, mesh.dimension, true});
     REQUIRE(result);
     return result->statistics();
 }

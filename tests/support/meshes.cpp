@@ -77,6 +77,17 @@ void TestMesh::add_triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
     triangles.insert(triangles.end(), {a, b, c});
 }
 
+TestMesh soup_of(const TestMesh& mesh) {
+    TestMesh soup{{}, {}, mesh.dimension, false};
+    for (const std::uint32_t vertex : mesh.triangles) {
+        soup.triangles.push_back(static_cast<std::uint32_t>(soup.triangles.size()));
+        for (std::uint32_t axis = 0; axis < mesh.dimension; ++axis) {
+            soup.positions.push_back(mesh.positions[std::size_t{vertex} * mesh.dimension + axis]);
+        }
+    }
+    return soup;
+}
+
 PreparedMesh prepared(const TestMesh& mesh) {
     auto result = PreparedMesh::prepare(mesh.view());
     if (!result) {

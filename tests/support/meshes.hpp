@@ -21,8 +21,9 @@ struct TestMesh {
     std::vector<double> positions;
     std::vector<std::uint32_t> triangles;
     std::uint32_t dimension = 3;
+    bool keep_seams = true; ///< Tests build what is connected and what is not.
 
-    MeshView view() const { return {positions, triangles, dimension}; }
+    MeshView view() const { return {positions, triangles, dimension, keep_seams}; }
     std::uint32_t face_count() const { return static_cast<std::uint32_t>(triangles.size() / 3); }
     std::uint32_t vertex_count() const {
         return static_cast<std::uint32_t>(positions.size() / dimension);
@@ -36,6 +37,9 @@ struct TestMesh {
     std::uint32_t add_vertex(Vec3 p);
     void add_triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c);
 };
+
+/// The mesh with vertices of its own for each face, at the same places. Its view joins seams.
+TestMesh soup_of(const TestMesh& mesh);
 
 /// PreparedMesh::prepare; throws std::runtime_error with the message when the mesh is rejected.
 PreparedMesh prepared(const TestMesh& mesh);

@@ -26,7 +26,7 @@ namespace geodisk::tools {
 namespace {
 
 MeshView view_of(const MeshInput& mesh) {
-    return {mesh.file.positions, mesh.file.triangles, mesh.file.dimension};
+    return {mesh.file.positions, mesh.file.triangles, mesh.file.dimension, true};
 }
 
 MeshOptions options_of(const SampleJob& job) {

@@ -1,4 +1,5 @@
 // Boxes of R^n, n = 1 to 6, sampled by straight-line distance (paper section 5.9).
+// Stable.
 #pragma once
 
 #include <cstdint>

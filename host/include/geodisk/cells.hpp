@@ -1,4 +1,5 @@
 // Cells: which part of a surface is nearer to a sample than to all others, along the surface.
+// Experimental.
 #pragma once
 
 #include <array>

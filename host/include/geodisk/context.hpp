@@ -3,6 +3,7 @@
 // This is the only part of geodisk that loads the Vulkan loader, and it does so at run time: a
 // program that uses it starts on machines without Vulkan and gets an Error there. It needs the
 // library target geodisk::context.
+// Stable.
 #pragma once
 
 #include <cstddef>

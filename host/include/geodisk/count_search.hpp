@@ -1,4 +1,5 @@
 // CountSearch: finds the distance that gives a wanted number of samples.
+// Experimental.
 #pragma once
 
 #include <cstdint>

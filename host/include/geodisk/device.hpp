@@ -3,6 +3,7 @@
 // geodisk runs on a device that the caller owns. Call `query_device` before you create it, to learn
 // whether the physical device meets the requirements. Then pass the device as `DeviceRefs` and
 // `QueueRef`. No extension and no optional feature has to be enabled.
+// Stable.
 #pragma once
 
 #include <array>

@@ -1,4 +1,5 @@
 // Domain: a surface or box to sample, and the distance to use. Sampler and Runner treat all alike.
+// Stable.
 #pragma once
 
 #include <cstdint>

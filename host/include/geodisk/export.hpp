@@ -1,5 +1,6 @@
 // GEODISK_API: marks what a shared build of geodisk exports. Empty in a static build. A build that
 // defines it itself keeps its definition.
+// Stable.
 #pragma once
 
 #ifndef GEODISK_API

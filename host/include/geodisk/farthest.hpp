@@ -1,5 +1,6 @@
 // Farthest-point order: samples such that the first ones cover the surface as well as any so few
 // do.
+// Experimental.
 #pragma once
 
 #include <cstdint>

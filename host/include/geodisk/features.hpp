@@ -1,4 +1,5 @@
 // Features: the corners and curves of a surface, and the samples along them.
+// Experimental.
 #pragma once
 
 #include <cstdint>

@@ -3,6 +3,7 @@
 // It allocates one buffer for its work and one for the lists, records a bounded amount of work into
 // the caller's command buffers, and returns where the lists are. A compute shader of the engine can
 // go on with them; the host reads a few words only.
+// Experimental.
 #pragma once
 
 #include <cstdint>

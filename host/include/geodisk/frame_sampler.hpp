@@ -4,6 +4,7 @@
 // It combines Sampler, Job and Placement. It allocates one buffer for everything that stays on the
 // device, records a bounded amount of work into the caller's command buffers, and returns where the
 // samples are. Use Sampler instead for full control over memory and the order of work.
+// Experimental.
 #pragma once
 
 #include <cstdint>

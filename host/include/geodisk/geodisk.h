@@ -31,8 +31,10 @@
  * release an object while a call uses it.
  *
  * Structs begin with `struct_size`: set it to the sizeof of the struct. All other fields may be 0
- * for the default. Programs compiled with this header keep working with later versions of the
- * library.
+ * for the default.
+ *
+ * The comment of each function ends with "Stable." or "Experimental."; host/docs/c.md says what that
+ * means. "Versions" in README.md says which changes a version may bring.
  *
  * Lengths are in mesh units, or in units of the box. Samples are the same on every device.
  * host/docs/c.md has examples. The C++ headers beside this one say more about each function.
@@ -88,12 +90,14 @@ typedef struct geodisk_error {
     char message[1024];/* One line of UTF-8; empty for success. */
 } geodisk_error;
 
-/* Returns the name of a status, such as "invalid_argument"; "unknown" for any other number. */
+/* Returns the name of a status, such as "invalid_argument"; "unknown" for any other number.
+ * Stable. */
 GEODISK_C_API const char *geodisk_status_name(geodisk_status status);
 
-/* Returns the version of the library, "major.minor.patch". */
+/* Returns the version of the library, "major.minor.patch". Stable. */
 GEODISK_C_API const char *geodisk_version(void);
-/* Returns the number of the rule that turns a seed into a set. It changes only when some set does. */
+/* Returns the number of the rule that turns a seed into a set. It changes only when some set does.
+ * Stable. */
 GEODISK_C_API uint32_t geodisk_sampling_version(void);
 
 /* ---- Devices ----------------------------------------------------------------------------------- */
@@ -123,7 +127,7 @@ typedef struct geodisk_device_info {
 } geodisk_device_info;
 
 /* Lists the devices of this machine. Writes the first `capacity` of them to `infos`, and the number
- * of all devices to `count`. All elements have the struct_size of the first one. */
+ * of all devices to `count`. All elements have the struct_size of the first one. Stable. */
 GEODISK_C_API geodisk_status geodisk_list_devices(geodisk_device_info *infos, size_t capacity,
                                                   size_t *count, geodisk_error *error);
 
@@ -140,7 +144,7 @@ typedef struct geodisk_device_options {
     int32_t keep_pipelines;
 } geodisk_device_options;
 
-/* Opens a device that only geodisk uses. `options` may be NULL. */
+/* Opens a device that only geodisk uses. `options` may be NULL. Stable. */
 GEODISK_C_API geodisk_status geodisk_device_open(const geodisk_device_options *options,
                                                  geodisk_device **device, geodisk_error *error);
 
@@ -193,21 +197,22 @@ typedef struct geodisk_vulkan_device {
     void (*free)(void *memory_user, const geodisk_memory_grant *grant);
 } geodisk_vulkan_device;
 
-/* Makes a device from a VkDevice and queue of the caller's. */
+/* Makes a device from a VkDevice and queue of the caller's. Stable. */
 GEODISK_C_API geodisk_status geodisk_device_borrow(const geodisk_vulkan_device *lent,
                                                    geodisk_device **device, geodisk_error *error);
 
 /* Reports on a physical device. Call it before vkCreateDevice, and create the device with a queue
- * of compute_queue_family. A device that geodisk cannot use is not an error. */
+ * of compute_queue_family. A device that geodisk cannot use is not an error. Stable. */
 GEODISK_C_API geodisk_status geodisk_query_device(void (*get_instance_proc_addr)(void),
                                                   void *instance, void *physical_device,
                                                   geodisk_device_info *info, geodisk_error *error);
 
-/* Reports on a device that was opened or borrowed. */
+/* Reports on a device that was opened or borrowed. Stable. */
 GEODISK_C_API geodisk_status geodisk_device_describe(const geodisk_device *device,
                                                      geodisk_device_info *info,
                                                      geodisk_error *error);
 
+/* Releases the device. Stable. */
 GEODISK_C_API void geodisk_device_release(geodisk_device *device);
 
 /* ---- Meshes ------------------------------------------------------------------------------------ */
@@ -244,15 +249,15 @@ typedef struct geodisk_mesh_params {
     int32_t keep_seams;
 } geodisk_mesh_params;
 
-/* Prepares a mesh. Copies what it needs; the caller's memory is not used afterwards. */
+/* Prepares a mesh. Copies what it needs; the caller's memory is not used afterwards. Stable. */
 GEODISK_C_API geodisk_status geodisk_mesh_create(const geodisk_mesh_params *params,
                                                  geodisk_mesh **mesh, geodisk_error *error);
 
 /* Saves a mesh without its coordinates, for geodisk_mesh_load. Writes the number of bytes to
- * `size`, and the bytes to `bytes` if `capacity` is large enough. `bytes` may be NULL. */
+ * `size`, and the bytes to `bytes` if `capacity` is large enough. `bytes` may be NULL. Stable. */
 GEODISK_C_API geodisk_status geodisk_mesh_save(const geodisk_mesh *mesh, void *bytes,
                                                size_t capacity, size_t *size, geodisk_error *error);
-/* Loads a saved mesh. The bytes may come from any source: they are checked completely. */
+/* Loads a saved mesh. The bytes may come from any source: they are checked completely. Stable. */
 GEODISK_C_API geodisk_status geodisk_mesh_load(const void *bytes, size_t size, geodisk_mesh **mesh,
                                                geodisk_error *error);
 
@@ -275,10 +280,11 @@ typedef struct geodisk_mesh_info {
     uint64_t joined_edges;            /* Border edges joined to others along seams. */
 } geodisk_mesh_info;
 
-/* Writes the statistics of a mesh to `info`. */
+/* Writes the statistics of a mesh to `info`. Stable. */
 GEODISK_C_API geodisk_status geodisk_mesh_describe(const geodisk_mesh *mesh,
                                                    geodisk_mesh_info *info, geodisk_error *error);
 
+/* Releases the mesh. Stable. */
 GEODISK_C_API void geodisk_mesh_release(geodisk_mesh *mesh);
 
 /* Radii that vary over a mesh. The radius at a point is half of min_distance times a factor, 0.001
@@ -287,21 +293,23 @@ GEODISK_C_API void geodisk_mesh_release(geodisk_mesh *mesh);
 typedef struct geodisk_radii geodisk_radii;
 
 /* Makes radii from one factor per vertex, of GEODISK_FLOAT64 or GEODISK_FLOAT32. Joined vertices
- * use the mean of their factors; in a mesh from geodisk_mesh_load, the factor of the lowest. */
+ * use the mean of their factors; in a mesh from geodisk_mesh_load, the factor of the lowest.
+ * Stable. */
 GEODISK_C_API geodisk_status geodisk_radii_create(const geodisk_mesh *mesh, const void *factors,
                                                   geodisk_type type, size_t count,
                                                   geodisk_radii **radii, geodisk_error *error);
 
 /* Makes radii from one density per vertex, 0 or positive, in any unit. Joined vertices are treated
- * as above. Samples per area are proportional to the density; none where it is 0. */
+ * as above. Samples per area are proportional to the density; none where it is 0. Stable. */
 GEODISK_C_API geodisk_status geodisk_density_create(const geodisk_mesh *mesh, const void *density,
                                                     geodisk_type type, size_t count,
                                                     geodisk_radii **radii, geodisk_error *error);
 
 /* Returns the smallest factor; 1 for NULL. No two samples are closer than min_distance times this
- * factor. */
+ * factor. Stable. */
 GEODISK_C_API double geodisk_radii_least_factor(const geodisk_radii *radii);
 
+/* Releases the radii. Stable. */
 GEODISK_C_API void geodisk_radii_release(geodisk_radii *radii);
 
 /* ---- Domains: what is sampled ------------------------------------------------------------------ */
@@ -359,7 +367,7 @@ typedef struct geodisk_surface_params {
     int32_t is_maximal;
 } geodisk_surface_params;
 
-/* Makes the domain of one surface. */
+/* Makes the domain of one surface. Stable. */
 GEODISK_C_API geodisk_status geodisk_domain_surface(const geodisk_mesh *mesh,
                                                     const geodisk_surface_params *params,
                                                     geodisk_domain **domain, geodisk_error *error);
@@ -371,7 +379,7 @@ GEODISK_C_API geodisk_status geodisk_domain_surface(const geodisk_mesh *mesh,
  * sample on a corner has two weights of 0, on a curve one. `params` may have no darts and classes,
  * and no radii from a density; its metric is GEODISK_GEODESIC. The mesh needs coordinates. If
  * `corners` is not NULL, writes the number of corners of the mesh; those closer to others than the
- * distance have no sample. Writes NULL to `domain` if there are no features. */
+ * distance have no sample. Writes NULL to `domain` if there are no features. Experimental. */
 GEODISK_C_API geodisk_status geodisk_domain_features(const geodisk_mesh *mesh,
                                                      const geodisk_surface_params *params,
                                                      double degrees, size_t *corners,
@@ -384,13 +392,14 @@ typedef struct geodisk_job_frame {
     unsigned char bytes[128];
 } geodisk_job_frame;
 
-/* Derives the frame of a job, to sample parts of its mesh as the whole is sampled. */
+/* Derives the frame of a job, to sample parts of its mesh as the whole is sampled. Experimental. */
 GEODISK_C_API geodisk_status geodisk_job_frame_of(const geodisk_mesh *mesh,
                                                   const geodisk_surface_params *params,
                                                   geodisk_job_frame *frame, geodisk_error *error);
 
 /* Makes the domain of one surface by geodesic distance, in the frame of a mesh that it is a part of.
- * Give it the parameters of the whole, and the face keys that its faces have in the whole. */
+ * Give it the parameters of the whole, and the face keys that its faces have in the whole.
+ * Experimental. */
 GEODISK_C_API geodisk_status geodisk_domain_surface_in_frame(const geodisk_mesh *mesh,
                                                              const geodisk_surface_params *params,
                                                              const geodisk_job_frame *frame,
@@ -406,7 +415,7 @@ typedef struct geodisk_surface_part {
 } geodisk_surface_part;
 
 /* Makes the domain of several surfaces. Each surface gets the samples that it gets alone. All
- * `count` elements of `parts` have the struct_size of the first one. */
+ * `count` elements of `parts` have the struct_size of the first one. Experimental. */
 GEODISK_C_API geodisk_status geodisk_domain_surfaces(const geodisk_surface_part *parts,
                                                      size_t count, geodisk_domain **domain,
                                                      geodisk_error *error);
@@ -424,26 +433,29 @@ typedef struct geodisk_box_params {
     uint32_t stop_count;
 } geodisk_box_params;
 
-/* Makes the domain of a box. */
+/* Makes the domain of a box. Stable. */
 GEODISK_C_API geodisk_status geodisk_domain_box(const geodisk_box_params *params,
                                                 geodisk_domain **domain, geodisk_error *error);
 
+/* Releases the domain. Stable. */
 GEODISK_C_API void geodisk_domain_release(geodisk_domain *domain);
 
 /* Writes the distance that should give about `count` samples on a mesh. `radii` and `face_mask` are
- * as in geodisk_surface_params. */
+ * as in geodisk_surface_params. Stable. */
 GEODISK_C_API geodisk_status geodisk_distance_for_count(const geodisk_mesh *mesh,
                                                         const geodisk_radii *radii,
                                                         const uint8_t *face_mask, double count,
                                                         double *distance, geodisk_error *error);
-/* Writes the distance that should give about `count` samples in a box; ignores min_distance. */
+/* Writes the distance that should give about `count` samples in a box; ignores min_distance.
+ * Stable. */
 GEODISK_C_API geodisk_status geodisk_box_distance_for_count(const geodisk_box_params *params,
                                                             double count, double *distance,
                                                             geodisk_error *error);
 
 /* Writes the number of levels, in progressive order, of a run with these parameters, whose distance
  * is that of the last level. Each level has the distance of the next one times `factor`, 1.1 to 8;
- * 0 for 2. The first level expects 16 samples or up to factor * factor times as many. */
+ * 0 for 2. The first level expects 16 samples or up to factor * factor times as many.
+ * Experimental. */
 GEODISK_C_API geodisk_status geodisk_level_count(const geodisk_mesh *mesh,
                                                  const geodisk_surface_params *params,
                                                  double factor, uint32_t *levels,
@@ -451,7 +463,7 @@ GEODISK_C_API geodisk_status geodisk_level_count(const geodisk_mesh *mesh,
 /* Writes the distance and the seed of a level; level 0 is the first of `levels`, at most 32. Sample
  * level by level with these and otherwise the same parameters: the first level with their `existing`,
  * each later one with the samples of all levels before it as `existing`. The samples up to the end of
- * a level are a Poisson-disk set of its distance. Not for darts. */
+ * a level are a Poisson-disk set of its distance. Not for darts. Experimental. */
 GEODISK_C_API geodisk_status geodisk_level_params(const geodisk_surface_params *params,
                                                   double factor, uint32_t levels, uint32_t level,
                                                   double *min_distance, uint64_t *seed,
@@ -473,7 +485,7 @@ typedef struct geodisk_sampler_options {
     double stall_seconds;      /* A longer submission counts as hung; 0 for 120, or 600 on a CPU. */
 } geodisk_sampler_options;
 
-/* Compiles the pipelines that all domains share. `options` may be NULL. */
+/* Compiles the pipelines that all domains share. `options` may be NULL. Stable. */
 GEODISK_C_API geodisk_status geodisk_sampler_create(const geodisk_device *device,
                                                     const geodisk_sampler_options *options,
                                                     geodisk_sampler **sampler,
@@ -493,7 +505,8 @@ typedef struct geodisk_progress {
  * stops the run with GEODISK_CANCELLED. Must not use the sampler. */
 typedef int32_t (*geodisk_progress_fn)(void *user, const geodisk_progress *progress);
 
-/* Samples a domain and waits for the result. `progress` may be NULL; `user` is passed to it. */
+/* Samples a domain and waits for the result. `progress` may be NULL; `user` is passed to it.
+ * Stable. */
 GEODISK_C_API geodisk_status geodisk_sample(geodisk_sampler *sampler, const geodisk_domain *domain,
                                             geodisk_progress_fn progress, void *user,
                                             geodisk_samples **samples, geodisk_error *error);
@@ -536,7 +549,8 @@ GEODISK_C_API geodisk_status geodisk_request_rule(size_t number, geodisk_rule *r
                                                   geodisk_error *error);
 
 /* Samples what the request asks for, and waits for the result. `progress` may be NULL, and is called
- * for each run anew; `user` is passed to it. Fields that exclude each other are refused by name. */
+ * for each run anew; `user` is passed to it. Fields that exclude each other are refused by name.
+ * Stable. */
 GEODISK_C_API geodisk_status geodisk_sample_request(geodisk_sampler *sampler,
                                                     const geodisk_mesh *mesh,
                                                     const geodisk_request *request,
@@ -545,7 +559,7 @@ GEODISK_C_API geodisk_status geodisk_sample_request(geodisk_sampler *sampler,
                                                     geodisk_error *error);
 
 /* Begins to serve a request without waiting, and copies what it refers to. Call geodisk_poll until
- * it ends. Not for GEODISK_ORDER_FARTHEST: call geodisk_farthest_order on the samples. */
+ * it ends. Not for GEODISK_ORDER_FARTHEST: call geodisk_farthest_order on the samples. Stable. */
 GEODISK_C_API geodisk_status geodisk_start_request(geodisk_sampler *sampler,
                                                    const geodisk_mesh *mesh,
                                                    const geodisk_request *request,
@@ -561,7 +575,7 @@ typedef struct geodisk_mesh_request {
 /* Samples what `count` requests ask for, at least one, each as geodisk_sample_request does. Their runs
  * share jobs where they may, which is much faster if the sets are small. All elements of `requests`
  * have the struct_size of the first one. Writes `count` handles to `samples`; a failure of one is a
- * failure of all. Reports are of whole jobs. */
+ * failure of all. Reports are of whole jobs. Stable. */
 GEODISK_C_API geodisk_status geodisk_sample_requests(geodisk_sampler *sampler,
                                                      const geodisk_mesh_request *requests,
                                                      size_t count, geodisk_progress_fn progress,
@@ -569,7 +583,7 @@ GEODISK_C_API geodisk_status geodisk_sample_requests(geodisk_sampler *sampler,
                                                      geodisk_error *error);
 
 /* Begins to serve requests without waiting, as geodisk_start_request does. geodisk_poll then takes
- * room for `count` handles. */
+ * room for `count` handles. Stable. */
 GEODISK_C_API geodisk_status geodisk_start_requests(geodisk_sampler *sampler,
                                                     const geodisk_mesh_request *requests,
                                                     size_t count, geodisk_error *error);
@@ -584,46 +598,47 @@ typedef struct geodisk_box_request {
     int32_t is_exact; /* Not 0: return exactly `count` samples. */
 } geodisk_box_request;
 
-/* Samples what the request asks for, as geodisk_sample_request does. */
+/* Samples what the request asks for, as geodisk_sample_request does. Stable. */
 GEODISK_C_API geodisk_status geodisk_sample_box_request(geodisk_sampler *sampler,
                                                         const geodisk_box_request *request,
                                                         geodisk_progress_fn progress, void *user,
                                                         geodisk_samples **samples,
                                                         geodisk_error *error);
-/* Begins to serve the request without waiting, as geodisk_start_request does. */
+/* Begins to serve the request without waiting, as geodisk_start_request does. Stable. */
 GEODISK_C_API geodisk_status geodisk_start_box_request(geodisk_sampler *sampler,
                                                        const geodisk_box_request *request,
                                                        geodisk_error *error);
 
-/* Begins a run without waiting. Call geodisk_poll until it ends. */
+/* Begins a run without waiting. Call geodisk_poll until it ends. Stable. */
 GEODISK_C_API geodisk_status geodisk_start(geodisk_sampler *sampler, const geodisk_domain *domain,
                                            geodisk_error *error);
 /* Waits for the latest submission, at most this many milliseconds. Once it has ended, submits the
  * next one. Writes the samples to `samples` when the run is complete, else NULL; those of several
- * requests as geodisk_sample_requests does. A failure ends the run. */
+ * requests as geodisk_sample_requests does. A failure ends the run. Stable. */
 GEODISK_C_API geodisk_status geodisk_poll(geodisk_sampler *sampler, uint32_t milliseconds,
                                           geodisk_samples **samples, geodisk_error *error);
 
 /* Writes how far a run begun by geodisk_start, or a search begun by geodisk_start_neighbours, is; all
- * 0 if there is none. */
+ * 0 if there is none. Stable. */
 GEODISK_C_API geodisk_status geodisk_sampler_progress(geodisk_sampler *sampler,
                                                       geodisk_progress *progress,
                                                       geodisk_error *error);
 
 /* Stops the run in progress, if there is one; it ends with GEODISK_CANCELLED. This is the only
- * function of a sampler that may be called while another thread uses it. */
+ * function of a sampler that may be called while another thread uses it. Stable. */
 GEODISK_C_API void geodisk_cancel(geodisk_sampler *sampler);
 
-/* Frees the device memory that is kept for the next run. */
+/* Frees the device memory that is kept for the next run. Stable. */
 GEODISK_C_API geodisk_status geodisk_sampler_trim(geodisk_sampler *sampler, geodisk_error *error);
 
-/* Stops the run in progress, if there is one, waits for the device, and frees the sampler. */
+/* Stops the run in progress, if there is one, waits for the device, and frees the sampler.
+ * Stable. */
 GEODISK_C_API void geodisk_sampler_release(geodisk_sampler *sampler);
 
 /* ---- Samples ----------------------------------------------------------------------------------- */
 
 /* Returns the number of samples. They are in dart order, so the first n of them are the set of a
- * run with stop_count n. */
+ * run with stop_count n. Stable. */
 GEODISK_C_API size_t geodisk_samples_count(const geodisk_samples *samples);
 
 /* Data of a sample. Samples of a box have GEODISK_POSITION and GEODISK_RADIUS only. */
@@ -646,7 +661,7 @@ enum {
                               * GEODISK_ORDER_FARTHEST; infinite for the first of a component. */
 };
 
-/* Returns the count of numbers per sample of an attribute; 0 if the samples lack it. */
+/* Returns the count of numbers per sample of an attribute; 0 if the samples lack it. Stable. */
 GEODISK_C_API uint32_t geodisk_samples_width(const geodisk_samples *samples,
                                              geodisk_attribute attribute);
 
@@ -654,7 +669,7 @@ GEODISK_C_API uint32_t geodisk_samples_width(const geodisk_samples *samples,
  * numbers of a sample are adjacent; `stride` is the bytes from one sample to the next, 0 if packed.
  * `capacity` is the number of samples that fit, at least all of them. `type` is GEODISK_UINT32 for
  * integers, otherwise GEODISK_FLOAT64 or GEODISK_FLOAT32. Coordinates are computed in double
- * precision. */
+ * precision. Stable. */
 GEODISK_C_API geodisk_status geodisk_samples_copy(const geodisk_samples *samples,
                                                   geodisk_attribute attribute, geodisk_type type,
                                                   void *data, size_t stride, size_t capacity,
@@ -698,10 +713,11 @@ typedef struct geodisk_report {
                               * nearest one kept. */
 } geodisk_report;
 
-/* Reports how the run of these samples went. */
+/* Reports how the run of these samples went. Stable. */
 GEODISK_C_API geodisk_status geodisk_samples_report(const geodisk_samples *samples,
                                                     geodisk_report *report, geodisk_error *error);
 
+/* Releases the samples. Stable. */
 GEODISK_C_API void geodisk_samples_release(geodisk_samples *samples);
 
 /* ---- Neighbours -------------------------------------------------------------------------------- */
@@ -741,7 +757,8 @@ typedef struct geodisk_neighbour_params {
 typedef struct geodisk_neighbours geodisk_neighbours;
 
 /* Finds the neighbours of all sources and waits for the result. It is the same on every device.
- * `progress` may be NULL, and counts sources as candidates; `user` is passed to it. */
+ * `progress` may be NULL, and counts sources as candidates; `user` is passed to it.
+ * Experimental. */
 GEODISK_C_API geodisk_status geodisk_find_neighbours(geodisk_sampler *sampler,
                                                      const geodisk_mesh *mesh,
                                                      const geodisk_neighbour_params *params,
@@ -750,14 +767,15 @@ GEODISK_C_API geodisk_status geodisk_find_neighbours(geodisk_sampler *sampler,
                                                      geodisk_error *error);
 
 /* Begins such a search without waiting, and copies what `params` refers to. Call
- * geodisk_poll_neighbours until it ends. geodisk_cancel and geodisk_sampler_progress serve it too. */
+ * geodisk_poll_neighbours until it ends. geodisk_cancel and geodisk_sampler_progress serve it too.
+ * Experimental. */
 GEODISK_C_API geodisk_status geodisk_start_neighbours(geodisk_sampler *sampler,
                                                       const geodisk_mesh *mesh,
                                                       const geodisk_neighbour_params *params,
                                                       geodisk_error *error);
 /* Waits for the latest submission, at most this many milliseconds. Once it has ended, submits the
  * next one. Writes the neighbours to `neighbours` when all are found, else NULL. A failure ends the
- * search. */
+ * search. Experimental. */
 GEODISK_C_API geodisk_status geodisk_poll_neighbours(geodisk_sampler *sampler,
                                                      uint32_t milliseconds,
                                                      geodisk_neighbours **neighbours,
@@ -777,11 +795,12 @@ typedef struct geodisk_neighbour_arrays {
 } geodisk_neighbour_arrays;
 
 /* Points `arrays` at the neighbours found. Set struct_size first. The arrays are valid until
- * the neighbours are released. */
+ * the neighbours are released. Experimental. */
 GEODISK_C_API geodisk_status geodisk_neighbours_describe(const geodisk_neighbours *neighbours,
                                                          geodisk_neighbour_arrays *arrays,
                                                          geodisk_error *error);
 
+/* Releases the neighbours. Experimental. */
 GEODISK_C_API void geodisk_neighbours_release(geodisk_neighbours *neighbours);
 
 /* ---- Cells -------------------------------------------------------------------------------------- */
@@ -800,7 +819,7 @@ typedef struct geodisk_cells geodisk_cells;
 
 /* Finds the cells of all samples and waits for the result. It is the same on every device.
  * `progress` may be NULL, and counts samples twice as candidates: their disks, then their cells;
- * `user` is passed to it. */
+ * `user` is passed to it. Experimental. */
 GEODISK_C_API geodisk_status geodisk_find_cells(geodisk_sampler *sampler, const geodisk_mesh *mesh,
                                                 const geodisk_cell_params *params,
                                                 geodisk_progress_fn progress, void *user,
@@ -826,11 +845,12 @@ typedef struct geodisk_cell_arrays {
 } geodisk_cell_arrays;
 
 /* Points `arrays` at the cells and their dual. Set struct_size first. The arrays are valid until
- * the cells are released. */
+ * the cells are released. Experimental. */
 GEODISK_C_API geodisk_status geodisk_cells_describe(const geodisk_cells *cells,
                                                     geodisk_cell_arrays *arrays,
                                                     geodisk_error *error);
 
+/* Releases the cells. Experimental. */
 GEODISK_C_API void geodisk_cells_release(geodisk_cells *cells);
 
 /* How samples came to be in farthest-point order. */
@@ -847,7 +867,8 @@ typedef struct geodisk_farthest_info {
  * Stops after `count` samples, 0 for all. Writes the index of each one to `order`, and its distance
  * to the nearest one before to `distances`: infinite for the first one on each part of the mesh. Both
  * have room for as many; `distances` and `info` may be NULL. The result is the same on every device.
- * `progress` may be NULL, and counts samples as candidates; `user` is passed to it. */
+ * `progress` may be NULL, and counts samples as candidates; `user` is passed to it.
+ * Experimental. */
 GEODISK_C_API geodisk_status geodisk_farthest_order(geodisk_sampler *sampler,
                                                     const geodisk_mesh *mesh,
                                                     const geodisk_surface_point *samples,
@@ -870,7 +891,7 @@ typedef struct geodisk_updater geodisk_updater;
  * copied. The metric is GEODISK_GEODESIC, and `params` has no darts, stop_count, classes and
  * is_maximal; the mesh has coordinates. `frame` is the one in which the samples were decided; NULL if
  * they are from a run over this mesh without another frame. Fails for a sample that is no candidate of
- * these parameters, with its index in `error->element`. */
+ * these parameters, with its index in `error->element`. Experimental. */
 GEODISK_C_API geodisk_status geodisk_updater_create(const geodisk_mesh *mesh,
                                                     const geodisk_surface_params *params,
                                                     const geodisk_job_frame *frame,
@@ -882,7 +903,7 @@ GEODISK_C_API geodisk_status geodisk_updater_create(const geodisk_mesh *mesh,
 /* The same from the samples of the surface before an edit, whose faces may have other indices. Finds
  * out what has changed: call geodisk_update with `mesh`, `params` and no changed faces next. Faces
  * correspond by their keys, or by their indices without. `frame` is the one in which the samples were
- * decided, or NULL as above. */
+ * decided, or NULL as above. Experimental. */
 GEODISK_C_API geodisk_status geodisk_updater_create_edited(const geodisk_mesh *mesh_before,
                                                            const geodisk_surface_params *params_before,
                                                            const geodisk_mesh *mesh,
@@ -911,7 +932,7 @@ typedef struct geodisk_update_info {
  * The seed, minimum distance and pool ratio must not change. A mesh of which only radii, mask or
  * existing samples change need not be made again. `info` may be NULL; `progress` may be NULL, and
  * `user` is passed to it. After a failure the samples are as before, and the next update includes
- * this edit. */
+ * this edit. Experimental. */
 GEODISK_C_API geodisk_status geodisk_update(geodisk_updater *updater, geodisk_sampler *sampler,
                                             const geodisk_mesh *mesh,
                                             const geodisk_surface_params *params,
@@ -919,15 +940,18 @@ GEODISK_C_API geodisk_status geodisk_update(geodisk_updater *updater, geodisk_sa
                                             geodisk_progress_fn progress, void *user,
                                             geodisk_update_info *info, geodisk_error *error);
 
-/* Makes a copy of the samples as they are, existing ones first, then in dart order. */
+/* Makes a copy of the samples as they are, existing ones first, then in dart order.
+ * Experimental. */
 GEODISK_C_API geodisk_status geodisk_updater_samples(geodisk_updater *updater,
                                                      geodisk_samples **samples,
                                                      geodisk_error *error);
 
-/* Writes the frame in which the samples were decided. Pass it with the samples to another updater. */
+/* Writes the frame in which the samples were decided. Pass it with the samples to another updater.
+ * Experimental. */
 GEODISK_C_API geodisk_status geodisk_updater_frame(geodisk_updater *updater,
                                                    geodisk_job_frame *frame, geodisk_error *error);
 
+/* Releases the updater. Experimental. */
 GEODISK_C_API void geodisk_updater_release(geodisk_updater *updater);
 
 /* ---- Recording --------------------------------------------------------------------------------- */
@@ -959,7 +983,7 @@ typedef struct geodisk_job_options {
 } geodisk_job_options;
 
 /* Plans a job and compiles the pipelines that it needs. `options` may be NULL. Does not check the
- * arithmetic of the device; geodisk_sampler_create does. */
+ * arithmetic of the device; geodisk_sampler_create does. Experimental. */
 GEODISK_C_API geodisk_status geodisk_job_create(const geodisk_device *device,
                                                 const geodisk_domain *domain,
                                                 const geodisk_job_options *options,
@@ -986,7 +1010,7 @@ typedef struct geodisk_buffer_need {
 } geodisk_buffer_need;
 
 /* Writes the sizes of a buffer. Call it after geodisk_job_create, and again when the next step is
- * GEODISK_LARGER_POOL, GEODISK_LARGER_SAMPLES or GEODISK_START_OVER. */
+ * GEODISK_LARGER_POOL, GEODISK_LARGER_SAMPLES or GEODISK_START_OVER. Experimental. */
 GEODISK_C_API geodisk_status geodisk_job_need(geodisk_job *job, uint32_t buffer,
                                               geodisk_buffer_need *need, geodisk_error *error);
 
@@ -999,7 +1023,7 @@ typedef struct geodisk_buffer_range {
 
 /* Lays out all buffers of the job in a single VkBuffer, from `offset` on, aligned for the device.
  * Writes GEODISK_BUFFERS ranges for geodisk_job_bind to `ranges`, and their total size to `bytes`.
- * Call it with buffer 0 to get the size. */
+ * Call it with buffer 0 to get the size. Experimental. */
 GEODISK_C_API geodisk_status geodisk_job_lay_out(geodisk_job *job, uint64_t buffer, uint64_t offset,
                                                  geodisk_buffer_range *ranges, uint64_t *bytes,
                                                  geodisk_error *error);
@@ -1007,13 +1031,13 @@ GEODISK_C_API geodisk_status geodisk_job_lay_out(geodisk_job *job, uint64_t buff
 /* Binds GEODISK_BUFFERS ranges, which must not overlap. A range is all 0 if its buffer is not
  * needed. To replace buffers by larger ones, pass the others unchanged, and copy the contents of
  * GEODISK_SAMPLES_BUFFER and GEODISK_ACCEPTED_BUFFER. No command buffer of the job may be
- * pending. */
+ * pending. Experimental. */
 GEODISK_C_API geodisk_status geodisk_job_bind(geodisk_job *job, const geodisk_buffer_range *ranges,
                                               geodisk_error *error);
 
 /* Writes the data of a buffer to `data`; `bytes` must equal its upload_bytes. Call it for each
  * buffer with upload_bytes, after each geodisk_job_bind of all buffers. GEODISK_BEGIN fails before
- * that. */
+ * that. Experimental. */
 GEODISK_C_API geodisk_status geodisk_job_upload(geodisk_job *job, uint32_t buffer, void *data,
                                                 size_t bytes, geodisk_error *error);
 
@@ -1043,7 +1067,7 @@ enum {
  * completely. If not, the next call records the rest first.
  *
  * Rounds without work are empty. GEODISK_FINISH may be recorded at any time. The samples decided so
- * far are the first ones of the set, and stay where they are. */
+ * far are the first ones of the set, and stay where they are. Experimental. */
 GEODISK_C_API geodisk_status geodisk_job_record(geodisk_job *job, void *command_buffer,
                                                 geodisk_next what, uint32_t amount,
                                                 int32_t *is_last, geodisk_error *error);
@@ -1060,12 +1084,12 @@ typedef struct geodisk_advice {
 
 /* Writes the next step of the job to `advice`. `control` is a copy of the first `bytes` of
  * GEODISK_CONTROL_BUFFER; `bytes` must equal its read_bytes. Copies that are too old give
- * GEODISK_GO_ON, so several frames may be in flight. */
+ * GEODISK_GO_ON, so several frames may be in flight. Experimental. */
 GEODISK_C_API geodisk_status geodisk_job_advance(geodisk_job *job, const void *control,
                                                  size_t bytes, geodisk_advice *advice,
                                                  geodisk_error *error);
 
-/* Restarts with another seed; record GEODISK_BEGIN next. Uploaded data stays. */
+/* Restarts with another seed; record GEODISK_BEGIN next. Uploaded data stays. Experimental. */
 GEODISK_C_API geodisk_status geodisk_job_set_seed(geodisk_job *job, uint64_t seed,
                                                   geodisk_error *error);
 
@@ -1074,7 +1098,7 @@ GEODISK_C_API geodisk_status geodisk_job_set_seed(geodisk_job *job, uint64_t see
 
 /* Decides only candidates of lower order: their stage times 2^28, plus their priority. Then
  * GEODISK_PAUSED is the next step until another order is set. Any sequence of orders gives the same
- * samples. Applies until another seed or domain is set. */
+ * samples. Applies until another seed or domain is set. Experimental. */
 GEODISK_C_API geodisk_status geodisk_job_set_end_order(geodisk_job *job, uint64_t order,
                                                        geodisk_error *error);
 
@@ -1086,17 +1110,18 @@ struct geodisk_sample_record;
  * Distances among them are not checked. In a box they must be samples of the same box and seed.
  * GEODISK_START_OVER comes next; buffers that are large enough may be bound again. The samples are
  * then part of the uploads, for GEODISK_SAMPLES_BUFFER. geodisk_job_bind fails for faces or weights
- * out of range. Applies to all seeds, until geodisk_job_renew. */
+ * out of range. Applies to all seeds, until geodisk_job_renew. Experimental. */
 GEODISK_C_API geodisk_status geodisk_job_set_existing(geodisk_job *job,
                                                      const struct geodisk_sample_record *samples,
                                                      size_t count, geodisk_error *error);
 
 /* Makes this a job of another domain, with the same options. GEODISK_START_OVER comes next; buffers
  * that are large enough may be bound again. Allocates nothing for a domain of the same kind. An
- * error leaves the job unchanged. */
+ * error leaves the job unchanged. Experimental. */
 GEODISK_C_API geodisk_status geodisk_job_renew(geodisk_job *job, const geodisk_domain *domain,
                                                geodisk_error *error);
 
+/* Releases the job. Experimental. */
 GEODISK_C_API void geodisk_job_release(geodisk_job *job);
 
 /* A sample in GEODISK_SAMPLES_BUFFER. The weight of the first corner is 1 - weight1 - weight2. For
@@ -1141,16 +1166,18 @@ typedef struct geodisk_placement_params {
 } geodisk_placement_params;
 
 /* Makes a placement for a job whose buffers are bound. Its domain must be a surface with geodesic
- * distance. */
+ * distance. Experimental. */
 GEODISK_C_API geodisk_status geodisk_placement_create(geodisk_job *job,
                                                       const geodisk_placement_params *params,
                                                       geodisk_placement **placement,
                                                       geodisk_error *error);
 /* Records the placement. Call it after recording GEODISK_FINISH, for the same command buffer or a
- * later one. Make another placement after GEODISK_START_OVER or GEODISK_LARGER_SAMPLES. */
+ * later one. Make another placement after GEODISK_START_OVER or GEODISK_LARGER_SAMPLES.
+ * Experimental. */
 GEODISK_C_API geodisk_status geodisk_placement_record(const geodisk_placement *placement,
                                                       geodisk_job *job, void *command_buffer,
                                                       geodisk_error *error);
+/* Releases the placement. Experimental. */
 GEODISK_C_API void geodisk_placement_release(geodisk_placement *placement);
 
 /* ---- Samples in the frames of an engine -------------------------------------------------------- */
@@ -1175,7 +1202,7 @@ typedef struct geodisk_frame_options {
 } geodisk_frame_options;
 
 /* Makes a frame sampler and allocates all its memory. `options` may be NULL. The meshes of the
- * domain must have 2 or 3 coordinates per vertex. */
+ * domain must have 2 or 3 coordinates per vertex. Experimental. */
 GEODISK_C_API geodisk_status geodisk_frame_sampler_create(const geodisk_device *device,
                                                           const geodisk_domain *domain,
                                                           const geodisk_frame_options *options,
@@ -1184,14 +1211,15 @@ GEODISK_C_API geodisk_status geodisk_frame_sampler_create(const geodisk_device *
 
 /* Records the next part of the work to a VkCommandBuffer, outside a render pass. Writes to
  * `is_complete`, which may be NULL, whether all samples are complete. Call it only when the command
- * buffer recorded `frames` calls ago has completed. Submit in the order of the calls. */
+ * buffer recorded `frames` calls ago has completed. Submit in the order of the calls.
+ * Experimental. */
 GEODISK_C_API geodisk_status geodisk_frame_sampler_record(geodisk_frame_sampler *frames,
                                                           void *command_buffer,
                                                           int32_t *is_complete,
                                                           geodisk_error *error);
 
 /* Submits on the sampler's queue and waits until all samples are complete. No command buffer of
- * geodisk_frame_sampler_record may be pending. */
+ * geodisk_frame_sampler_record may be pending. Experimental. */
 GEODISK_C_API geodisk_status geodisk_frame_sampler_wait(geodisk_frame_sampler *frames,
                                                         geodisk_sampler *sampler,
                                                         geodisk_error *error);
@@ -1208,16 +1236,17 @@ typedef struct geodisk_frame_samples {
     int32_t is_complete;       /* Not 0: these are all samples. */
 } geodisk_frame_samples;
 
-/* Writes where the samples are. Valid until the next call that records, waits or sets a seed. */
+/* Writes where the samples are. Valid until the next call that records, waits or sets a seed.
+ * Experimental. */
 GEODISK_C_API geodisk_status geodisk_frame_sampler_describe(const geodisk_frame_sampler *frames,
                                                             geodisk_frame_samples *samples,
                                                             geodisk_error *error);
 
-/* Restarts with another seed. */
+/* Restarts with another seed. Experimental. */
 GEODISK_C_API geodisk_status geodisk_frame_sampler_set_seed(geodisk_frame_sampler *frames,
                                                             uint64_t seed, geodisk_error *error);
 
-/* Frees the frame sampler. No command buffer that it recorded may be pending. */
+/* Frees the frame sampler. No command buffer that it recorded may be pending. Experimental. */
 GEODISK_C_API void geodisk_frame_sampler_release(geodisk_frame_sampler *frames);
 
 /* ---- Neighbours in the frames of an engine ----------------------------------------------------- */
@@ -1243,7 +1272,7 @@ typedef struct geodisk_frame_neighbour_options {
 } geodisk_frame_neighbour_options;
 
 /* Begins a search, allocates its memory, and copies what `params` refers to. `options` may be NULL.
- * A distance must be given: `within` or `radii`. */
+ * A distance must be given: `within` or `radii`. Experimental. */
 GEODISK_C_API geodisk_status geodisk_frame_neighbours_create(
     const geodisk_device *device, const geodisk_mesh *mesh, const geodisk_neighbour_params *params,
     const geodisk_frame_neighbour_options *options, geodisk_frame_neighbours **frames,
@@ -1251,14 +1280,15 @@ GEODISK_C_API geodisk_status geodisk_frame_neighbours_create(
 
 /* Records the next part of the work to a VkCommandBuffer, outside a render pass. Writes to
  * `is_complete`, which may be NULL, whether all neighbours are complete. Call it only when the
- * command buffer recorded `frames` calls ago has completed. Submit in the order of the calls. */
+ * command buffer recorded `frames` calls ago has completed. Submit in the order of the calls.
+ * Experimental. */
 GEODISK_C_API geodisk_status geodisk_frame_neighbours_record(geodisk_frame_neighbours *frames,
                                                              void *command_buffer,
                                                              int32_t *is_complete,
                                                              geodisk_error *error);
 
 /* Submits on the sampler's queue and waits until all neighbours are complete. No command buffer of
- * geodisk_frame_neighbours_record may be pending. */
+ * geodisk_frame_neighbours_record may be pending. Experimental. */
 GEODISK_C_API geodisk_status geodisk_frame_neighbours_wait(geodisk_frame_neighbours *frames,
                                                            geodisk_sampler *sampler,
                                                            geodisk_error *error);
@@ -1280,16 +1310,14 @@ typedef struct geodisk_frame_neighbour_lists {
     int32_t is_complete;       /* Not 0: these are all neighbours. */
 } geodisk_frame_neighbour_lists;
 
-/* Writes where the lists are. Valid until the next call that records or waits. */
+/* Writes where the lists are. Valid until the next call that records or waits. Experimental. */
 GEODISK_C_API geodisk_status geodisk_frame_neighbours_describe(
     const geodisk_frame_neighbours *frames, geodisk_frame_neighbour_lists *lists,
     geodisk_error *error);
 
 /* Frees the search and its lists. No command buffer that it recorded, or that reads the lists, may be
- * pending. */
+ * pending. Experimental. */
 GEODISK_C_API void geodisk_frame_neighbours_release(geodisk_frame_neighbours *frames);
-
-/* ---- Finding a distance by a count ------------------------------------------------------------- */
 
 #ifdef __cplusplus
 }

@@ -1,5 +1,6 @@
 // All of the C++ library, for those who do not choose: meshes, domains, and the layers that sample
 // them on a device.
+// Stable.
 #pragma once
 
 #include <geodisk/box.hpp>

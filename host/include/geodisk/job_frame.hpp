@@ -1,4 +1,5 @@
 // JobFrame: what a sampling job derives from a whole surface.
+// Experimental.
 #pragma once
 
 #include <array>

@@ -1,5 +1,6 @@
 // KernelReport: the driver's statistics of a compiled kernel, such as registers, spills and code
 // size. Use it to tune kernels, or to find why one is slow on a device.
+// Experimental.
 #pragma once
 
 #include <cstdint>

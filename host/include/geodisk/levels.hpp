@@ -1,4 +1,5 @@
 // Levels: samples in progressive order, coarse levels first.
+// Experimental.
 #pragma once
 
 #include <cstdint>

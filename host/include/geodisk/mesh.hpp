@@ -1,4 +1,5 @@
 // PreparedMesh: a triangle mesh in intrinsic form, ready for sampling.
+// Stable.
 #pragma once
 
 #include <cstddef>
@@ -70,8 +71,8 @@ struct MeshStatistics {
     std::uint64_t triangles = 0;
     std::uint64_t components = 0;     ///< Parts with no path between them.
     std::uint64_t boundary_edges = 0; ///< Edges of one face.
-    /// Boundary edges with both ends exactly at those of another one: seams that are open because
-    /// their vertices are doubled; see `join_seams`. 0 for a mesh without coordinates.
+    /// Boundary edges with both ends exactly at those of another one: seams that
+    /// MeshView::keep_seams leaves open. 0 for a mesh without coordinates.
     std::uint64_t coinciding_border_edges = 0;
     std::uint64_t nonmanifold_edges = 0;    ///< Edges of three or more faces.
     std::uint64_t repeated_index_faces = 0; ///< Faces that name a vertex twice. Ignored.
@@ -88,9 +89,10 @@ struct MeshStatistics {
 /// as in the caller's mesh: face f owns half-edges 3f, 3f+1, 3f+2.
 class PreparedMesh {
   public:
-    /// Connects faces that share vertices (for seams, see `join_seams`) and builds their frames.
-    /// Takes linear time and memory (about 300 bytes per face). Large meshes use the threads that
-    /// `threads` allows; they end before it returns. The result does not depend on them.
+    /// Connects faces that share vertices and builds their frames. Joins seams as join_seams()
+    /// does, unless the view keeps them; faces and vertices keep their numbers. Takes linear time
+    /// and memory (about 300 bytes per face). Large meshes use the threads that `threads` allows;
+    /// they end before it returns. The result does not depend on them.
     ///
     /// Errors: `mesh_rejected`, with the face or vertex in `Error::element`, for an index out of
     /// range, a used coordinate that is not finite, no face with area, or a mesh too large for
@@ -106,7 +108,8 @@ class PreparedMesh {
     GEODISK_API static Result<PreparedMesh> prepare(const LengthMeshView& mesh,
                                                     const ThreadOptions& threads = {}) noexcept;
 
-    /// Returns the mesh as bytes for load(), 130 to 170 per face. Equal meshes give equal bytes.
+    /// Returns the mesh as bytes for load(), 130 to 170 per face, without joined_vertices(). Equal
+    /// meshes give equal bytes.
     /// Errors: `out_of_host_memory`.
     GEODISK_API Result<std::vector<std::byte>> save() const noexcept;
 
@@ -139,6 +142,10 @@ class PreparedMesh {
     }
     std::uint32_t vertex_count() const noexcept { return static_cast<std::uint32_t>(fans_.size()); }
     const MeshStatistics& statistics() const noexcept { return statistics_; }
+    /// Returns the lowest vertex that prepare() joined each vertex with. Empty if it joined none.
+    std::span<const std::uint32_t> joined_vertices() const noexcept { return joined_vertices_; }
+    /// Returns the number of border edges that prepare() joined to others.
+    std::uint64_t joined_edges() const noexcept { return joined_edges_; }
     /// Returns a number that only copies of this mesh share in this process.
     std::uint64_t identity() const noexcept { return identity_; }
 
@@ -153,6 +160,8 @@ class PreparedMesh {
     std::vector<VertexFan> fans_;
     std::vector<std::uint32_t> corners_;
     MeshStatistics statistics_;
+    std::vector<std::uint32_t> joined_vertices_;
+    std::uint64_t joined_edges_ = 0;
     std::uint64_t identity_ = next_identity();
 };
 

@@ -1,4 +1,5 @@
 // MeshView and LengthMeshView: triangle meshes in the caller's memory.
+// Stable.
 #pragma once
 
 #include <array>
@@ -121,6 +122,9 @@ struct MeshView {
     PositionView positions;      ///< `dimension` coordinates per vertex.
     IndexView triangles;         ///< Three vertex indices per face.
     std::uint32_t dimension = 3; ///< Coordinates per vertex, 2 to 8.
+    /// Connect only faces that share vertices. Otherwise PreparedMesh and Updater first join border
+    /// edges that lie exactly on others, as join_seams() does.
+    bool keep_seams = false;
 
     std::size_t vertex_count() const noexcept {
         return positions.is_packed() && dimension > 0 ? positions.count() / dimension

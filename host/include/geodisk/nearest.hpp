@@ -1,5 +1,6 @@
 // NearestSamples: which sample is nearest to points of a surface, and how far it is along the
 // surface.
+// Experimental.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,5 @@
 // Neighbours: which points of a surface are near which, and how far it is along the surface.
+// Experimental.
 #pragma once
 
 #include <chrono>
@@ -36,8 +37,9 @@ struct NeighbourQuery {
     std::span<const double> radii{};
     NeighbourKind kind = NeighbourKind::vertices;
     std::span<const Sample> points{}; ///< At least one if `kind` asks for them, up to 2^28.
-    /// WeldedMesh::vertices if vertices of the mesh are joined. The lists then have all vertices of
-    /// a place. Without it, and with `nearest`, they have only the lowest one, which the mesh uses.
+    /// WeldedMesh::vertices if the caller joined vertices; empty for
+    /// PreparedMesh::joined_vertices(). The lists have all vertices of a place, but with `nearest`
+    /// only the lowest one.
     std::span<const std::uint32_t> joined{};
     /// Maximum number of neighbours per source, the nearest ones; 0 for all. Vertices that are
     /// joined count once. Ties go to the lower index.
@@ -103,7 +105,7 @@ struct VertexPoints {
 
 /// Returns each vertex as a point of one of its faces, in the order of their indices. Leaves out
 /// vertices without a face of three different vertices. `joined` is WeldedMesh::vertices: vertices
-/// that are joined have the same point. Empty if none are.
+/// that are joined have the same point. Empty for PreparedMesh::joined_vertices().
 GEODISK_API Result<VertexPoints> vertex_points(const PreparedMesh& mesh,
                                                std::span<const std::uint32_t> joined = {}) noexcept;
 

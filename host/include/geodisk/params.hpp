@@ -1,4 +1,5 @@
 // SampleParams: the parameters of a sampling job on a surface, and figures that follow from them.
+// Stable.
 #pragma once
 
 #include <cstdint>

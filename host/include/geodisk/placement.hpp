@@ -1,4 +1,5 @@
 // Placement: writes the samples of a job into the caller's buffers to draw from, without the host.
+// Experimental.
 #pragma once
 
 #include <cstdint>

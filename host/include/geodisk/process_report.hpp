@@ -1,4 +1,5 @@
 // ProcessReport: the share of one process in sampling a surface together with others.
+// Experimental.
 #pragma once
 
 #include <cstdint>

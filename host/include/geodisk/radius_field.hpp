@@ -1,4 +1,5 @@
 // RadiusField: radii that vary over a surface (paper section 5.8).
+// Stable.
 #pragma once
 
 #include <cstddef>
@@ -16,7 +17,8 @@ struct VertexRadii;
 
 /// Factor g of the radius at a point: r(p) = g(p) * r_max, with r_max half of
 /// `SampleParams::min_distance`. Two samples p and q are at least r(p) + r(q) apart. g is linear in
-/// each triangle, or made from a density that is.
+/// each triangle, or made from a density that is. Vertices that the mesh joined have the mean of
+/// their values.
 ///
 /// Immutable and independent of the sampling distance: one object may serve many runs and threads.
 class RadiusField {

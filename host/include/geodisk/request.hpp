@@ -1,4 +1,5 @@
 // SampleRequest: all that a set of samples on a surface depends on, and the runs that make the set.
+// Stable.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,6 @@
 // Runner: samples a domain on a lent device and queue, from upload to result. It allocates, submits
 // and waits; for full control over those, use Sampler.
+// Stable.
 #pragma once
 
 #include <array>

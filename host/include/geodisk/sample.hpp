@@ -1,4 +1,5 @@
 // Sample and KeepOut: points of a surface, and disks around them.
+// Stable.
 #pragma once
 
 #include <cstdint>

@@ -15,6 +15,7 @@
 //   7. record_finish        writes a gpu::SampleRec per accepted candidate, in dart order, at any
 //                           time and in parts as in 5. The first ControlRec::ready of them are
 //                           final
+// Experimental.
 #pragma once
 
 #include <array>

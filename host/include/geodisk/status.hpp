@@ -1,6 +1,7 @@
 // Status, Error and Result<T>: how every geodisk call reports failure. No geodisk function throws,
 // prints, aborts or reads the environment. The one exception is misuse of a Result, see
 // Result::value().
+// Stable.
 #pragma once
 
 #include <cstdint>

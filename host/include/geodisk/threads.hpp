@@ -1,4 +1,5 @@
 // ThreadOptions: the threads that a call may use on the host.
+// Stable.
 #pragma once
 
 #include <cstddef>

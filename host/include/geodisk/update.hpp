@@ -1,4 +1,5 @@
 // Updater: samples of a surface that follow its edits.
+// Experimental.
 #pragma once
 
 #include <cstdint>
@@ -77,7 +78,9 @@ class GEODISK_API Updater {
     /// Brings the samples up to date with an edited surface. `changed` lists all faces with
     /// any change: corner positions, vertices, radii, key or mask. Other faces must be as before
     /// and are not read. Faces keep their numbers: to remove one, let it name a vertex twice.
-    /// Number new faces after the last, and list them as changed.
+    /// Number new faces after the last, and list them as changed. Joining seams reads all faces and
+    /// takes time linear in the mesh; to avoid that, join them before, and set MeshView::keep_seams
+    /// in all views.
     /// Existing samples and points to avoid are compared with those before.
     ///
     /// Errors: `invalid_argument` for another seed, distance or pool ratio, parameters that cannot

@@ -1,4 +1,5 @@
 // Joins vertices at the same place, for example in files that store three vertices per triangle.
+// Stable.
 #pragma once
 
 #include <cstdint>
@@ -34,8 +35,7 @@ struct WeldedMesh {
 GEODISK_API Result<WeldedMesh> weld(const MeshView& mesh, double epsilon = 0) noexcept;
 
 /// Joins the ends of border edges that lie exactly on other border edges, for example along seams
-/// of texture coordinates and normals. `PreparedMesh::prepare` connects only faces that share
-/// vertices, so call this first for a mesh with seams.
+/// of texture coordinates and normals. `PreparedMesh::prepare` does this itself.
 ///
 /// A border edge belongs to a single face; copies of a face count as one. Edges coincide if both
 /// ends have the same coordinates; -0 equals 0. All edges that coincide, also three or more, become

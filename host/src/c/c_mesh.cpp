@@ -89,7 +89,7 @@ Result<Mesh> make_by_positions(const geodisk_mesh_params& params, const IndexVie
     const std::uint32_t dimension = params.dimension != 0 ? params.dimension : 3;
     const auto positions = positions_of(params, dimension);
     GEODISK_TRY(positions);
-    MeshView view{*positions, indices, dimension};
+    MeshView view{*positions, indices, dimension, true};
     std::optional<WeldedMesh> welded;
     if (params.keep_seams == 0) {
         auto result = params.weld != 0 ? weld(view, params.weld_distance) : join_seams(view);

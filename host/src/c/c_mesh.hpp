@@ -24,7 +24,7 @@ struct Mesh {
     std::uint64_t merged_vertices = 0;
     std::uint64_t joined_edges = 0;
 
-    MeshView view() const { return {positions, triangles, dimension}; }
+    MeshView view() const { return {positions, triangles, dimension, true}; }
 };
 
 inline Sample sample_of(const geodisk_surface_point& point) {

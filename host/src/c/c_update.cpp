@@ -1,9 +1,11 @@
+#include <algorithm>
 #include <atomic>
 #include <cstring>
 #include <memory>
 #include <optional>
 #include <span>
 #include <utility>
+#include <vector>
 
 #include <geodisk/job_frame.hpp>
 #include <geodisk/update.hpp>
@@ -55,6 +57,20 @@ Result<Done> check_samples(const geodisk_surface_point* samples, std::size_t cou
         return wrong("samples is NULL");
     }
     return Done{};
+}
+
+/// Adds the faces whose joined vertices differ: where a seam opens or closes, those on its other
+/// side.
+void add_rejoined(const Mesh& before, const Mesh& now, std::vector<std::uint32_t>& changed) {
+    if (&before == &now || (before.joined.empty() && now.joined.empty())) {
+        return;
+    }
+    const std::size_t count = std::min(before.triangles.size(), now.triangles.size());
+    for (std::size_t h = 0; h < count; ++h) {
+        if (before.triangles[h] != now.triangles[h]) {
+            changed.push_back(static_cast<std::uint32_t>(h / 3));
+        }
+    }
 }
 
 geodisk_update_info info_of(const UpdateReport& report) {
@@ -159,10 +175,11 @@ geodisk_status geodisk_update(geodisk_updater* updater, geodisk_sampler* sampler
             }
             const auto of = c::surface_of(mesh, params);
             GEODISK_TRY(of);
+            std::vector<std::uint32_t> faces(changed, changed + changed_count);
+            add_rejoined(*updater->of->parts[0].mesh, *(*of)->parts[0].mesh, faces);
             const auto report = search(state, progress, user, [&](const ProgressCallback& heard) {
                 const SurfaceJob job = job_of(**of);
-                return updater->updater.update(state.runner, job.mesh, job.params,
-                                               {changed, changed_count}, heard);
+                return updater->updater.update(state.runner, job.mesh, job.params, faces, heard);
             });
             GEODISK_TRY(report);
             updater->of = *of;

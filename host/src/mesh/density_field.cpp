@@ -144,10 +144,12 @@ Result<RadiusField> RadiusField::from_density(const PreparedMesh& mesh,
                                               std::span<const double> density) noexcept {
     return guarded([&]() -> Result<RadiusField> {
         GEODISK_TRY(check_density(mesh, density));
-        const DensityUnit unit = unit_of(mesh, density);
+        const auto means = values_on(mesh, density);
+        GEODISK_TRY(means);
+        const DensityUnit unit = unit_of(mesh, *means);
         std::vector<float> scaled(density.size(), 0.0f);
         for (std::size_t v = 0; v < density.size(); ++v) {
-            scaled[v] = is_used(mesh, v) ? unit.scaled(density[v]) : 0.0f;
+            scaled[v] = is_used(mesh, v) ? unit.scaled((*means)[v]) : 0.0f;
         }
         std::vector<float> packing = packing_for(mesh, scaled);
         RadiusField field =

@@ -1,15 +1,18 @@
 #include "geodisk/mesh.hpp"
+#include "geodisk/weld.hpp"
 
 #include <algorithm>
 #include <array>
 #include <atomic>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "mesh/checks.hpp"
 #include "mesh/connect.hpp"
 #include "mesh/face_frames.hpp"
 #include "mesh/seams.hpp"
+#include "support/blocks.hpp"
 #include "support/guard.hpp"
 #include "support/try.hpp"
 
@@ -63,6 +66,33 @@ std::uint64_t seams_of(const LengthMeshView&, std::span<const HalfEdge>,
     return 0; // There are no positions.
 }
 
+/// Returns true if two faces have the same corners.
+bool has_copies(const ThreadOptions& threads, std::span<const HalfEdge> half_edges) {
+    std::atomic<bool> found = false;
+    for_blocks(threads, half_edges.size() / 3, [&](std::size_t begin, std::size_t end) {
+        for (auto h = static_cast<std::uint32_t>(3 * begin); h < 3 * end; h += 3) {
+            const std::uint32_t apex = half_edges[h + 2].origin;
+            for (std::uint32_t g = around_half_edge(half_edges[h].around); g != h;
+                 g = around_half_edge(half_edges[g].around)) {
+                if (half_edges[previous_in_face(g)].origin == apex) {
+                    found = true;
+                    return;
+                }
+            }
+        }
+    });
+    return found;
+}
+
+/// Returns true if join_seams() joins edges of a mesh with these half-edges.
+bool has_seams(const ThreadOptions& threads, const MeshView& mesh,
+               std::span<const HalfEdge> half_edges, const MeshStatistics& statistics) {
+    // A border edge of a face and its copies is no boundary edge.
+    return statistics.coinciding_border_edges > 0 ||
+           (has_copies(threads, half_edges) &&
+            !coinciding_edges(mesh, border_edges(mesh, half_edges)).empty());
+}
+
 std::size_t vertices_of(const MeshView& mesh) {
     return mesh.vertex_count();
 }
@@ -98,7 +128,21 @@ Result<PreparedMesh> PreparedMesh::prepare_any(const View& mesh, const ThreadOpt
 
 Result<PreparedMesh> PreparedMesh::prepare(const MeshView& mesh,
                                            const ThreadOptions& threads) noexcept {
-    return guarded([&] { return prepare_any(mesh, threads); });
+    return guarded([&]() -> Result<PreparedMesh> {
+        auto result = prepare_any(mesh, threads);
+        if (!result || mesh.keep_seams ||
+            !has_seams(threads, mesh, result->half_edges_, result->statistics_)) {
+            return result;
+        }
+        auto welded = join_seams(mesh);
+        GEODISK_TRY(welded);
+        result = prepare_any(MeshView{mesh.positions, welded->triangles, mesh.dimension}, threads);
+        if (result) {
+            result->joined_vertices_ = std::move(welded->vertices);
+            result->joined_edges_ = welded->joined_edges;
+        }
+        return result;
+    });
 }
 
 Result<PreparedMesh> PreparedMesh::prepare(const LengthMeshView& mesh,

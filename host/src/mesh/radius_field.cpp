@@ -46,10 +46,12 @@ Result<RadiusField> RadiusField::prepare(const PreparedMesh& mesh,
                                          std::span<const double> factors) noexcept {
     return guarded([&]() -> Result<RadiusField> {
         GEODISK_TRY(check_factors(mesh, factors));
+        const auto means = values_on(mesh, factors);
+        GEODISK_TRY(means);
         // Ignored faces may name vertices that no other face uses.
         std::vector<float> values(factors.size(), 1.0f);
         for (std::size_t v = 0; v < factors.size(); ++v) {
-            values[v] = is_used(mesh, v) ? static_cast<float>(factors[v]) : 1.0f;
+            values[v] = is_used(mesh, v) ? static_cast<float>((*means)[v]) : 1.0f;
         }
         return on_mesh(mesh, VertexRadii::of_factors(std::move(values)));
     });

@@ -29,7 +29,8 @@ std::vector<Link> linked_edges(const MeshView& mesh) {
 }
 
 /// Returns true for the lowest half-edge of an edge whose faces all have the same corners.
-bool starts_edge_of_one_apex(std::span<const Link> links, std::uint32_t h) {
+template <class Edge>
+bool starts_edge_of_one_apex(std::span<const Edge> links, std::uint32_t h) {
     const std::uint32_t apex = links[previous_in_face(h)].origin;
     for (std::uint32_t g = around_half_edge(links[h].around); g != h;
          g = around_half_edge(links[g].around)) {
@@ -40,10 +41,8 @@ bool starts_edge_of_one_apex(std::span<const Link> links, std::uint32_t h) {
     return true;
 }
 
-} // namespace
-
-std::vector<EdgeEnds> border_edges(const MeshView& mesh) {
-    const std::vector<Link> links = linked_edges(mesh);
+template <class Edge>
+std::vector<EdgeEnds> borders_of(const MeshView& mesh, std::span<const Edge> links) {
     std::vector<EdgeEnds> borders;
     for (std::uint32_t h = 0; h < links.size(); ++h) {
         if (starts_edge_of_one_apex(links, h) && takes_part(mesh.triangles.face(h / 3))) {
@@ -51,6 +50,17 @@ std::vector<EdgeEnds> border_edges(const MeshView& mesh) {
         }
     }
     return borders;
+}
+
+} // namespace
+
+std::vector<EdgeEnds> border_edges(const MeshView& mesh) {
+    const std::vector<Link> links = linked_edges(mesh);
+    return borders_of(mesh, std::span(links));
+}
+
+std::vector<EdgeEnds> border_edges(const MeshView& mesh, std::span<const HalfEdge> half_edges) {
+    return borders_of(mesh, half_edges);
 }
 
 std::vector<CoincidingEdge> coinciding_edges(const MeshView& mesh,

@@ -59,7 +59,8 @@ struct Mesh {
         const std::size_t first = std::size_t{3} * index;
         return {positions[first], positions[first + 1], positions[first + 2]};
     }
-    geodisk::MeshView view() const { return {positions, triangles}; }
+    /// Keeps seams: to look for them takes time linear in the mesh, for each edit.
+    geodisk::MeshView view() const { return {positions, triangles, 3, true}; }
 };
 
 Mesh read_obj(const char* path) {

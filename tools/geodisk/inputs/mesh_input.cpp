@@ -101,7 +101,8 @@ std::optional<SplitSurface> split_surface(const std::string& path, const MeshFil
     const std::vector<double> positions =
         faces->parts().extended(surface.values, surface.dimension);
     PreparedMesh prepared = take(
-        PreparedMesh::prepare({positions, faces->parts().triangles(), surface.dimension}), path);
+        PreparedMesh::prepare({positions, faces->parts().triangles(), surface.dimension, true}),
+        path);
     return SplitSurface{std::move(*faces), std::move(prepared)};
 }
 
@@ -200,7 +201,8 @@ MeshInput load_silently(const MeshOptions& options, ProgressLine& progress,
                                             : Positions{lifted.positions, lifted.dimension};
     PreparedMesh prepared =
         file.lengths.empty()
-            ? take(PreparedMesh::prepare({surface.values, file.triangles, surface.dimension}), path)
+            ? take(PreparedMesh::prepare({surface.values, file.triangles, surface.dimension, true}),
+                   path)
             : prepare_lengths(path, file);
     std::vector<MeshWarning> density_warnings;
     std::optional<SplitSurface> split =

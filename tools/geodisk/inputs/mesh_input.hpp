@@ -72,8 +72,8 @@ struct MeshInput {
     /// Returns the view of sampled() for distances through space.
     MeshView sampled_view() const {
         return split ? MeshView{split->faces.parts().positions(), split->faces.parts().triangles(),
-                                file.dimension}
-                     : MeshView{file.positions, file.triangles, file.dimension};
+                                file.dimension, true}
+                     : MeshView{file.positions, file.triangles, file.dimension, true};
     }
     /// Coordinates of a sample: those of the file, 0 for a mesh of edge lengths without any.
     std::uint32_t dimension() const { return file.positions.empty() ? 0 : file.dimension; }

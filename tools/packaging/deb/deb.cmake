@@ -26,7 +26,6 @@ endif()
 set(CPACK_PACKAGE_CONTACT "${name} <${address}>")
 
 set(version "${PROJECT_VERSION}-${CPACK_DEBIAN_PACKAGE_RELEASE}")
-set(soversion "${PROJECT_VERSION_MAJOR}")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "") # Each package has its own, the first line of these.
 set(about "geodisk scatters random points over a triangle mesh so that no two are closer
 than a minimum distance, measured exactly along the surface. It runs in Vulkan
@@ -43,7 +42,7 @@ ${about}
 This package has the program, which also verifies, measures and draws samples,
 and the documentation.")
 
-set(CPACK_DEBIAN_LIBRARY_PACKAGE_NAME "libgeodisk${soversion}")
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_NAME "libgeodisk${geodisk_SOVERSION}")
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_SECTION libs)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_RECOMMENDS "${vulkan}")
 set(CPACK_DEBIAN_LIBRARY_DESCRIPTION "Poisson-disk samples of triangle meshes, C library
@@ -52,7 +51,7 @@ This package has the library for programs in C and languages that call C.")
 
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libgeodisk-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
-set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libgeodisk${soversion} (= ${version}), libvulkan-dev")
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libgeodisk${geodisk_SOVERSION} (= ${version}), libvulkan-dev")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SUGGESTS geodisk)
 set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION "Poisson-disk samples of triangle meshes, development files
 ${about}
@@ -102,7 +101,7 @@ set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA
     "${CMAKE_CURRENT_LIST_DIR}/postinst" "${CMAKE_CURRENT_LIST_DIR}/prerm")
 
 # Who links the library depends on its package, and the linker's cache is to know it.
-file(WRITE "${written}/shlibs" "libgeodisk ${soversion} libgeodisk${soversion} (>= ${PROJECT_VERSION})\n")
+file(WRITE "${written}/shlibs" "libgeodisk ${geodisk_SOVERSION} libgeodisk${geodisk_SOVERSION} (>= ${PROJECT_VERSION})\n")
 file(WRITE "${written}/triggers" "activate-noawait ldconfig\n")
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_CONTROL_EXTRA "${written}/shlibs" "${written}/triggers")
 
@@ -116,7 +115,7 @@ file(WRITE "${written}/changelog.Debian" "geodisk (${version}) unstable; urgency
 set(overrides_of_program
     "# README.md links to it.\ngeodisk: wrong-name-for-upstream-changelog *\n")
 set(overrides_of_library
-    "# CPack adds the calls.\nlibgeodisk${soversion}: maintscript-calls-ldconfig *\n")
+    "# CPack adds the calls.\nlibgeodisk${geodisk_SOVERSION}: maintscript-calls-ldconfig *\n")
 foreach(component IN LISTS CPACK_COMPONENTS_ALL)
     string(TOUPPER "${component}" key)
     set(package "${CPACK_DEBIAN_${key}_PACKAGE_NAME}")

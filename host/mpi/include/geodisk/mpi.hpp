@@ -1,4 +1,5 @@
 // Sampling one surface by many processes, by MPI.
+// Experimental.
 #pragma once
 
 #include <vector>

@@ -45,18 +45,22 @@ Vector face_normal(const MeshView& view, std::size_t face) {
     return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
 }
 
-/// Returns unit normals, weighted by the areas of the faces; zero where those cancel out.
-std::vector<std::array<float, 3>> vertex_normals(const MeshView& view) {
+/// Returns unit normals, weighted by the areas of the faces; zero where those cancel out. Vertices
+/// that the mesh joined have the same one.
+std::vector<std::array<float, 3>> vertex_normals(const MeshView& view, const PreparedMesh& mesh) {
+    const auto joined = mesh.joined_vertices();
+    const auto place_of = [&](std::size_t v) { return joined.empty() ? v : joined[v]; };
     std::vector<Vector> sums(view.vertex_count(), Vector{});
     for (std::size_t corner = 0; corner < view.triangles.size(); ++corner) {
         const Vector normal = face_normal(view, corner / 3);
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            sums[view.triangles[corner]][axis] += normal[axis];
+            sums[place_of(view.triangles[corner])][axis] += normal[axis];
         }
     }
     std::vector<std::array<float, 3>> normals;
     normals.reserve(sums.size());
-    for (const Vector& n : sums) {
+    for (std::size_t v = 0; v < sums.size(); ++v) {
+        const Vector& n = sums[place_of(v)];
         const double length = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
         std::array<float, 3> unit{};
         for (std::size_t axis = 0; axis < 3 && length > 0; ++axis) {
@@ -83,8 +87,8 @@ Result<Done> check_view(const MeshView& view, const PreparedMesh& mesh) {
 
 } // namespace
 
-SpaceFrame::SpaceFrame(const MeshView& view, const SampleParams& params)
-    : normals(vertex_normals(view)) {
+SpaceFrame::SpaceFrame(const MeshView& view, const PreparedMesh& mesh, const SampleParams& params)
+    : normals(vertex_normals(view, mesh)) {
     box.min_distance = params.min_distance;
     box.seed = params.seed;
     box.extents.assign(3, 0);
@@ -124,7 +128,7 @@ Result<Domain> Domain::surface_in_space(const MeshView& view, const PreparedMesh
         fields.add(RequestField::metric);
         GEODISK_TRY(check_fields(fields));
         GEODISK_TRY(check_view(view, mesh));
-        SpaceFrame frame(view, params);
+        SpaceFrame frame(view, mesh, params);
         if (!(frame.guard() <= kWidestGuard)) {
             return Error{Status::invalid_argument,
                          "the minimum distance is too small beside the bounding box of the mesh"};

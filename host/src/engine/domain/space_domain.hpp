@@ -18,7 +18,7 @@ struct SpaceFrame {
     std::vector<std::array<std::uint32_t, 3>> vertices;
     std::vector<std::array<float, 3>> normals; ///< Normals of the vertices.
 
-    SpaceFrame(const MeshView& view, const SampleParams& params);
+    SpaceFrame(const MeshView& view, const PreparedMesh& mesh, const SampleParams& params);
     /// Returns the guard of conflicts, in minimum distances. It covers the rounding of candidates
     /// to the frame.
     double guard() const;

@@ -36,7 +36,8 @@ Result<Neighbours> find_neighbours(Runner& runner, const PreparedMesh& mesh,
     return guarded([&]() -> Result<Neighbours> {
         GEODISK_TRY(check_query(mesh, query));
         Runner::Impl& impl = Runner::Impl::of(runner);
-        return impl.complete(search(impl, mesh, query), count_of(query), progress);
+        return impl.complete(search(impl, mesh, with_joined(mesh, query)), count_of(query),
+                             progress);
     });
 }
 
@@ -47,7 +48,7 @@ Result<Done> start_neighbours(Runner& runner, const PreparedMesh& mesh, const Ne
             return checked;
         }
         Runner::Impl& impl = Runner::Impl::of(runner);
-        return impl.begin(search(impl, mesh, query), count_of(query), progress);
+        return impl.begin(search(impl, mesh, with_joined(mesh, query)), count_of(query), progress);
     });
 }
 
@@ -57,8 +58,9 @@ Result<std::optional<Neighbours>> poll_neighbours(Runner& runner,
 }
 
 Result<VertexPoints> vertex_points(const PreparedMesh& mesh,
-                                   std::span<const std::uint32_t> joined) noexcept {
+                                   std::span<const std::uint32_t> given) noexcept {
     return guarded([&]() -> Result<VertexPoints> {
+        const auto joined = given.empty() ? mesh.joined_vertices() : given;
         GEODISK_TRY(check_joined(mesh, joined));
         VertexPoints found;
         for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) {

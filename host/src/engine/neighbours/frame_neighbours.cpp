@@ -506,7 +506,8 @@ Result<FrameNeighbours> FrameNeighbours::create(std::shared_ptr<const Sampler> s
         GEODISK_TRY(checked);
         auto jobs = SearchJobs::create(mesh, query);
         GEODISK_TRY(jobs);
-        auto impl = std::make_unique<Impl>(std::move(sampler), query, options, std::move(*jobs));
+        auto impl = std::make_unique<Impl>(std::move(sampler), with_joined(mesh, query), options,
+                                           std::move(*jobs));
         const auto all = impl->jobs.job(0, query.sources.size(), 0);
         GEODISK_TRY(all);
         auto made = impl->take_inputs(*all, mesh);

@@ -8,6 +8,14 @@
 
 namespace geodisk {
 
+/// Returns the query with the vertices that the mesh joined, if it names none itself.
+inline NeighbourQuery with_joined(const PreparedMesh& mesh, NeighbourQuery query) {
+    if (query.joined.empty()) {
+        query.joined = mesh.joined_vertices();
+    }
+    return query;
+}
+
 /// Returns true if all vertices of a place are neighbours. The nearest ones are places, each by its
 /// lowest vertex.
 bool lists_joined(const NeighbourQuery& query);

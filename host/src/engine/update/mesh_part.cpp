@@ -44,7 +44,7 @@ Shape shape_of(const MeshView& mesh, std::span<const std::uint32_t> faces) {
 Result<PreparedMesh> prepare_shape(const MeshView& mesh, std::span<const std::uint32_t> faces,
                                    const ThreadOptions& threads) {
     const Shape shape = shape_of(mesh, faces);
-    return PreparedMesh::prepare({shape.positions, shape.triangles, mesh.dimension}, threads);
+    return PreparedMesh::prepare({shape.positions, shape.triangles, mesh.dimension, true}, threads);
 }
 
 } // namespace

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include <geodisk/domain.hpp>
+#include <geodisk/weld.hpp>
 
 #include "engine/domain/check_frame.hpp"
 #include "engine/domain/existing.hpp"
@@ -37,6 +38,24 @@ std::vector<Place> difference_of(std::vector<Place> a, std::vector<Place> b, con
     std::ranges::set_symmetric_difference(a, b, std::back_inserter(difference), {}, order, order);
     return difference;
 }
+
+/// A view whose seams are joined, unless it keeps them.
+struct JoinedView {
+    std::vector<std::uint32_t> triangles;
+    MeshView view;
+
+    static Result<JoinedView> of(const MeshView& mesh) {
+        JoinedView joined{{}, mesh};
+        if (mesh.keep_seams) {
+            return joined;
+        }
+        auto welded = join_seams(mesh);
+        GEODISK_TRY(welded);
+        joined.triangles = std::move(welded->triangles);
+        joined.view = {mesh.positions, joined.triangles, mesh.dimension, true};
+        return joined;
+    }
+};
 
 } // namespace
 
@@ -202,10 +221,13 @@ Updater::Updater(Updater&&) noexcept = default;
 Updater& Updater::operator=(Updater&&) noexcept = default;
 Updater::~Updater() = default;
 
-Result<Updater> Updater::create(const MeshView& mesh, const SampleParams& params,
+Result<Updater> Updater::create(const MeshView& given, const SampleParams& params,
                                 const JobFrame& frame, std::span<const Sample> samples,
                                 const ThreadOptions& threads) noexcept {
     return guarded([&]() -> Result<Updater> {
+        const auto joined = JoinedView::of(given);
+        GEODISK_TRY(joined);
+        const MeshView& mesh = joined->view;
         GEODISK_TRY(check_start({mesh, params}, frame, samples, threads));
         std::vector<NumberedSample> found;
         for (std::size_t i = params.existing.size(); i < samples.size(); ++i) {
@@ -223,10 +245,16 @@ Result<Updater> Updater::create(const MeshView& mesh, const SampleParams& params
     });
 }
 
-Result<Updater> Updater::create(const SurfaceJob& before, const SurfaceJob& after,
+Result<Updater> Updater::create(const SurfaceJob& given_before, const SurfaceJob& given_after,
                                 const JobFrame& frame, std::span<const Sample> samples,
                                 const ThreadOptions& threads) noexcept {
     return guarded([&]() -> Result<Updater> {
+        const auto joined_before = JoinedView::of(given_before.mesh);
+        GEODISK_TRY(joined_before);
+        const auto joined_after = JoinedView::of(given_after.mesh);
+        GEODISK_TRY(joined_after);
+        const SurfaceJob before{joined_before->view, given_before.params};
+        const SurfaceJob after{joined_after->view, given_after.params};
         GEODISK_TRY(check_start(before, frame, samples, threads));
         GEODISK_TRY(check_edit(before, after, frame));
         FaceMatch match = match_faces(before, after);
@@ -267,16 +295,27 @@ Result<Updater> Updater::create(const SurfaceJob& before, const SurfaceJob& afte
     });
 }
 
-Result<UpdateReport> Updater::update(Runner& runner, const MeshView& mesh,
+Result<UpdateReport> Updater::update(Runner& runner, const MeshView& given,
                                      const SampleParams& params,
                                      std::span<const std::uint32_t> changed,
                                      const ProgressCallback& progress) noexcept {
     return guarded([&]() -> Result<UpdateReport> {
+        const auto joined = JoinedView::of(given);
+        GEODISK_TRY(joined);
+        const MeshView& mesh = joined->view;
         Impl& own = *impl_;
         std::vector<std::uint32_t> edited = own.undecided;
         edited.insert(edited.end(), changed.begin(), changed.end());
         for (std::size_t face = own.faces.face_count(); face < mesh.face_count(); ++face) {
             edited.push_back(static_cast<std::uint32_t>(face));
+        }
+        // Where a seam opens or closes, faces on its other side have changed as well.
+        const auto faces = static_cast<std::uint32_t>(mesh.face_count());
+        for (std::uint32_t face = 0; !given.keep_seams && face < faces; ++face) {
+            if (face < own.faces.face_count() &&
+                own.faces.corners(face) != mesh.triangles.face(face)) {
+                edited.push_back(face);
+            }
         }
         GEODISK_TRY(own.check_same_job(mesh, params, edited));
         own.undecided = std::move(edited);
