@@ -171,10 +171,10 @@ TEST_CASE("a mask of colours goes by values from 0 to 1, and one that leaves out
                full + " 0\n1 0 0 0 " + full + " 0\n1 1 0 0 " + full +
                " 0\n0 1 0 0 0 0\n3 0 1 2\n3 0 2 3\n";
     };
-    for (const auto& [type, full] :
+    for (const auto& colour :
          {std::pair{"uchar", "255"}, {"ushort", "65535"}, {"float", "255"}, {"float", "1"}}) {
-        CAPTURE(type);
-        folder.write("c.ply", colours_of(type, full));
+        CAPTURE(colour.first);
+        folder.write("c.ply", colours_of(colour.first, colour.second));
         check_faces(folder, "c.ply", {"--mask", "green>0.4"}, {0});
         check_faces(folder, "c.ply", {"--radius-factor", "green", "--radius-factor-floor", "0.5"},
                     {0, 1});

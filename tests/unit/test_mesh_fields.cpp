@@ -266,17 +266,17 @@ TEST_CASE("colours have one unit, whatever the types of PLY") {
             .values;
     };
     const Values half{1, 0.2, 0, 0.4};
-    for (const auto& [type, colours] : {std::pair{"uchar", "255 51 0 102"},
-                                        {"int", "255 51 0 102"},
-                                        {"ushort", "65535 13107 0 26214"},
-                                        {"double", "255 51 0 102"},
-                                        {"double", "1 0.2 0 0.4"}}) {
-        CAPTURE(type);
+    for (const auto& colour : {std::pair{"uchar", "255 51 0 102"},
+                               {"int", "255 51 0 102"},
+                               {"ushort", "65535 13107 0 26214"},
+                               {"double", "255 51 0 102"},
+                               {"double", "1 0.2 0 0.4"}}) {
+        CAPTURE(colour.first);
         Values expected;
         for (int i = 0; i < 3; ++i) {
             expected.insert(expected.end(), half.begin(), half.end());
         }
-        CHECK(values_of(type, colours) == expected);
+        CHECK(values_of(colour.first, colour.second) == expected);
     }
 }
 

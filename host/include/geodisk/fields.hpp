@@ -1,4 +1,5 @@
 // for_each_field: the fields of a job by name, for whoever writes, reads, sends or compares them.
+// Experimental.
 #pragma once
 
 #include <type_traits>

@@ -544,7 +544,7 @@ typedef struct geodisk_rule {
 } geodisk_rule;
 
 /* Returns the rule with this number, from 0 on. Fails with GEODISK_INVALID_ARGUMENT after the last
- * one. Its texts stay as long as the library. */
+ * one. Its texts stay as long as the library. Stable. */
 GEODISK_C_API geodisk_status geodisk_request_rule(size_t number, geodisk_rule *rule,
                                                   geodisk_error *error);
 

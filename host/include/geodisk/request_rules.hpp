@@ -1,4 +1,5 @@
 // RequestRule: which fields of a request exclude each other, for all front ends.
+// Stable.
 #pragma once
 
 #include <cstdint>
