@@ -207,6 +207,65 @@ TEST_SUITE("request") {
         CHECK(found.set.existing == 0);
     }
 
+    TEST_CASE("each level has features first, then faces") {
+        const TestMesh shape = builtin("cube", 4);
+        const PreparedMesh mesh = prepared(shape);
+        const MeshView view = shape.view();
+        const std::array<Sample, 2> existing{
+            {{3, {0.25f, 0.25f, 0.5f}}, {9, {0.5f, 0.25f, 0.25f}}}};
+        Runner runner = request_runner();
+        SampleRequest request;
+        request.count = 400;
+        request.is_exact = true;
+        request.features = 30;
+        request.order = SampleOrder::progressive;
+        request.params.existing = existing;
+        request.view = &view;
+        const RequestedSet found = expect(sample(runner, mesh, request));
+        REQUIRE(found.set.samples.size() == 400);
+        CHECK(found.set.existing == 2);
+
+        const Features features = expect(Features::find(view, mesh, 30));
+        SampleParams last = request.params;
+        last.min_distance = found.min_distance;
+        const Levels levels = levels_for(mesh, last);
+        REQUIRE(levels.count > 2);
+        REQUIRE(found.ends.size() == levels.count);
+        std::vector<Sample> before(existing.begin(), existing.end());
+        std::vector<FeatureKind> kinds(2, FeatureKind::face);
+        for (std::uint32_t level = 0; level < levels.count; ++level) {
+            SampleParams params = expect(params_of_level(last, levels, level, before));
+            const SampleSet first =
+                expect(runner.sample_and_wait(expect(feature_domain(mesh, params, features))));
+            for (std::size_t i = kinds.size(); i < first.samples.size(); ++i) {
+                kinds.push_back(feature_of(first.samples[i]));
+                CHECK(kinds.back() != FeatureKind::face);
+            }
+            params.existing = first.samples;
+            before = expect(runner.sample_and_wait(mesh, params)).samples;
+            kinds.resize(before.size(), FeatureKind::face);
+            CHECK(found.ends[level] == std::min<std::size_t>(before.size(), 400));
+        }
+        SampleSet by_hand;
+        by_hand.samples = before;
+        by_hand.samples.resize(400);
+        kinds.resize(400);
+        CHECK(points_of(found.set) == points_of(by_hand));
+        CHECK(found.features == kinds);
+        CHECK(std::ranges::count(kinds, FeatureKind::corner) == 8);
+
+        request.count = 0;
+        request.is_exact = false;
+        request.params.min_distance = found.min_distance;
+        for (const std::size_t stop : {found.ends[0] + 3, found.ends[1] + 1, std::size_t{380}}) {
+            request.params.stop_count = static_cast<std::uint32_t>(stop);
+            const RequestedSet stopped = expect(sample(runner, mesh, request));
+            by_hand.samples.assign(before.begin(),
+                                   before.begin() + static_cast<std::ptrdiff_t>(stop));
+            CHECK(points_of(stopped.set) == points_of(by_hand));
+        }
+    }
+
     TEST_CASE("the farthest order takes along what belongs to the samples") {
         const PreparedMesh mesh = prepared(builtin("icosphere", 3));
         Runner runner = request_runner();

@@ -32,7 +32,6 @@ constexpr RequestRule kRules[] = {
     {Field::features, Field::split_from, "features are those of the mesh before it was split"},
     {Field::progressive, Field::darts, "darts fill no level"},
     {Field::progressive, Field::class_factors, "levels are sampled without classes"},
-    {Field::progressive, Field::features, "each level would have features of its own"},
     {Field::progressive, Field::maximal, "each level has the gaps of its pool"},
     {Field::progressive, Field::metric, "levels keep distances along the surface"},
     {Field::progressive, Field::keep, "the first samples are those of the first levels"},

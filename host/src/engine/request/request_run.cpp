@@ -52,6 +52,11 @@ double expected_of(double room, std::uint32_t stop_count) {
     return stop_count != 0 ? std::min<double>(all, stop_count) : all;
 }
 
+/// Samples of a set from one number up to another.
+struct SampleRange {
+    std::size_t begin, end;
+};
+
 /// Makes the steps of a request on a surface.
 class SurfaceSteps {
   public:
@@ -69,19 +74,23 @@ class SurfaceSteps {
     Result<double> first_distance() const;
     Levels levels_at(double distance) const;
 
-    /// Makes the step of the features at a distance.
-    Result<RequestStep> on_features(double distance) const;
-    /// Makes the step of the faces, or of a level of them, with samples that stand already.
+    /// Makes the step of the features, or of a level of them, with samples that stand already.
+    Result<RequestStep> on_features(double distance, const Levels& levels, std::uint32_t level,
+                                    std::span<const Sample> standing) const;
+    /// Makes the step of the faces, likewise.
     Result<RequestStep> on_faces(double distance, const Levels& levels, std::uint32_t level,
                                  std::span<const Sample> standing) const;
 
     /// Fails if no room is left for samples on faces beside those on features.
     Result<Done> check_stop_count(std::size_t settled) const;
-    /// Adds what is known of the features.
-    void describe(RequestedSet& found, std::size_t settled) const;
+    /// Adds what is known of the features, with the samples on them.
+    void describe(RequestedSet& found, std::span<const SampleRange> on_features) const;
 
   private:
     SampleParams params_at(double distance) const;
+    /// Returns the parameters of a level, or of the whole without levels.
+    Result<SampleParams> params_of(double distance, const Levels& levels, std::uint32_t level,
+                                   std::span<const Sample> standing) const;
     Result<Domain> domain(const SampleParams& params) const;
     std::size_t sampled_corners() const;
 
@@ -165,16 +174,32 @@ SampleParams SurfaceSteps::params_at(double distance) const {
     return params;
 }
 
-Result<RequestStep> SurfaceSteps::on_features(double distance) const {
+Result<SampleParams> SurfaceSteps::params_of(double distance, const Levels& levels,
+                                             std::uint32_t level,
+                                             std::span<const Sample> standing) const {
     SampleParams params = params_at(distance);
-    params.darts = 0;
-    params.stop_count = 0;
-    auto domain = feature_domain(mesh_, params, *features_);
+    if (has_levels()) {
+        auto own = params_of_level(params, levels, level, standing);
+        GEODISK_TRY(own);
+        params = *own;
+    }
+    params.existing = standing;
+    return params;
+}
+
+Result<RequestStep> SurfaceSteps::on_features(double distance, const Levels& levels,
+                                              std::uint32_t level,
+                                              std::span<const Sample> standing) const {
+    auto params = params_of(distance, levels, level, standing);
+    GEODISK_TRY(params);
+    params->darts = 0;
+    params->stop_count = 0;
+    auto domain = feature_domain(mesh_, *params, *features_);
     GEODISK_TRY(domain);
-    const double expected = static_cast<double>(params.existing.size() + corners_) +
-                            kCurveSamples * features_->length() / distance;
-    RequestStep step{std::move(*domain), params};
-    step.expected = expected;
+    RequestStep step{std::move(*domain), *params};
+    step.expected = static_cast<double>(standing.size() + corners_) +
+                    kCurveSamples * features_->length() / params->min_distance;
+    step.level = level;
     step.is_on_features = true;
     return step;
 }
@@ -182,14 +207,9 @@ Result<RequestStep> SurfaceSteps::on_features(double distance) const {
 Result<RequestStep> SurfaceSteps::on_faces(double distance, const Levels& levels,
                                            std::uint32_t level,
                                            std::span<const Sample> standing) const {
-    SampleParams params = params_at(distance);
-    if (has_levels()) {
-        auto own = params_of_level(params, levels, level, standing); // 0: the existing ones.
-        GEODISK_TRY(own);
-        params = *own;
-    } else if (has_features_) {
-        params.existing = standing;
-    }
+    const auto found = params_of(distance, levels, level, standing);
+    GEODISK_TRY(found);
+    const SampleParams& params = *found;
     auto made = domain(params);
     GEODISK_TRY(made);
     RequestStep step{std::move(*made), params, request_.metric ? nullptr : &mesh_};
@@ -227,15 +247,16 @@ Result<Done> SurfaceSteps::check_stop_count(std::size_t settled) const {
     return Done{};
 }
 
-void SurfaceSteps::describe(RequestedSet& found, std::size_t settled) const {
+void SurfaceSteps::describe(RequestedSet& found, std::span<const SampleRange> on_features) const {
     if (!features_) {
         return;
     }
     const std::vector<Sample>& samples = found.set.samples;
     found.features.assign(samples.size(), FeatureKind::face);
-    const std::size_t end = std::min(settled, samples.size());
-    for (std::size_t i = std::min(request_.params.existing.size(), end); i < end; ++i) {
-        found.features[i] = feature_of(samples[i]);
+    for (const auto& [begin, end] : on_features) {
+        for (std::size_t i = begin; i < std::min(end, samples.size()); ++i) {
+            found.features[i] = feature_of(samples[i]);
+        }
     }
     found.corners = corners_;
     found.feature_length = features_->length();
@@ -279,8 +300,12 @@ struct RequestRun::Impl {
 
     /// Makes the first step at the distance that the tries have come to.
     Result<Done> begin_try();
-    /// Makes the first step on faces, with samples that stand already.
-    Result<Done> begin_faces();
+    /// Makes the first step of a level, with samples that stand already.
+    Result<Done> begin_level(std::uint32_t level);
+    /// Makes the step of its faces.
+    Result<Done> begin_faces(std::uint32_t level);
+    /// Takes the samples of a step on features.
+    Result<Done> take_features(SampleSet set);
     Result<Done> use(Result<RequestStep> made);
     /// Takes the samples of the last step of a try.
     Result<Done> end_try(SampleSet set);
@@ -299,14 +324,15 @@ struct RequestRun::Impl {
     std::optional<SurfaceSteps> surface;
     StepAt step_at; ///< Without a surface.
     std::optional<RequestStep> step;
-    std::vector<Sample> standing; ///< Those that the step goes on from, besides the existing ones.
-    Levels levels{0};             ///< Those of the try; count 0 without any.
-    std::optional<SampleSet> before; ///< Report of the levels before.
+    std::vector<Sample> standing;         ///< Those that the step goes on from, existing ones too.
+    std::vector<SampleRange> on_features; ///< Of the try.
+    Levels levels{0};                     ///< Those of the try; count 0 without any.
+    std::optional<SampleSet> before;      ///< Report of the levels before.
     std::vector<std::size_t> ends;
     RunSeconds seconds;
     std::uint32_t starts = 0;
     RequestedSet best;
-    std::size_t settled = 0; ///< Samples of `best` that exist already or are on features.
+    std::vector<SampleRange> best_on_features; ///< Of `best`.
 };
 
 Result<Done> RequestRun::Impl::use(Result<RequestStep> made) {
@@ -319,6 +345,7 @@ Result<Done> RequestRun::Impl::use(Result<RequestStep> made) {
 
 Result<Done> RequestRun::Impl::begin_try() {
     ends.clear();
+    on_features.clear();
     before.reset();
     if (!surface) {
         return use(step_at(*tries.distance()));
@@ -328,11 +355,33 @@ Result<Done> RequestRun::Impl::begin_try() {
     if (surface->has_levels()) {
         levels = surface->levels_at(*tries.distance());
     }
-    return surface->has_features() ? use(surface->on_features(*tries.distance())) : begin_faces();
+    return begin_level(0);
 }
 
-Result<Done> RequestRun::Impl::begin_faces() {
-    return use(surface->on_faces(*tries.distance(), levels, 0, standing));
+Result<Done> RequestRun::Impl::begin_level(std::uint32_t level) {
+    return surface->has_features()
+               ? use(surface->on_features(*tries.distance(), levels, level, standing))
+               : begin_faces(level);
+}
+
+Result<Done> RequestRun::Impl::begin_faces(std::uint32_t level) {
+    return use(surface->on_faces(*tries.distance(), levels, level, standing));
+}
+
+Result<Done> RequestRun::Impl::take_features(SampleSet set) {
+    const std::uint32_t level = step->level;
+    add_seconds(seconds, set.report.seconds);
+    if (level == 0) {
+        if (const auto checked = surface->check_stop_count(set.samples.size()); !checked) {
+            step.reset();
+            return checked.error();
+        }
+    } else if (count == 0 && stop_count != 0) { // Levels before may have nearly as many.
+        cut_to(set, 0, stop_count);
+    }
+    on_features.push_back({standing.size(), set.samples.size()});
+    standing = std::move(set.samples);
+    return begin_faces(level);
 }
 
 Result<Done> RequestRun::Impl::end_try(SampleSet set) {
@@ -346,7 +395,7 @@ Result<Done> RequestRun::Impl::end_try(SampleSet set) {
         return is_best.error();
     }
     if (*is_best) {
-        settled = set.existing;
+        best_on_features = std::move(on_features);
         best = {};
         best.set = std::move(set);
         best.min_distance = distance;
@@ -367,7 +416,7 @@ Result<Done> RequestRun::Impl::end_try(SampleSet set) {
     best.set.report.seconds = seconds;
     best.set.report.starts = starts;
     if (surface) {
-        surface->describe(best, settled);
+        surface->describe(best, best_on_features);
         best.set.existing = std::min(surface->request().params.existing.size(), best.set.existing);
     }
     return Done{};
@@ -446,13 +495,7 @@ Result<Done> RequestRun::take(SampleSet set) noexcept {
             return invalid("the request has no step to take samples of");
         }
         if (run.step->is_on_features) {
-            add_seconds(run.seconds, set.report.seconds);
-            if (const auto checked = run.surface->check_stop_count(set.samples.size()); !checked) {
-                run.step.reset();
-                return checked.error();
-            }
-            run.standing = std::move(set.samples);
-            return run.begin_faces();
+            return run.take_features(std::move(set));
         }
         if (run.before) { // Those before are samples of this set, not existing ones.
             set.existing = run.before->existing;
@@ -465,8 +508,7 @@ Result<Done> RequestRun::take(SampleSet set) noexcept {
             run.standing = std::move(set.samples);
             set.samples.clear();
             run.before = std::move(set);
-            return run.use(
-                run.surface->on_faces(*run.tries.distance(), run.levels, next, run.standing));
+            return run.begin_level(next);
         }
         return run.end_try(std::move(set));
     });
