@@ -206,11 +206,6 @@ def test_progressive_order_fills_level_after_level(tmp_path):
         dict(levels=2),
         dict(order="progressive", levels=0),
         dict(order="progressive", level_factor=1.0),
-        dict(order="progressive", darts=10),
-        dict(order="progressive", metric="euclidean"),
-        dict(order="progressive", classes=2),
-        dict(order="progressive", features=40),
-        dict(order="progressive", maximal=True),
     ]:
         with pytest.raises(ValueError, match="order|levels"):
             geodisk.sample(square, min_distance=0.1, **wrong)

@@ -539,7 +539,8 @@ typedef struct geodisk_request {
 /* Two fields of requests that exclude each other, as geodisk/request_rules.hpp names them. */
 typedef struct geodisk_rule {
     size_t struct_size;
-    const char *field, *other;
+    const char *field;
+    const char *other;
     const char *reason; /* A sentence without a full stop. */
 } geodisk_rule;
 
