@@ -152,8 +152,8 @@ TEST_CASE("wrong arguments are told of") {
     const auto density = owned<geodisk_radii>([&](auto** object, geodisk_error* e) {
         return geodisk_density_create(mesh.get(), factors.data(), GEODISK_FLOAT64, 8, object, e);
     });
-    CHECK(geodisk_radii_least_factor(density.get()) == 0.5);
-    CHECK(geodisk_radii_least_factor(nullptr) == 1);
+    CHECK(geodisk_radii_min_factor(density.get()) == 0.5);
+    CHECK(geodisk_radii_min_factor(nullptr) == 1);
 
     check_wrong("parts is empty", [&](geodisk_error* e) {
         return geodisk_domain_surfaces(nullptr, 0, &made_domain, e);

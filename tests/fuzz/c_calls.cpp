@@ -255,7 +255,7 @@ class Program {
         const geodisk_type type = bytes_.below(4) == 0 ? GEODISK_FLOAT32 : GEODISK_FLOAT64;
         const auto create = bytes_.below(2) == 0 ? geodisk_radii_create : geodisk_density_create;
         create(meshes_.any(bytes_), factors.data(), type, bytes_.below(kVertices + 1), &radii, e);
-        geodisk_radii_least_factor(radii);
+        geodisk_radii_min_factor(radii);
         radii_.add(radii);
     }
 

@@ -307,7 +307,7 @@ GEODISK_C_API geodisk_status geodisk_density_create(const geodisk_mesh *mesh, co
 
 /* Returns the smallest factor; 1 for NULL. No two samples are closer than min_distance times this
  * factor. Stable. */
-GEODISK_C_API double geodisk_radii_least_factor(const geodisk_radii *radii);
+GEODISK_C_API double geodisk_radii_min_factor(const geodisk_radii *radii);
 
 /* Releases the radii. Stable. */
 GEODISK_C_API void geodisk_radii_release(geodisk_radii *radii);

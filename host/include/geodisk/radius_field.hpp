@@ -111,7 +111,7 @@ class RadiusField {
     friend struct RadiusPieces; // Makes radii of surfaces of which no process holds the whole.
 
     static RadiusField on_mesh(const PreparedMesh& mesh, const VertexRadii& radii);
-    void find_least_factor();
+    void find_min_factor();
 
     std::vector<float> factors_;
     std::vector<float> spreads_;

@@ -298,7 +298,7 @@ geodisk_status geodisk_density_create(const geodisk_mesh* mesh, const void* dens
     return create_radii(true, mesh, density, type, count, radii, error);
 }
 
-double geodisk_radii_least_factor(const geodisk_radii* radii) {
+double geodisk_radii_min_factor(const geodisk_radii* radii) {
     return radii == nullptr ? 1 : radii->shared->field.min_factor();
 }
 

@@ -129,7 +129,7 @@ RadiusField RadiusField::on_part(const PreparedMesh& part,
         const HalfEdge& edge = part.half_edges()[std::size_t{3} * f];
         some.effective_area_ += 0.5 * edge.length * edge.apex_y * samples_in(faces[f]);
     }
-    some.find_least_factor();
+    some.find_min_factor();
     return some;
 }
 

@@ -68,7 +68,7 @@ RadiusField RadiusField::on_mesh(const PreparedMesh& mesh, const VertexRadii& ra
     return field;
 }
 
-void RadiusField::find_least_factor() {
+void RadiusField::find_min_factor() {
     min_factor_ = 1;
     for (const float g : factors_) {
         min_factor_ = std::min(min_factor_, g);

@@ -59,7 +59,7 @@ RadiusField RadiusPieces::at_corners(std::size_t corners, const VertexOf& vertex
     fill(field.factors_, radii.factors);
     fill(field.spreads_, radii.spreads);
     fill(field.packing_, radii.packing);
-    field.find_least_factor();
+    field.find_min_factor();
     return field;
 }
 

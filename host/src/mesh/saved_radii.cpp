@@ -131,7 +131,7 @@ Result<RadiusField> RadiusField::load(std::span<const std::byte> bytes) noexcept
             !(field.min_density_ >= 0) || !is_consistent(field)) {
             return invalid("the saved radii are damaged");
         }
-        field.find_least_factor();
+        field.find_min_factor();
         return field;
     });
 }

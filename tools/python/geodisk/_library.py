@@ -178,8 +178,8 @@ _library.geodisk_version.restype = c_char_p
 _library.geodisk_sampling_version.restype = c_uint32
 _library.geodisk_cancel.argtypes = [c_void_p]
 _library.geodisk_cancel.restype = None
-_library.geodisk_radii_least_factor.argtypes = [c_void_p]
-_library.geodisk_radii_least_factor.restype = c_double
+_library.geodisk_radii_min_factor.argtypes = [c_void_p]
+_library.geodisk_radii_min_factor.restype = c_double
 _library.geodisk_samples_count.argtypes = [c_void_p]
 _library.geodisk_samples_count.restype = c_size_t
 _library.geodisk_skip_exit_handlers.argtypes = []
@@ -223,8 +223,8 @@ def cancel(sampler: c_void_p) -> None:
     _library.geodisk_cancel(sampler)
 
 
-def radii_least_factor(radii: c_void_p) -> float:
-    return float(_library.geodisk_radii_least_factor(radii))
+def radii_min_factor(radii: c_void_p) -> float:
+    return float(_library.geodisk_radii_min_factor(radii))
 
 
 def samples_count(samples: c_void_p) -> int:

@@ -66,7 +66,7 @@ def radii_of(
     if name == "density" and len(values) and (values == values[0]).all():
         text = f"the density is {values[0]:g} everywhere, so it leaves out nothing"
         warn([e.GeodiskWarning(text, "constant_density", 1)])
-    part = c.radii_least_factor(handle.value) if name == "density" else 1.0
+    part = c.radii_min_factor(handle.value) if name == "density" else 1.0
     return Radii(handle, part)
 
 
