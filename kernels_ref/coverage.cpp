@@ -113,7 +113,7 @@ CoverageCheck::Measure CoverageCheck::measure(const Light& light, FacePoint<doub
 
 bool CoverageCheck::covers_corners(const Light& light, const Corners& cell,
                                    double min_radius) const {
-    // What a light sees is convex, and so is the distance there.
+    // The part that a light sees is convex, and so is the distance there.
     const double limit = allowed_ * limit_of(light, min_radius);
     return std::ranges::all_of(cell, [&](FacePoint<double> corner) {
         const auto [distance, aside] = measure(light, corner);

@@ -13,8 +13,8 @@
 
 namespace geodisk::ref {
 
-/// What is known of the gaps. A ratio is a distance over the one that covers: that of two samples
-/// at the place, or the radius around a point to avoid.
+/// Findings about the gaps. A ratio is a distance over the one that covers: that of two samples at
+/// the place, or the radius around a point to avoid.
 struct Coverage {
     double largest = 0;      ///< Maximum ratio, of all points tested, to the nearest disk.
     bool is_beyond = false;  ///< There are points beyond all disks, with larger ratios.
@@ -50,7 +50,7 @@ class CoverageCheck {
     using Corners = std::array<FacePoint<double>, 3>;
     struct Measure {
         double distance; ///< From the centroid, whether lit or not.
-        double aside;    ///< How far the centroid is from what is lit.
+        double aside;    ///< Distance of the centroid from what is lit.
     };
     void add(FacePoint<double> center, double radius, bool keeps_out);
     Measure measure(const Light& light, FacePoint<double> point) const;

@@ -18,12 +18,12 @@ namespace {
 constexpr std::uint32_t kMaxSplits = 30;
 constexpr std::uint32_t kEveryCell = 22; ///< Splits from which on each cell has a dart.
 constexpr double kFirstGoal = 1.0 / 16;
-constexpr double kRounding = 4.0 / (1 << 24); ///< Of weights, as a part of the reach of a face.
+constexpr double kRounding = 4.0 / (1 << 24); ///< Rounding of weights, as part of a face's reach.
 constexpr std::uint64_t kSeed = 0x6d6178696d616c00;
 /// Area of an equilateral triangle with the circumradius 1.
 const double kEquilateral = 0.75 * std::sqrt(3.0);
 
-/// How a disk lights a face: from (x, y) in the frame of an edge, through a part of it or from
+/// Light of a disk on a face: from (x, y) in the frame of an edge, through a part of it or from
 /// within.
 struct Light {
     std::uint32_t edge;

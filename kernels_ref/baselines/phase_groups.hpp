@@ -29,8 +29,8 @@ class PhaseGroups {
 
   private:
     std::vector<std::uint32_t> ranks_;  ///< Ranks by group, then cell, ascending in each.
-    std::vector<std::uint32_t> cells_;  ///< Where each cell starts in `ranks_`, and their end.
-    std::vector<std::uint32_t> groups_; ///< Where each group starts in `cells_`, and their end.
+    std::vector<std::uint32_t> cells_;  ///< Start of each cell in `ranks_`, and the end of all.
+    std::vector<std::uint32_t> groups_; ///< Start of each group in `cells_`, and the end of all.
 };
 
 /// In a box (Wei, "Parallel Poisson disk sampling", 2008): level by level, from one cell around the

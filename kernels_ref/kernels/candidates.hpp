@@ -11,7 +11,7 @@
 
 namespace geodisk::ref {
 
-/// How many candidates each face has in a stage of a job on the surface.
+/// Returns how many candidates each face has in a stage of a job on the surface.
 template <class Real>
 std::vector<std::uint32_t> count_candidates(const Surface<Real>& surface,
                                             const SampleParams& params, std::uint32_t stage);

@@ -102,7 +102,7 @@ class Detector : public Windows<Real, kMayVary> {
     using Event = ref::Event<Real>;
     struct VertexNote {
         Real distance;
-        Real crossing;         ///< Where the best ray crossed `through`.
+        Real crossing;         ///< Point where the best ray crossed `through`.
         std::uint32_t through; ///< Half-edge the best ray entered the face through.
         std::uint32_t generation;
     };

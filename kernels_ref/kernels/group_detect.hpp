@@ -419,7 +419,7 @@ class GroupDetector : public Windows<Real, kMayVary> {
     std::uint32_t lit_again_ = 0;     ///< Events of vertices that had one, since the step changed.
     std::uint32_t longest_chain_ = 0; ///< When the wave began.
     Real step_ = 0;                   ///< By how much a wave goes beyond the nearest.
-    Real nearest_ = 0;                ///< Of the windows and events of the next wave.
+    Real nearest_ = 0;                ///< Nearest of the windows and events of the next wave.
     std::vector<Item> items_, next_items_;
     std::vector<Event> events_, next_events_;
     std::vector<const Item*> taken_; ///< Windows of this wave.

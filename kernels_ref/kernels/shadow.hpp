@@ -14,7 +14,7 @@
 
 namespace geodisk::ref {
 
-// How a path came to a vertex through a corner is one word, its arrival: above kBlurBits the angle
+// The arrival of a path at a vertex through a corner is one word. Above kBlurBits it has the angle
 // between the corner's half-edge and the path, in units of 2^-11 radian, or kArrivedAlongPrevious;
 // 0 is along the half-edge. Its error is at most 2^-10 radian, times 8 for each step of the blur;
 // for kMaxBlur it is not bounded.
@@ -94,7 +94,7 @@ inline Entry entry_of(const VertexFan& fan, std::uint32_t angles, std::uint32_t 
                                              : static_cast<std::int32_t>(fan.total_angle)};
 }
 
-/// What of a corner is in the shadow, as angles from its half-edge; none if low > high.
+/// Part of a corner that is in the shadow, as angles from its half-edge; none if low > high.
 struct Shadow {
     std::int32_t low, high;
 };

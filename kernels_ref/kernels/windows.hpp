@@ -53,9 +53,9 @@ inline Tolerances double_tolerances() {
     return tolerances;
 }
 
-/// What all ways to compute a geodesic disk share: how windows cross faces, and which points they
-/// light. With kMayVary false it is faster, and only for surfaces whose radii do not vary
-/// and without classes.
+/// Base of all ways to compute a geodesic disk: how windows cross faces, and which points they
+/// light. With kMayVary false it is faster, and only for surfaces whose radii do not vary and
+/// without classes.
 template <class Real, bool kMayVary>
 class Windows {
   public:
@@ -407,7 +407,7 @@ class Windows {
     Real beyond_guard_ = 0; ///< By how much its error exceeds the guard.
     Real own_radius_ = 0;   ///< Radius of the source, if radii vary.
     std::uint32_t own_class_ = 0;
-    std::span<const std::uint32_t> words_; ///< Of the points, if they have classes.
+    std::span<const std::uint32_t> words_; ///< Random words of the points, if they have classes.
     DiskCount count_;
 };
 

@@ -67,8 +67,8 @@ double deepest_tree(const PreparedMesh& mesh) {
     return deepest;
 }
 
-/// What the samples of a job fill: the part of the area that the mask leaves, counted as often as
-/// radii that vary are smaller there.
+/// Returns the area that the samples of a job fill: the part that the mask leaves, counted as often
+/// as radii that vary are smaller there.
 double area_for_samples(const PreparedMesh& mesh, const SampleParams& params) {
     double area = 0;
     for (std::uint32_t face = 0; face < mesh.face_count(); ++face) {

@@ -1,5 +1,5 @@
-// What is global about a job on a surface, derived from the documents and not by the library's
-// formulas: a wrong one in either shows where the two are compared.
+// Global properties of a job on a surface. They are derived from the documents and not by the
+// library's formulas: a wrong one in either shows where the two are compared.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@ struct Tolerances {
     float slack;        ///< Intervals are widened by this for hits and apexes.
     double guard;       ///< Promised spacing is kept by this much more.
     double error_bound; ///< Bound on the error of a distance.
-    /// What an error that exceeds the bound is computed from.
+    /// Terms that an error that exceeds the bound is computed from.
     float base_error;
     float crossing_error;
 };

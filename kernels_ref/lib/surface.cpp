@@ -10,7 +10,7 @@ namespace geodisk::ref {
 
 namespace {
 
-/// Whether the candidates of a job have 24 others or fewer in their face, in the mean.
+/// Returns true if the candidates of a job have 24 others or fewer in their face, in the mean.
 bool has_small_faces(const PreparedMesh& mesh, const SampleParams& params, const Frame& frame) {
     constexpr double kFew = 24;
     const auto weight_of = [&](std::uint32_t face) {

@@ -31,7 +31,7 @@ struct FaceRadii {
     float spread[3];
 
     bool has_packing() const { return corner[0] < 0; }
-    /// What is linear between the corners, as a radius.
+    /// Returns the radius for a value that is linear between the corners.
     static Real radius_of(Real value) {
         return value < 0 ? ratio(static_cast<Real>(0.5), root(-value)) : value;
     }
@@ -45,7 +45,7 @@ struct Classes {
     Real distance[8][8]{};    ///< In units of the frame.
     Real reach[8]{};          ///< Largest distance of each class.
     std::uint64_t ends[8]{};  ///< Random words below it are of a class up to this.
-    std::uint64_t turns[8]{}; ///< What priorities are multiplied by, in units of 2^-31.
+    std::uint64_t turns[8]{}; ///< Factors of priorities, in units of 2^-31.
 
     /// Returns the class that a random word stands for.
     std::uint32_t of(std::uint32_t random) const {
@@ -71,7 +71,7 @@ struct Surface {
     std::vector<Edge<Real>> edges;
     std::span<const VertexFan> fans;
     std::span<const std::uint32_t> corners;
-    /// Whether each face has one cell for its candidates, whatever its size. Disks then test more
+    /// True if each face has one cell for its candidates, whatever its size. Disks then test more
     /// of them.
     bool one_cell_each = false;
     /// By face, where radii vary, and in units of the frame; else empty, and all radii are half of

@@ -285,7 +285,7 @@ bool next_operation() {
     return lane.phase == kPhaseSource || lane.phase == kPhaseCross || lane.phase == kPhaseFan;
 }
 
-// What follows the operation just set up, once its candidates are scanned.
+// Sets what follows the operation just set up, once its candidates are scanned.
 void follow_up() {
     if (lane.phase == kPhaseSource) {
         lane.phase = lane.cursor == 3u ? kPhasePop : kPhaseSource;
@@ -366,7 +366,8 @@ void work_on(uint index) {
     save_lane();
 }
 
-// Of the lanes of each subgroup. Metal wants a size that no specialization changes.
+// Maximum of trips of the lanes of each subgroup. Metal wants a size that no specialization
+// changes.
 shared uint max_trips[kMaxCountedSubgroups];
 
 // The lanes of a subgroup go on together until the last has done its trips.

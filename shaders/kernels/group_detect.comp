@@ -308,7 +308,7 @@ Part part_of_phase(uint phase) {
     return Part(group.cursor + gl_LocalInvocationID.x, group.phase == phase ? end : 0u);
 }
 
-// What follows is done by the first invocation, between barriers.
+// The first invocation alone calls the functions below, between barriers.
 
 // Begins the disk of a slot: with windows through the three edges of the face.
 void begin_disk(uint slot) {
@@ -347,7 +347,8 @@ void begin_unless_void(uint slot) {
     }
 }
 
-// Of those that lanes have left. If another work group takes the same one, tries again in the next step.
+// Takes one of the disks that lanes have left. If another work group takes the same one, tries
+// again in the next step.
 void take_large() {
     uint next = atomic_load(control.next_large);
     if (next >= control.large) {

@@ -33,7 +33,7 @@ void main() {
     uint other = min(row + (run ^ 1u) * push.width, row_end);
     uint low = other;
     uint high = min(other + push.width, row_end);
-    // Of equal ones those of the first run come first.
+    // Equal ones of the first run come first.
     for (uint i = 0u; i < kMaxHalvings && low < high; ++i) {
         uint middle = low + (high - low) / 2u;
         uvec4 met = entries[middle];

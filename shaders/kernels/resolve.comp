@@ -90,7 +90,8 @@ void meet(uvec4 own, uint place, bool is_rejected) {
 
 void end_active(uint place) { atomicAnd(orders[active_word(place)], ~state_bit(place)); }
 
-// Of samples alone: which other candidates get a disk depends on the slots, and the guard must not.
+// Notes chains of samples alone: which other candidates get a disk depends on the slots, and the
+// guard must not.
 void note_chain(uint slot) {
     if (slots[slot].longest_chain > control.longest_chain) {
         atomicMax(control.longest_chain, slots[slot].longest_chain);

@@ -1,4 +1,4 @@
-// Where candidates have their classes: in the lowest bits of their orders, and in their weights.
+// Places of the classes of candidates: in the lowest bits of their orders, and in their weights.
 #ifndef GEODISK_CLASS_BITS_GLSL
 #define GEODISK_CLASS_BITS_GLSL
 

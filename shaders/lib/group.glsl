@@ -91,7 +91,7 @@ void save_group() {
     pool[group_slice + 6u] = uvec4(group.taken, group.longest_before, group.lit_again, 0u);
 }
 
-// What an invocation adds to the record at the end of a step.
+// Amounts that an invocation adds to the record at the end of a step.
 uint own_tested;
 uint own_pushed;
 uint own_longest;

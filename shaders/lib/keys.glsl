@@ -1,4 +1,5 @@
-// What the caller tells of faces, behind the fans: words, by key_word, and which faces take samples.
+// Input of the caller about faces, behind the fans: words, by key_word, and which faces take
+// samples.
 #ifndef GEODISK_KEYS_GLSL
 #define GEODISK_KEYS_GLSL
 

@@ -1,4 +1,4 @@
-// Where the lists of conflicts are in the pool, behind the slices.
+// Lists of conflicts in the pool, behind the slices.
 #ifndef GEODISK_LISTS_GLSL
 #define GEODISK_LISTS_GLSL
 

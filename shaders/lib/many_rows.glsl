@@ -1,5 +1,5 @@
-// Where candidates of faces lie. A constant of the kernel: lavapipe compiles a kernel again whenever the
-// constants of a job change that it branches on.
+// Places of the candidates of faces. A constant of the kernel: lavapipe compiles a kernel again
+// whenever the constants of a job change that it branches on.
 #ifndef GEODISK_MANY_ROWS_GLSL
 #define GEODISK_MANY_ROWS_GLSL
 

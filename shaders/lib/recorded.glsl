@@ -1,6 +1,6 @@
-// What disks record, in the buffer of the weights: behind a row with their number, the room for them and the
-// row where they begin, and the weights of the targets, if there are any. More than there is room for are
-// counted alone.
+// Records of disks, in the buffer of the weights: behind a row with their number, the room for them
+// and the row where they begin, and the weights of the targets, if there are any. More than there
+// is room for are counted alone.
 #ifndef GEODISK_RECORDED_GLSL
 #define GEODISK_RECORDED_GLSL
 

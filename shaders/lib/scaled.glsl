@@ -82,7 +82,8 @@ uint in_mesh_units(uint length_word) {
     surplus = max(top_bit(product) + 1 - kFloatBits, kFloatExponent - exponent);
     product = rounded_off(product, surplus);
     exponent += max(surplus, 0);
-    // Of fewer bits than a float has, or exact: shifted up, as far as exponents go.
+    // Mantissas of fewer bits than a float has, or exact ones, are shifted up, as far as exponents
+    // go.
     uint rounded = product.low;
     int up = clamp(kFloatBits - 1 - findMSB(rounded), 0, max(exponent - kFloatExponent, 0));
     if (rounded == 0u) {

@@ -1,12 +1,12 @@
-// Where paths that end at a vertex may go on. A shortest path keeps an angle of pi on either side of a
-// vertex. So only what lies in the shadow of the vertex, as seen from where the path came, is lit through
-// it. kernels_ref/kernels/shadow.hpp is the same in plain C++.
+// Shadows of vertices: where paths that end at a vertex may go on. A shortest path keeps an angle
+// of pi on either side of a vertex. So only what lies in the shadow of the vertex, as seen from
+// where the path came, is lit through it. kernels_ref/kernels/shadow.hpp is the same in plain C++.
 //
-// How a path came to a vertex through a corner is one word, its arrival: above kBlurBits the angle between
-// the corner's half-edge and the path, in units of 2^-11 radian, or kArrivedAlongPrevious; 0 is along the
-// half-edge. Its error is at most 2^-10 radian, times 8 for each step of the blur; for kMaxBlur it is not
-// bounded. A small error keeps a little more than the shadow. Other angles are in units of the fans, 2^-13
-// radian.
+// The arrival of a path at a vertex through a corner is one word. Above kBlurBits it has the angle
+// between the corner's half-edge and the path, in units of 2^-11 radian, or kArrivedAlongPrevious;
+// 0 is along the half-edge. Its error is at most 2^-10 radian, times 8 for each step of the blur;
+// for kMaxBlur it is not bounded. A small error keeps a little more than the shadow. Other angles
+// are in units of the fans, 2^-13 radian.
 #ifndef GEODISK_SHADOW_GLSL
 #define GEODISK_SHADOW_GLSL
 

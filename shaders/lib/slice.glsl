@@ -1,4 +1,4 @@
-// How the pool is divided. All rows are of four words.
+// Division of the pool. All rows are of four words.
 //   a slice per lane:  LaneRec, then
 //     windows  kWindowRows each
 //     events   a row each

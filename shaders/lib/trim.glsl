@@ -3,9 +3,9 @@
 // from any face, the widest and the last narrower one are kept in a table of constant size. Other edges
 // may overwrite them, which only keeps windows alive. kernels_ref/kernels/trim.hpp is the same.
 //
-// Whether a disk trims depends only on the disk, never on the plan of the run; so do its results. Rows
-// of a window, in the frame of the edge from its lower vertex: (lower vertex, higher vertex, x, |y|),
-// (b0, b1, sigma, generation of the disk).
+// The choice to trim depends only on the disk, never on the plan of the run; so do its results.
+// Rows of a window, in the frame of the edge from its lower vertex: (lower vertex, higher vertex,
+// x, |y|), (b0, b1, sigma, generation of the disk).
 #ifndef GEODISK_TRIM_GLSL
 #define GEODISK_TRIM_GLSL
 

@@ -53,7 +53,7 @@ GEODISK_CONST uint kBindVertices = 17u;  // floats
 GEODISK_CONST uint kBindIndices = 18u;   // three of 16 or 32 bits per face
 GEODISK_CONST uint kBindPlaced = 19u;    // PlacedRec per sample
 GEODISK_CONST uint kBindArguments = 20u; // arguments of an indirect draw: four words
-// Of lists of neighbours, see lib/neighbour.glsl.
+// Buffers of the lists of neighbours, see lib/neighbour.glsl.
 GEODISK_CONST uint kBindNames = 21u;     // numbers of the targets, if they have others: where those of each
                                          // begin, and the end; then the numbers
 GEODISK_CONST uint kBindLimits = 22u;    // a float per source: how far neighbours may be

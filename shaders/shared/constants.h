@@ -21,9 +21,9 @@ GEODISK_CONST uint kAngleTolerance = 8u;      // 2^-10 radian
 GEODISK_CONST uint kLargestFanAngle = 65535u; // wider fans count as irregular
 GEODISK_CONST uint kFarAngle = 1048576u;      // beyond all angles
 
-// How a path came to a vertex through a corner, see lib/shadow.glsl: the angle from the corner's half-edge in
-// units of 2^-11 radian, above kBlurBits that tell its error. It is in the word of the path's chain, below
-// that.
+// Arrival of a path at a vertex through a corner, see lib/shadow.glsl: the angle from the corner's
+// half-edge in units of 2^-11 radian, above kBlurBits that tell its error. It is in the word of the
+// path's chain, below that.
 GEODISK_CONST uint kBlurBits = 2u;
 GEODISK_CONST uint kMaxBlur = 3u; // the angle is not known
 GEODISK_CONST uint kArrivedAlongPrevious = 0x7ffcu; // along the other edge of the corner
@@ -258,7 +258,7 @@ GEODISK_CONST uint kAxisRows = 2u;
 GEODISK_CONST uint kPlacedRows = 3u; // of a sample in the caller's buffer
 GEODISK_CONST uint kPartWords = 8u;  // words of a surface, if there are several
 GEODISK_CONST uint kLaneRows = 11u;
-// Of a disk in waves: the record of its work group, of a window, and of a vertex.
+// Rows of a disk in waves: those of the record of its work group, of a window, and of a vertex.
 GEODISK_CONST uint kGroupRows = 7u;
 GEODISK_CONST uint kItemRows = 2u;
 GEODISK_CONST uint kGroupVertexRows = 2u;

@@ -1,5 +1,5 @@
-// What a kernel is told besides the contents of its buffers: the constants of a job, which lie in a
-// uniform buffer, and the push block of a dispatch.
+// Values that a kernel is given besides the contents of its buffers: the constants of a job, which
+// lie in a uniform buffer, and the push block of a dispatch.
 #ifndef GEODISK_SHARED_PUSH_H
 #define GEODISK_SHARED_PUSH_H
 
@@ -59,7 +59,8 @@ struct Push {
     uint first_group;     // the work groups of a pass that earlier dispatches of it had
 };
 
-// That of `place`, which needs what a caller says of its own buffers. Strides and offsets are in words.
+// Push block of `place`, which needs what a caller says of its own buffers. Strides and offsets are
+// in words.
 struct PlacePush {
     uint most;          // samples that the caller has room for
     uint last_vertex;   // of the caller's
@@ -74,7 +75,7 @@ struct PlacePush {
     uint avoided;       // points to avoid, which come before the samples
 };
 
-// That of the kernels that put neighbours in lists.
+// Push block of the kernels that put neighbours in lists.
 struct NeighbourPush {
     uint count;        // hits, or entries
     uint capacity;     // entries that there is room for

@@ -108,10 +108,10 @@ struct GroupRec {
     uint tested; uint pushed; uint max_waiting; uint longest_chain; // as of LaneRec
 };
 
-// How the disk of a settled sample lights a face: the half-edge, and 1 if all of the face is lit; the sample;
-// the distance of the source, and what a path may be as long as, without the radius of its target, where radii
-// vary; negative for a point to avoid. The source in the frame of the half-edge, and the part of the edge
-// through which it is seen.
+// Light of the disk of a settled sample on a face: the half-edge, and 1 if all of the face is lit;
+// the sample; the distance of the source, and what a path may be as long as, without the radius of
+// its target, where radii vary; negative for a point to avoid. The source in the frame of the
+// half-edge, and the part of the edge through which it is seen.
 struct LitRec {
     uint place; uint sample_index; float sigma; float limit;
     float x; float y; float low; float high;

@@ -15,7 +15,7 @@ namespace geodisk::test {
 namespace {
 
 constexpr const char* kMesh = "builtin:torus-knot:16";
-/// Of pictures on the CPU, which a busy machine gives little time.
+/// Minimum number of pictures on the CPU, which a busy machine gives little time.
 constexpr double kMinFrames = 2;
 constexpr double kLongestLoad = 20000; // Milliseconds.
 
@@ -74,7 +74,8 @@ double difference(const PngImage& a, const PngImage& b) {
     return static_cast<double>(other) / static_cast<double>(a.pixels.size());
 }
 
-/// What the page tells of the sample that is chosen or pointed at; "" for what it does not.
+/// Returns what the page reports of the sample that is chosen or pointed at; "" for what it does
+/// not.
 std::string told(Browser& browser, const std::string& name) {
     const Json value = browser.eval("const names = [...document.querySelectorAll('#sample dt')];"
                                     "const found = names.find(dt => dt.textContent === '" +

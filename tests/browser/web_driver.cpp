@@ -24,7 +24,7 @@ namespace {
 
 constexpr std::string_view kBrowser = GEODISK_CHROMIUM, kDriver = GEODISK_CHROMEDRIVER;
 constexpr auto kPatience = std::chrono::seconds(60);
-/// What elements are told by in JSON.
+/// Key that identifies elements in JSON.
 constexpr const char* kElement = "element-6066-11e4-a52e-4f735466cecf";
 
 [[noreturn]] void fail(const std::string& message) {
@@ -63,7 +63,7 @@ class Descriptor {
     int number_;
 };
 
-/// Whether an HTTP response has as many bytes as it says.
+/// Returns true if an HTTP response has as many bytes as it says.
 bool is_whole(const std::string& response) {
     const std::string name = "Content-Length:";
     const std::size_t end = response.find("\r\n\r\n");
@@ -72,7 +72,7 @@ bool is_whole(const std::string& response) {
            response.size() >= end + 4 + std::stoul(response.substr(length + name.size()));
 }
 
-/// Of an HTTP response that is complete.
+/// Returns the body of an HTTP response that is complete.
 Json body_of(const std::string& response) {
     const std::size_t end = response.find("\r\n\r\n");
     if (end == std::string::npos) {

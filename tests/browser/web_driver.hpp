@@ -29,7 +29,7 @@ class Browser {
     /// Opens a file of this computer and waits until it is ready, as its script says.
     void open(const std::filesystem::path& path);
 
-    /// What `script` returns, a body of a function in JavaScript.
+    /// Returns what `script` returns, a body of a function in JavaScript.
     Json eval(const std::string& script);
     /// The same of one that hands over its result by calling done(result).
     Json eval_later(const std::string& script);
@@ -47,7 +47,7 @@ class Browser {
     /// Writes a picture of an element as PNG.
     void take_picture(const std::string& element_id, const std::filesystem::path& path);
 
-    /// What was written to the console since the last call.
+    /// Returns what was written to the console since the last call.
     std::vector<std::string> console();
 
   private:

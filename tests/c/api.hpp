@@ -47,7 +47,7 @@ Owned<Object> owned(const Make& make) {
     return Owned<Object>(object);
 }
 
-/// Of the mesh, which must outlive them.
+/// Returns the parameters of the mesh, which must outlive them.
 geodisk_mesh_params params_of(const TestMesh& mesh);
 Owned<geodisk_mesh> mesh_of(const TestMesh& mesh);
 Owned<geodisk_domain> surface_of(const geodisk_mesh* mesh, double min_distance,

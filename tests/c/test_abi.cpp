@@ -1,5 +1,5 @@
-// What programs compiled with this version rely on. Fields may be added at the end of a struct;
-// none may move.
+// Layouts that programs compiled with this version rely on. Fields may be added at the end of a
+// struct; none may move.
 #include <doctest/doctest.h>
 
 #include <cstddef>

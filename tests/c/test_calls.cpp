@@ -1,4 +1,4 @@
-// How the functions of the C API behave: wrong arguments, structs of other versions, several
+// Behaviour of the functions of the C API: wrong arguments, structs of other versions, several
 // threads, and the lifetime of objects.
 #include <doctest/doctest.h>
 
@@ -89,7 +89,7 @@ TEST_CASE("wrong arguments are told of") {
     check_wrong("mesh is NULL",
                 [&](geodisk_error* e) { return geodisk_mesh_create(&good, nullptr, e); });
 
-    // What the mesh is at fault for names the place.
+    // Errors of the mesh itself name the place.
     std::vector<std::uint32_t> indices = cube().triangles;
     indices[7] = 1000;
     geodisk_mesh_params bad = params_of(cube());
@@ -295,7 +295,7 @@ TEST_CASE("structs of older and later versions") {
         return geodisk_domain_surface(mesh.get(), &later.known, &domain, error);
     });
 
-    // What is written ends where the caller's does.
+    // Output ends where the caller's struct does.
     auto info = sized<geodisk_mesh_info>();
     info.struct_size = offsetof(geodisk_mesh_info, faces);
     info.faces = 77;

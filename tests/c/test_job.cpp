@@ -119,7 +119,7 @@ class Recording {
                             static_cast<std::ptrdiff_t>(control_bytes()));
     }
 
-    /// What a buffer of the device holds.
+    /// Returns what a buffer of the device holds.
     template <class Value>
     std::vector<Value> read(const BufferRange& range, std::size_t count) {
         workshop_.frame(0, [&](VkCommandBuffer commands) {

@@ -48,7 +48,7 @@ TEST_CASE("a surface has the samples that it has in C++") {
     const auto samples = sample(shared_sampler(), domain.get());
     CHECK(placed(samples.get()) == placed_set(set));
 
-    // Where they are, by the weights.
+    // Positions follow from the weights.
     const std::vector<double> points = positions(samples.get());
     for (std::size_t i = 0; i < set.samples.size(); ++i) {
         for (std::size_t axis = 0; axis < 3; ++axis) {

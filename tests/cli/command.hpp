@@ -49,7 +49,7 @@ struct Setting {
 Outcome run(const TemporaryFolder& folder, const std::vector<std::string>& arguments,
             const Setting& setting = {});
 
-/// Whether `has_terminal` can be had: a chroot without devpts has no terminals.
+/// Returns true if `has_terminal` can be had: a chroot without devpts has no terminals.
 bool terminals_work();
 
 std::vector<std::string> files_in(const TemporaryFolder& folder);

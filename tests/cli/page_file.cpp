@@ -12,8 +12,8 @@
 namespace geodisk::test {
 namespace {
 
-/// What stands between the next `begin` from `at` on and the `end` after it; `at` is then behind
-/// it.
+/// Returns what stands between the next `begin` from `at` on and the `end` after it; `at` is then
+/// behind it.
 std::optional<std::string_view> between(std::string_view text, std::size_t& at,
                                         std::string_view begin, std::string_view end) {
     const std::size_t from = text.find(begin, at);

@@ -162,8 +162,8 @@ TEST_CASE("meshes and samples are read from streams, and as what the user says")
         0);
 }
 
-/// Whether samples can be drawn at all where no file may be larger. Some drivers compile into files
-/// in memory, which the limit ends as well.
+/// Returns true if samples can be drawn at all where no file may be larger. Some drivers compile
+/// into files in memory, which the limit ends as well.
 bool driver_lives_with(const TemporaryFolder& folder, std::size_t file_size_limit) {
     Setting full;
     full.file_size_limit = file_size_limit;

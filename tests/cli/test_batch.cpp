@@ -28,7 +28,7 @@ std::vector<Json> log_of(const std::filesystem::path& path) {
     return entries;
 }
 
-/// How often the log tells of each mesh that it is done.
+/// Returns how often the log reports that each mesh is done.
 std::map<std::string, int> times_done(const std::vector<Json>& entries) {
     std::map<std::string, int> times;
     for (const Json& entry : entries) {
@@ -135,7 +135,7 @@ TEST_CASE("batch does with each mesh of a folder what sample does, however many 
     check_same(folder, "meshes/out/more/b c.ply", joined({"meshes/more/b c.PLY"}, options));
     check_same(folder, "meshes/out/more/d.ply", joined({"meshes/more/d.ply"}, options));
 
-    // What was written lies in the folder, but is no mesh of it.
+    // Output lies in the folder, but is no mesh of it.
     const Outcome three = run(folder, joined({"batch", "meshes", "-o", "meshes/out", "--jobs", "3",
                                               "--resume", "--json", "-", "--ascii"},
                                              options));

@@ -46,7 +46,7 @@ Throw thrown(const TemporaryFolder& folder, Arguments arguments) {
             outcome.out};
 }
 
-/// Where the samples lie, in dart order.
+/// Places of the samples, in dart order.
 using Places = std::vector<std::tuple<std::uint32_t, float, float>>;
 
 Places places(const Throw& set) {

@@ -1,4 +1,4 @@
-// What is told of devices and their kernels.
+// Reports on devices and their kernels.
 #include <doctest/doctest.h>
 
 #include <string>

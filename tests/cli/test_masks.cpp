@@ -1,4 +1,4 @@
-// Where samples may lie: parts of meshes, properties and images, sampled, verified and refused.
+// Masks that limit samples: parts of meshes, properties and images, sampled, verified and refused.
 #include <doctest/doctest.h>
 
 #include <algorithm>

@@ -38,7 +38,7 @@ double sum_of(const std::vector<double>& numbers) {
     return sum;
 }
 
-/// Of the page itself; three.js names places that it never asks for.
+/// Checks that the page itself fetches nothing; three.js names places that it never asks for.
 void check_fetches_nothing(const PageFile& page) {
     CHECK(contains(page.text, "default-src 'none'"));
     const std::regex fetch(R"((src|href)\s*=\s*["']?(?!data:)[a-z]+:)", std::regex::icase);

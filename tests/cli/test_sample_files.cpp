@@ -1,4 +1,4 @@
-// What `geodisk sample` writes.
+// Files that `geodisk sample` writes.
 #include <doctest/doctest.h>
 
 #include <algorithm>

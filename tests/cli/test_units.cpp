@@ -44,7 +44,7 @@ std::vector<double> places_in(const TemporaryFolder& folder, const std::string& 
     return places;
 }
 
-/// What the commands give of a mesh, without its unit.
+/// Results of the commands for a mesh, without its unit.
 struct Given {
     std::vector<double> sampled, of_classes, updated, of_batch, page_radii, page_distances;
     Json analysis, verified;

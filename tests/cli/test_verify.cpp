@@ -242,7 +242,7 @@ TEST_CASE("without a distance the closest pair is told, and that none was checke
     CHECK(maximal.status == 2);
     CHECK(contains(maximal.err, "--maximal needs a minimum distance; give --min-distance"));
 
-    // What else is wrong is found all the same.
+    // Other faults are found all the same.
     folder.write("far.xyz", "-0.5 -0.5 -0.5\n2 0 0\n");
     CHECK(run(folder, {"verify", "builtin:cube", "far.xyz"}).status == 1);
     folder.write("one.xyz", "-0.5 -0.5 -0.5\n");

@@ -29,7 +29,7 @@ class AppDevice {
 
     /// Destroys the device, upon which the layer reports what was left behind.
     void destroy_device();
-    /// What the layer said so far.
+    /// Returns the messages of the layer so far.
     std::vector<std::string> messages() const;
 
     /// A function of the device, `function<PFN_vkCreateBuffer>("vkCreateBuffer")`.

@@ -45,9 +45,9 @@ class Arena {
 
     std::set<void*> alive;
     std::uint32_t asked = 0;
-    std::uint32_t fail_from = ~0u; ///< Of those asked.
+    std::uint32_t fail_from = ~0u; ///< First of those asked that fails.
     bool forget_to_map = false;
-    VkDeviceSize largest = 0; ///< Of what was asked for.
+    VkDeviceSize largest = 0; ///< Largest size that was asked for.
 
   private:
     struct Block {

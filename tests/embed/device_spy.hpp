@@ -35,7 +35,7 @@ class DeviceSpy {
     /// Lets call `number` (from 0, counted from now) of `function` fail with `result`, and for
     /// VK_ERROR_DEVICE_LOST every later one.
     void fail(const char* function, std::uint32_t number, VkResult result);
-    /// Whether that happened. Nothing fails any more after this.
+    /// Returns true if that happened. Nothing fails any more after this.
     bool end_of_fault();
 
     std::uint32_t calls(std::string_view function) const;
@@ -50,11 +50,11 @@ class DeviceSpy {
     bool never_signal = false; ///< Waiting for a fence times out, though the work ends.
     VkDeviceSize memory_left = std::numeric_limits<VkDeviceSize>::max();
     std::uint32_t refused = 0; ///< Allocations of more than that.
-    bool gives_back = false;   ///< What is freed adds to the memory left.
+    bool gives_back = false;   ///< True if what is freed adds to the memory left.
     /// Called with what is mapped, after the work that a fence stood for has ended.
     std::function<void(std::span<const std::span<std::byte>>)> on_done;
 
-    /// What the last pipeline was created with.
+    /// Returns the cache that the last pipeline was created with.
     VkPipelineCache pipeline_cache() const { return pipeline_cache_; }
 
     /// The functions that would destroy what is still alive, "vkDestroyFence vkFreeMemory".
@@ -86,7 +86,7 @@ class DeviceSpy {
     std::optional<Fault> fault_;
     std::vector<Object> objects_;
     std::map<std::uint64_t, std::span<std::byte>> mapped_; ///< By memory.
-    std::map<std::uint64_t, VkDeviceSize> sizes_;          ///< Of memory.
+    std::map<std::uint64_t, VkDeviceSize> sizes_;          ///< Sizes of memory.
     std::uint32_t strangers_ = 0;
     VkPipelineCache pipeline_cache_ = VK_NULL_HANDLE;
 };

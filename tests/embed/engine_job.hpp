@@ -49,7 +49,7 @@ class EngineJob {
         : EngineJob(workshop, sampler, task.domain(), stages) {
         wanted_ = task.wanted;
     }
-    /// Of any domain.
+    /// Makes the job of any domain.
     EngineJob(Workshop& workshop, const Sampler& sampler, Domain domain, std::uint32_t stages = 0)
         : workshop_(workshop), sampler_(sampler), domain_(std::move(domain)),
           plan_(expect(sampler.plan_run(domain_, Workshop::kPoolBytes))) {
@@ -177,7 +177,7 @@ class EngineJob {
 
     void run(std::size_t lag = 0) { check_samples(run_frames(lag)); }
 
-    /// Whether a begin is recorded to its end.
+    /// Returns true if a begin is recorded to its end.
     bool is_begun() const { return Job::Impl::of(*job_).begun.is_at_start(); }
     Job& job() { return *job_; }
     const Domain& domain() const { return domain_; }

@@ -37,7 +37,7 @@ struct FakeDriver::Functions {
             active_driver->real_.get_instance_proc_addr()(active_driver->instance_, name));
     }
 
-    /// What `name` is set to fail with, or VK_SUCCESS.
+    /// Returns what `name` is set to fail with, or VK_SUCCESS.
     static VkResult failure_of(const char* name) {
         const auto found = active_driver->failing.find(name);
         return found != active_driver->failing.end() ? found->second : VK_SUCCESS;

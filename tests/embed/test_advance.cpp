@@ -1,4 +1,4 @@
-// What a job says comes next, step by step and where it is asked too early, too late or twice.
+// Next steps that a job asks for, step by step, and when it is asked too early, too late or twice.
 #include <doctest/doctest.h>
 
 #include <algorithm>

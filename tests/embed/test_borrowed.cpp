@@ -31,7 +31,7 @@ void check_silent(const AppDevice& app) {
     CHECK(app.messages().empty());
 }
 
-/// How a queue's callbacks were used.
+/// Counts of the uses of a queue's callbacks.
 struct QueueLock {
     std::uint32_t locked = 0;
     std::uint32_t unlocked = 0;

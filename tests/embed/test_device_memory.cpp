@@ -13,7 +13,7 @@
 namespace geodisk::test {
 namespace {
 
-// Of the functions below, which carry no user pointer.
+// State of the functions below, which carry no user pointer.
 PFN_vkGetInstanceProcAddr real = nullptr;
 PFN_vkGetPhysicalDeviceProperties2 real_properties = nullptr;
 PFN_vkGetPhysicalDeviceMemoryProperties2 real_memory = nullptr;

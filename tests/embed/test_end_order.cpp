@@ -262,7 +262,7 @@ TEST_SUITE("end order") {
             for (std::uint32_t round = 0; round < 10'000; ++round) {
                 workshop.frame(round, [&](VkCommandBuffer commands) {
                     sampler.record_select(commands, job.job());
-                    // What is in the slots, before their disks are known.
+                    // Reads what is in the slots, before their disks are known.
                     job.record_read(commands, BufferRole::control, sizeof(gpu::ControlRec));
                 });
                 seen += job.control().undecided;

@@ -105,7 +105,7 @@ void sweep_prepare(Bench& bench, Runner& runner, const char* function, VkResult 
     }
 }
 
-/// What a run tries anew with less, where that would do.
+/// Returns true for what a run tries again with less, if that would do.
 bool makes_buffers(std::string_view function) {
     return function == "vkCreateBuffer" || function == "vkAllocateMemory" ||
            function == "vkBindBufferMemory" || function == "vkMapMemory";
@@ -461,7 +461,7 @@ TEST_SUITE("faults") {
         const PreparedMesh mesh = prepared(builtin("icosphere", 2));
         const SampleParams params = params_for(mesh, 100);
         const SampleSet set = expect(runner.sample_and_wait(mesh, params));
-        // Of four stages two at a time, of 16 bytes a candidate in three quarters of the memory.
+        // Four stages run two at a time, at 16 bytes a candidate in three quarters of the memory.
         CHECK(stages_of(mesh, params).pool_stages() == 4);
         CHECK(2 * stages_of(mesh, params).expected(0) < (1 << 15) / 4 * 3 / 16);
         CHECK(3 * stages_of(mesh, params).expected(0) > 0.9 * (1 << 15) / 4 * 3 / 16);

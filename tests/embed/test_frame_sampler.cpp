@@ -48,7 +48,7 @@ struct SamplerBench : Workshop {
     explicit SamplerBench(const Context& context) : Workshop(context) { cut({}); }
 };
 
-/// What lies in the buffer: the records, and how many the draw has.
+/// Contents of the buffer: the records, and how many the draw has.
 struct Placed {
     VkDrawIndirectCommand draw{};
     std::vector<gpu::PlacedRec> records;
@@ -97,7 +97,7 @@ void check_all(Workshop& workshop, const FrameSampler& frames, const SampledSubj
     CHECK(samples.ready == subject.wanted.size());
     const Placed placed = read(workshop, samples);
     CHECK(placed.points() == subject.wanted);
-    // Where its weights put it, in the caller's coordinates.
+    // The place follows from its weights, in the caller's coordinates.
     const gpu::PlacedRec& p = placed.records.front();
     for (std::size_t axis = 0; axis < 3; ++axis) {
         double x = 0;

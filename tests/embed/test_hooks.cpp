@@ -1,4 +1,4 @@
-// What a caller hooks into: its own memory, and names for its debugger.
+// Hooks of a caller: its own memory, and names for its debugger.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -17,7 +17,7 @@
 namespace geodisk::test {
 namespace {
 
-// Of the functions below, which carry no user pointer.
+// State of the functions below, which carry no user pointer.
 PFN_vkGetInstanceProcAddr real_driver = nullptr;
 PFN_vkSetDebugUtilsObjectNameEXT set_name = nullptr;
 PFN_vkCmdBeginDebugUtilsLabelEXT begin_label = nullptr;

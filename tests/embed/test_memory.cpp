@@ -1,5 +1,5 @@
-// What the host computes, without a device and with one, while memory runs out: an error or the
-// same answer, and no exception ever leaves a function.
+// Host computations, without a device and with one, while memory runs out: an error or the same
+// answer, and no exception ever leaves a function.
 #include <doctest/doctest.h>
 
 #include <cstdint>

@@ -58,7 +58,7 @@ class SlowDevice {
     }
 
     double slower;
-    std::vector<double> seconds; ///< Of each submission.
+    std::vector<double> seconds; ///< Seconds of each submission.
     std::vector<std::uint32_t> dispatches;
 
   private:

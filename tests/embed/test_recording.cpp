@@ -74,7 +74,7 @@ void check_finishes(const RunPlan& plan, bool is_tight = false) {
     CHECK((!is_tight || run.plan().window_capacity > 2));
 }
 
-/// How often `part` is recorded until it says that it was the last.
+/// Returns how often `part` is recorded until it says that it was the last.
 template <class Part>
 std::uint32_t parts_of(const Part& part) {
     std::uint32_t parts = 1;

@@ -1,4 +1,4 @@
-// What a runner keeps from run to run, and what a job does.
+// Objects that a runner keeps from run to run, and those that a job keeps.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -17,7 +17,7 @@
 namespace geodisk::test {
 namespace {
 
-// What makes or allocates something.
+// Functions that make or allocate something.
 constexpr const char* kMaking[] = {
     "vkAllocateMemory",       "vkCreateBuffer",           "vkCreateBufferView",
     "vkCreateDescriptorPool", "vkAllocateDescriptorSets", "vkCreateComputePipelines",
@@ -261,7 +261,7 @@ TEST_SUITE("reuse") {
     }
 
     TEST_CASE("what is kept from run to run, and what grows in one, stays within the bytes") {
-        // Of each buffer, which the device may round up.
+        // Rounding of each buffer, which the device may round up.
         constexpr VkDeviceSize kRounding = kBufferRoles * 1024;
         RunnerOptions tight;
         tight.plan.window_capacity = 2;
@@ -363,7 +363,7 @@ TEST_SUITE("reuse") {
         };
         run.begin();
         check();
-        // Of another job in these buffers, what the host still has of this one tells nothing.
+        // The host's record of this job says nothing about another job in these buffers.
         const gpu::ControlRec before = run.control();
         Job other = expect(run.sampler().make_job(expect(Domain::surface(mesh, params)), run.plan(),
                                                   Job::Impl::of(run.job()).workspace));

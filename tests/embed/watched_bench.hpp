@@ -32,10 +32,10 @@ struct Bench {
     DeviceSpy spy{context.device().get_instance_proc_addr};
     PreparedMesh mesh = prepared(builtin("icosphere", 2));
     SampleParams params = params_for(mesh, 30);
-    /// Of another job, instead of that one.
+    /// Domain of another job, instead of that one.
     std::function<Result<Domain>()> other;
 
-    /// Whether runners read through buffer views; they do wherever they can.
+    /// Returns true if runners read through buffer views; they do wherever they can.
     bool reads_texels() const { return reads_of(context.report()).back() == Reads::texels; }
 
     Result<Runner> create(RunnerOptions options = {}) const {
@@ -83,7 +83,7 @@ struct Bench {
 
   private:
     Points wanted_;
-    std::vector<double> wanted_points_; ///< Of boxes.
+    std::vector<double> wanted_points_; ///< Points of boxes.
 };
 
 } // namespace geodisk::test

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::uint32_t kPattern = 0xc5c5c5c5;
 constexpr VkDeviceSize kLargeBytes = VkDeviceSize{24} << 20;
-constexpr VkDeviceSize kOwnBytes = 64; ///< Of the engine's own work at either end of a frame.
+constexpr VkDeviceSize kOwnBytes = 64; ///< Bytes of the engine's own work at either end of a frame.
 
 constexpr VkDeviceSize up(VkDeviceSize x, VkDeviceSize unit) {
     return (x + unit - 1) / unit * unit;

@@ -1,5 +1,5 @@
-// What a recording engine has: one large buffer that it cuts into ranges, buffers to upload and
-// download through, command buffers, and other work in the same frame.
+// Parts that a recording engine has: one large buffer that it cuts into ranges, buffers to upload
+// and download through, command buffers, and other work in the same frame.
 #pragma once
 
 #include <cstddef>

@@ -152,7 +152,7 @@ VkPipelineCacheHeaderVersionOne pipeline_header() {
     return header;
 }
 
-/// What is loaded begins as Vulkan wants it.
+/// Requires that what is loaded begins as Vulkan wants it.
 void read_as_pipelines(const FuzzedFile& file) {
     static const PipelineFile pipelines = [&] {
         PipelineFile linked(file.path.parent_path(), {});

@@ -20,8 +20,8 @@ using namespace geodisk::test;
 
 namespace {
 
-// Of the reach. Slivers cost digits: with the tight tolerances of other tests, paths along them are
-// lost.
+// Tolerance as a part of the reach. Slivers cost digits: with the tight tolerances of other tests,
+// paths along them are lost.
 constexpr double kExact = 1e-6;
 
 std::vector<Point> points_of(Input& input, std::uint32_t faces) {

@@ -67,7 +67,7 @@ void read_attributes(const Path& path) {
     }
 }
 
-/// What was read must do for preparing, or be refused by that.
+/// Requires that what was read can be prepared, or is refused by that.
 void read_as_mesh(const FuzzedFile& file) {
     files_named_in(file.path);
     read_attributes(file.path);

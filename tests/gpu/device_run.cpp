@@ -211,7 +211,7 @@ bool decide_batch(DeviceRun& run) {
 
 namespace {
 
-/// How many are accepted on the device or in `states` alone, told by their orders.
+/// Returns how many are accepted on the device or in `states` alone, by their orders.
 std::uint32_t wrongly_accepted(const DeviceRun& run, const std::vector<std::uint8_t>& states,
                                const std::vector<std::uint32_t>& by_place) {
     const gpu::ControlRec control = run.control();

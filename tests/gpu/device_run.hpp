@@ -99,7 +99,7 @@ class DeviceRun {
 
     /// Records, submits and waits.
     void submit(const std::function<void(VkCommandBuffer)>& record);
-    /// Of a caller, which the host may read and write.
+    /// Makes a buffer of a caller, which the host may read and write.
     DeviceBuffer make_buffer(VkDeviceSize bytes) const {
         return expect(
             DeviceBuffer::create(device_, vk_, memory_, bytes, kWorkspaceUsage, MemoryKind::host));
@@ -124,14 +124,15 @@ bool decide_batch(DeviceRun& run);
 
 enum class PlaceState : std::uint8_t { idle, active, decided };
 
-/// Of the first candidates by place, so many.
+/// Returns the states of the first candidates by place, so many.
 std::vector<PlaceState> states_of(const DeviceRun& run, std::size_t count);
 
-/// How many candidates have another state on the device than in `states`, which are by rank.
+/// Returns how many candidates have another state on the device than in `states`, which are by
+/// rank.
 std::uint32_t wrong_states(const DeviceRun& run, const std::vector<std::uint8_t>& states,
                            const std::vector<std::uint32_t>& by_place);
 
-/// Of a sample of earlier stages.
+/// Rank of a sample of earlier stages.
 inline constexpr std::uint32_t kNoRank = 0xffffffff;
 
 /// The ranks of the conflicts above `rank` that slot `index` lists, ascending; `by_place` has the

@@ -12,7 +12,7 @@
 
 namespace geodisk::test {
 
-/// Where a sample lies.
+/// Place of a sample.
 struct SamplePoint {
     std::uint32_t face;
     float weight1, weight2;
@@ -22,18 +22,19 @@ struct SamplePoint {
 /// In dart order.
 using Points = std::vector<SamplePoint>;
 
-/// What sequential dart throwing accepts, as the float twin decides; existing samples come first.
+/// Returns what sequential dart throwing accepts, as the float twin decides; existing samples come
+/// first.
 Points float_set(const PreparedMesh& mesh, const SampleParams& params, double error_bound);
 /// The same with the class of each sample.
 Points float_set(const PreparedMesh& mesh, const SampleParams& params, double error_bound,
                  std::vector<std::uint8_t>& classes);
-/// What it accepts behind samples that are settled and reject first; they come first.
+/// Returns what it accepts behind samples that are settled and reject first; they come first.
 Points set_after(const PreparedMesh& mesh, const SampleParams& params, double error_bound,
                  const Points& settled);
 /// As float_set, in double precision.
 Points double_set(const PreparedMesh& mesh, const SampleParams& params, double error_bound);
 
-/// What it accepts of listed candidates behind the existing samples.
+/// Returns what it accepts of listed candidates behind the existing samples.
 Points listed_set(const PreparedMesh& mesh, const SampleParams& params, double error_bound,
                   const Points& candidates);
 

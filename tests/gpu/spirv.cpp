@@ -55,8 +55,8 @@ bool rounds_at_will(std::uint32_t operation) {
            operation == op_outer_product || operation == op_dot;
 }
 
-/// Of the extended instructions for GLSL: RoundEven to Ceil, Sqrt, minima to clamps, FindILsb to
-/// FindUMsb, NMin to NClamp.
+/// Returns true for these extended instructions for GLSL: RoundEven to Ceil, Sqrt, minima to
+/// clamps, FindILsb to FindUMsb, NMin to NClamp.
 bool is_exact_function(std::uint32_t number) {
     constexpr std::pair<std::uint32_t, std::uint32_t> kExact[] = {
         {2, 9}, {31, 31}, {37, 45}, {73, 75}, {79, 81}};
@@ -78,11 +78,11 @@ void for_each_instruction(std::span<const std::uint32_t> spirv, Visit&& visit) {
     }
 }
 
-/// What is known of the ids before the functions start.
+/// Facts about the ids before the functions start.
 struct Declarations {
     std::map<std::uint32_t, std::string> names;
     std::map<std::uint32_t, std::map<std::uint32_t, std::uint32_t>> decorations; ///< With operand.
-    std::map<std::uint32_t, VkDescriptorType> types; ///< Of what a descriptor can be.
+    std::map<std::uint32_t, VkDescriptorType> types; ///< Types of what a descriptor can be.
     std::map<std::uint32_t, std::uint32_t> pointees;
 
     bool decorated(std::uint32_t id, std::uint32_t decoration) const {

@@ -1,4 +1,4 @@
-// What compiled kernels declare and compute, read from their SPIR-V words.
+// Declarations and computations of compiled kernels, read from their SPIR-V words.
 #pragma once
 
 #include <cstdint>
@@ -32,7 +32,7 @@ std::vector<DeclaredBinding> declared_bindings(std::span<const std::uint32_t> sp
 /// A float operation whose result Vulkan does not fix to the bit.
 struct LooseOperation {
     std::uint32_t result;
-    std::string function; ///< That it stands in.
+    std::string function; ///< Function that it stands in.
     std::string why;
 };
 

@@ -54,7 +54,7 @@ std::vector<double> coordinates(const BoxParams& box, std::span<const ref::BoxPo
     return all;
 }
 
-/// What sequential dart throwing accepts, by the twin's grid.
+/// Returns what sequential dart throwing accepts, by the twin's grid.
 template <class Real>
 std::vector<double> sequential_set(const BoxParams& box) {
     const ref::BoxPool<Real> pool(box);
@@ -85,7 +85,7 @@ double smallest_distance2(const BoxParams& box, const SampleSet& set) {
     return smallest;
 }
 
-/// What the disks of a batch took.
+/// Costs of the disks of a batch.
 struct DiskTotals {
     std::uint64_t disks = 0, rows = 0, tested = 0;
     std::uint32_t max_conflicts = 0;
@@ -147,7 +147,7 @@ struct BoxTwin {
         return ranks;
     }
 
-    /// Whether these are the words of the sample that a candidate becomes.
+    /// Returns true if these are the words of the sample that a candidate becomes.
     bool is_sample(std::uint32_t rank, const gpu::SampleRec& record) const {
         std::vector<double> point(box.extents.size());
         sample_point(box.seed, draw_axes(box), record, point);

@@ -59,7 +59,7 @@ struct Twin {
             pool.candidate(rank),
             [&](std::uint32_t q) { return ranks[q] != rank && states[ranks[q]] <= ref::kActive; },
             [&](std::uint32_t q, float) {
-                // What an active one of lower rank decides about this one is for that one to say.
+                // An active one of lower rank reports itself what it decides about this one.
                 (ranks[q] > rank ? conflicts : above).push_back(ranks[q]);
             });
         std::sort(conflicts.begin(), conflicts.end());
@@ -106,7 +106,7 @@ gpu::SampleRec record_of(const gpu::SlotRec& slot) {
             std::bit_cast<float>(slot.weight2)};
 }
 
-/// What all disks so far took and found.
+/// Costs and findings of all disks so far.
 struct Totals {
     std::uint64_t disks = 0, windows = 0, tested = 0;
     std::uint32_t max_waiting = 0, max_vertices = 0;
@@ -168,7 +168,7 @@ std::vector<std::uint32_t> compare_candidates(const DeviceRun& run, const Twin& 
     return ranks;
 }
 
-/// What the disks of one batch found and took, from `first_order` on.
+/// Compares what the disks of one batch found and took, from `first_order` on.
 void compare_batch(const DeviceRun& run, Twin& twin, std::uint32_t first_order,
                    const std::vector<std::uint32_t>& by_place, Totals& totals) {
     const gpu::ControlRec control = run.control();

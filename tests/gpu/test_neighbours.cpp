@@ -346,7 +346,7 @@ TEST_SUITE("neighbours") {
         const Error too_many = refusal(cube, good);
         CHECK(too_many.status == Status::job_too_large);
         CHECK(too_many.message.find("about 676 pairs are to be expected, more than the 100") == 0);
-        // That is told before the search, of which nothing is heard.
+        // The error comes before the search, of which nothing is heard.
         CHECK(refusal(cube, good, [](const Progress&) { return false; }).status ==
               Status::job_too_large);
         good.kind = NeighbourKind::sources;

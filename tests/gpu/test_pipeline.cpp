@@ -385,8 +385,8 @@ TEST_SUITE("invariance") {
         }
     }
 
-    // Which losers get a disk depends on the slots; the guard, which follows from the chains met,
-    // must not.
+    // The slots decide which losers get a disk. The guard, which follows from the chains met, must
+    // not depend on them.
     TEST_CASE("no tuning changes the guard of long chains") {
         const PreparedMesh mesh = prepared(needle_disk(1'200));
         const SampleParams params = params_for(mesh, 60);

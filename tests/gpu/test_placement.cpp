@@ -86,7 +86,7 @@ struct DrawnScene {
         return Placement::create(run.sampler(), domain, run.job(), source, target);
     }
 
-    /// What is there once the samples are placed.
+    /// Returns what is there once the samples are placed.
     std::vector<gpu::PlacedRec> points() {
         const Placement placement = expect(place());
         run.submit(

@@ -64,7 +64,7 @@ double distance(const Place& a, const Place& b) {
 /// Values on the sheet that make radii or a mask, and what a job on the whole has of them.
 struct Fields {
     RadiusKind kind;
-    std::vector<double> values;                       ///< Of vertices.
+    std::vector<double> values;                       ///< Values at vertices.
     std::vector<std::uint8_t> vertex_mask, face_mask; ///< Empty without a mask.
 
     /// Factors, or a density that is 0 somewhere.
@@ -121,7 +121,7 @@ void check_same(const RadiusField& a, const RadiusField& b) {
     CHECK(a.min_density() == b.min_density());
 }
 
-/// What one of some threads finds of a surface and its fields.
+/// Findings of one of some threads about a surface and its fields.
 struct Ranged {
     double area = 0, borders = 0, min_factor = 1;
     std::uint64_t digest = 0;

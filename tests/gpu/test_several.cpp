@@ -16,7 +16,7 @@
 namespace geodisk::test {
 namespace {
 
-/// Of each surface, faces counted from its own first.
+/// Returns the points of each surface, faces counted from its own first.
 std::vector<Points> points_by_surface(const Domain& domain, const SampleSet& set) {
     const auto first_faces = domain.first_faces();
     std::vector<Points> points(first_faces.size() - 1);

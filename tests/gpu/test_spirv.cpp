@@ -1,5 +1,5 @@
-// What the compiled kernels must hold for every driver to compute the same bits and to be given the
-// descriptors that it looks for.
+// Properties that the compiled kernels must have, for every driver to compute the same bits and to
+// be given the descriptors that it looks for.
 #include <doctest/doctest.h>
 
 #include <algorithm>

@@ -356,7 +356,7 @@ TEST_SUITE("update") {
         bad[7].weights[1] += 0x1p-10f;
         bad[7].weights[0] -= 0x1p-10f;
         CHECK(refusal_of(ball.params, bad) == "sample 7" + unknown);
-        // Of an edited surface, whose first samples may lie in faces that are gone.
+        // The edited surface may have lost the faces of its first samples.
         TestMesh edited = ball.mesh;
         for (std::uint32_t i = 0; i < 6; ++i) {
             const std::uint32_t face = samples[i].face;

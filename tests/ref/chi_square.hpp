@@ -1,4 +1,4 @@
-// Whether counts are as expected.
+// Checks that counts are as expected.
 #pragma once
 
 #include <cmath>
@@ -8,9 +8,9 @@
 
 namespace geodisk::test {
 
-/// Whether a chi-square sum over `freedom` degrees is within 5 standard deviations of its mean. Of
-/// right counts one sum in 5,000 is not over 15 degrees, one in 300,000 over 1,000. Seeds are
-/// fixed, so a test that passes does so always.
+/// Returns true if a chi-square sum over `freedom` degrees is within 5 standard deviations of its
+/// mean. Of right counts one sum in 5,000 is not over 15 degrees, one in 300,000 over 1,000. Seeds
+/// are fixed, so a test that passes does so always.
 inline bool is_plausible(double chi_square, double freedom) {
     return std::abs(chi_square - freedom) < 5 * std::sqrt(2 * freedom);
 }

@@ -14,7 +14,7 @@ namespace geodisk::test {
 struct Darts {
     double min_distance;
     ref::Tolerances tolerances;
-    double largest_error;             ///< Of the distances along the longest chain.
+    double largest_error;             ///< Error of the distances along the longest chain.
     std::vector<Point> pool;          ///< In rank order.
     std::vector<std::uint32_t> ranks; ///< Accepted, ascending.
 

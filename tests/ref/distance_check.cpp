@@ -43,7 +43,7 @@ void report(const DistanceCase& c, const char* kind, const Point& source, const 
                   worst.error, " > ", bound);
 }
 
-/// What a query in the precision and with the tolerances of a run has found.
+/// Checks what a query in the precision and with the tolerances of a run has found.
 template <class Real>
 void check_documented(const DistanceCase& c, const char* kind, const PreparedMesh& mesh,
                       const GeodesicQuery<Real>& query, const Point& source,

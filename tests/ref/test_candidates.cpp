@@ -105,7 +105,7 @@ void check_bins(const TestMesh& mesh, double min_distance, std::uint32_t count) 
     }
 }
 
-/// What dart order goes by.
+/// Returns what dart order goes by.
 template <class Real>
 auto key_of(const ref::Pool<Real>& pool, std::uint32_t rank) {
     const auto p = pool.candidate(rank);
@@ -387,7 +387,7 @@ TEST_CASE("pools: the first darts of a job, and the stages they come in") {
         REQUIRE(later.word(rank) + (2u << 28) == all.word(before + rank));
         REQUIRE(later.candidate(rank).weight1 == all.candidate(before + rank).weight1);
     }
-    // Of few samples there are many stages of 64.
+    // A pool of few samples has many stages of 64.
     params = params_for(surface, 1, 3);
     params.darts = 1'000'000;
     CHECK(pool_of<float>(surface, params).size() == 1'000'000);

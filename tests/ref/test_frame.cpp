@@ -138,7 +138,7 @@ std::vector<Point> samples_in(const PreparedMesh& mesh, const SampleParams& para
     return points;
 }
 
-/// Of the faces from `first` to `end`, in order.
+/// Returns the points of the faces from `first` to `end`, in order.
 std::vector<Point> between(const std::vector<Point>& points, std::uint32_t first,
                            std::uint32_t end) {
     std::vector<Point> some;

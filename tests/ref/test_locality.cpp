@@ -1,5 +1,6 @@
-// What one face has follows from the seed, its key and its shape alone: parts and edits of a mesh
-// leave the candidates of all other faces as they were, and samples that are far enough.
+// Locality: the candidates of one face follow from the seed, its key and its shape alone. Parts and
+// edits of a mesh leave the candidates of all other faces as they were, and samples that are far
+// enough.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -116,7 +117,7 @@ std::tuple<std::uint32_t, double, double> place_of(const Point& p) {
     return {p.face, p.weight1, p.weight2};
 }
 
-/// How far from `at`, in minimum distances, samples are that only one of both has.
+/// Returns how far from `at`, in minimum distances, samples are that only one of both has.
 double reach_of(const LocalScene& before, const LocalScene& after, Vec3 at) {
     const auto comes_before = [](const Point& p, const Point& q) {
         return place_of(p) < place_of(q);
@@ -141,7 +142,7 @@ double reach_of(const LocalScene& before, const LocalScene& after, Vec3 at) {
     return reach;
 }
 
-/// Of all faces but those at a vertex.
+/// Checks all faces but those at a vertex.
 void check_other_faces(const LocalScene& before, const LocalScene& after, std::uint32_t vertex) {
     const LocalFaces a = faces_of<float>(before.surface, before.params);
     const LocalFaces b = faces_of<float>(after.surface, after.params);

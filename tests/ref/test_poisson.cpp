@@ -45,7 +45,7 @@ void check_law(float mean, std::uint32_t count, double least = 20) {
             counts.push_back(0);
         }
     }
-    // What is left of the last bin goes to the one before.
+    // The remainder of the last bin goes to the one before.
     expected[expected.size() - 2] += expected.back();
     counts[counts.size() - 2] += counts.back();
     expected.pop_back();

@@ -17,8 +17,7 @@ using namespace geodisk::test;
 
 namespace {
 
-/// Which pairs of a pool are closer than the limit, asked one disk at a time with everything
-/// wanted.
+/// Pairs of a pool that are closer than the limit, asked one disk at a time with everything wanted.
 class Conflicts {
   public:
     explicit Conflicts(ref::DiskQuery& disks) : lists_(disks.size()) {
@@ -150,7 +149,7 @@ TEST_CASE("pool darts: straight lines see through a thin plate, and no farther t
     });
     const auto straight = ref::throw_in_order(disks);
     CHECK(straight == brute);
-    // Of the two sides together about as many as one has.
+    // Both sides together have about as many as one has.
     CHECK(straight.size() < 0.7 * static_cast<double>(scene.darts.ranks.size()));
     CHECK(straight.size() > 0.4 * static_cast<double>(scene.darts.ranks.size()));
 }

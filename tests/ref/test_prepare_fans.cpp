@@ -48,8 +48,8 @@ std::uint32_t side_to(const PreparedMesh& mesh, std::uint32_t corner, std::uint3
     return sides(mesh, corner).first == other ? corner : previous_in_face(corner);
 }
 
-/// Whether the corners follow each other around the vertex: each is entered by the side through
-/// which the one before was left.
+/// Returns true if the corners follow each other around the vertex: each is entered by the side
+/// through which the one before was left.
 bool in_rotational_order(const PreparedMesh& mesh, std::span<const std::uint32_t> corners,
                          bool open) {
     const auto follow = [&](std::uint32_t entered) {

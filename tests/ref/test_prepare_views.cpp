@@ -1,5 +1,5 @@
-// What PreparedMesh takes from where it lies: float or double, packed or with strides, indices of
-// 16 or 32 bits; and layouts that it refuses.
+// Views that PreparedMesh takes as they are: float or double, packed or with strides, indices of 16
+// or 32 bits; and layouts that it refuses.
 #include <cstdint>
 #include <limits>
 #include <span>
@@ -73,7 +73,7 @@ TEST_CASE("views: any layout gives the same mesh to the bit") {
         std::vector<EngineVertex> engine(mesh.vertex_count());
         std::vector<ExactVertex> exact(mesh.vertex_count());
         for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) {
-            // What lies between the positions is not looked at.
+            // Values between the positions are not looked at.
             constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
             engine[v] = {{kNan, kNan, kNan}, {}, {kNan, kNan}};
             exact[v] = {{kNan, kNan}, {}};

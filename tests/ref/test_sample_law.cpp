@@ -72,7 +72,7 @@ TEST_CASE("sample law: samples of each face") {
     constexpr Measured kExpectedTotal{34.54835, 0.01197};
     constexpr std::uint32_t kSeeds = 1000;
     constexpr double kExpectedSeeds = 20000;
-    // Of 25 right means one in 60,000 is farther off.
+    // One in 60,000 of 25 right means is farther off.
     constexpr double kMaxErrors = 5;
     const PreparedMesh mesh = prepared(shape);
     SampleParams params = params_for(mesh, 30);

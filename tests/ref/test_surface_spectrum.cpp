@@ -55,7 +55,7 @@ struct Harmonics {
     }
 };
 
-/// Of what dense algebra finds, without those of the lowest frequency.
+/// Solves for what dense algebra finds, without those of the lowest frequency.
 Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> dense(const Laplacian& laplacian) {
     return Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd>(
         Eigen::MatrixXd(laplacian.stiffness), Eigen::MatrixXd(laplacian.mass));

@@ -39,7 +39,7 @@ MeshStatistics statistics_of(const TestMesh& mesh, const std::vector<std::uint32
     return result->statistics();
 }
 
-/// What each vertex becomes, by all pairs, over and over.
+/// Returns what each vertex becomes, by all pairs, over and over.
 std::vector<std::uint32_t> by_all_pairs(const TestMesh& mesh, double epsilon) {
     std::vector<std::uint32_t> lowest;
     for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) {

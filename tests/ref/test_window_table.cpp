@@ -25,7 +25,7 @@ using tools::picture::WindowTable;
 namespace {
 
 constexpr double kFar = std::numeric_limits<double>::infinity();
-/// Of the unit: what float makes of faces many units long, and the width of kSeam.
+/// Error as a part of the unit: what float makes of faces many units long, and the width of kSeam.
 constexpr double kError = 5e-4;
 
 /// As surface.frag looks a place up: the distance of each sample there, in mesh units.

@@ -19,7 +19,7 @@ DistanceTable unfolded_distances(const TestMesh& mesh, const std::vector<Point>&
 
 /// A distance that is not the true one.
 struct WrongDistance {
-    const char* kind; ///< How it was computed.
+    const char* kind; ///< Method by which it was computed.
     std::size_t from, to;
     double found, truth;
 

@@ -21,7 +21,7 @@ double height(const Choose& choose) {
     return digits < 3 ? 0 : (1 + choose(9)) * std::pow(10.0, -static_cast<double>(digits));
 }
 
-/// Where an edge is cut.
+/// Returns the place where an edge is cut.
 double part(const Choose& choose) {
     constexpr std::array<double, 8> kParts{0.5, 0.25, 0.75, 1 / 3.0, 0.1, 0.6, 0.9, 0.4};
     if (choose(8) == 0) {

@@ -1,4 +1,4 @@
-// What tests may ask of the device that they run on, whichever it is.
+// Abilities that tests may ask of the device that they run on, whichever it is.
 #pragma once
 
 #include <vector>

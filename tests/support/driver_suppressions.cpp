@@ -18,16 +18,17 @@ GEODISK_LOOKED_UP const char* __lsan_default_suppressions() {
            "leak:libvulkan_radeon\n";
 }
 
-// What it suppresses would follow what the program prints.
+// Suppresses a list that would follow what the program prints.
 GEODISK_LOOKED_UP const char* __lsan_default_options() {
     return "print_suppressions=0";
 }
 
-// What these libraries call. Our own accesses to what they share with us are still watched.
+// Suppresses what these libraries call. Our own accesses to what they share with us are still
+// watched.
 GEODISK_LOOKED_UP const char* __tsan_default_suppressions() {
     return "called_from_lib:libVkLayer_khronos_validation.so\n"
            "called_from_lib:libvulkan_lvp.so\n"
-           // Of what lavapipe compiles with, and where that registers its functions.
+           // Libraries that lavapipe compiles with, and where that registers its functions.
            "called_from_lib:libLLVM\n"
            "called_from_lib:libgcc_s\n";
 }

@@ -39,7 +39,7 @@ class GeodesicQuery {
     /// Trims windows from the start of all disks.
     void trim_all() { detector_.trim_all(); }
 
-    /// What the last call took.
+    /// Returns what the last call took.
     const ref::DiskCount& count() const { return count_; }
 
   private:

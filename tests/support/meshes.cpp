@@ -25,7 +25,7 @@ void add_quad(TestMesh& mesh, std::uint32_t a, std::uint32_t b, std::uint32_t c,
     mesh.add_triangle(a, c, d);
 }
 
-/// Whether d lies outside the circle through a, b, c (counter-clockwise, z = 0).
+/// Returns true if d lies outside the circle through a, b, c (counter-clockwise, z = 0).
 bool outside_circle(Vec3 a, Vec3 b, Vec3 c, Vec3 d) {
     const Vec3 p = a - d;
     const Vec3 q = b - d;

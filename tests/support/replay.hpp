@@ -13,8 +13,9 @@ struct ReplayReport {
     std::uint32_t accepted = 0;
     std::uint32_t ties = 0; ///< Decisions where double would differ, within the guard of the limit.
     std::uint32_t wrong = 0; ///< Decisions where double differs by more.
-    double largest_gap = 0;  ///< Of the ties, in units of the minimum distance.
-    /// Of the float distances of conflicts from those in double precision, in units of the guard.
+    double largest_gap = 0;  ///< Largest gap of the ties, in units of the minimum distance.
+    /// Maximum deviation of the float distances of conflicts from those in double precision, in
+    /// units of the guard.
     double largest_deviation = 0;
 };
 

@@ -15,8 +15,9 @@ thread_local std::uint64_t allocated = 0;
 
 } // namespace
 
-// Of the whole program; the other forms of the operators call these. That of no exceptions does so
-// here, as sanitizers bring one that does not, whose memory would reach this operator delete.
+// Replaces the operator of the whole program; the other forms of the operators call these. That of
+// no exceptions does so here, as sanitizers bring one that does not, whose memory would reach this
+// operator delete.
 void* operator new(std::size_t size) {
     allocated += size;
     if (left != kNever && left-- == 0) {

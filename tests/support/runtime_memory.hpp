@@ -17,7 +17,7 @@ class FailingNew {
     FailingNew(const FailingNew&) = delete;
     FailingNew& operator=(const FailingNew&) = delete;
 
-    /// Whether it has failed.
+    /// Returns true if it has failed.
     bool has_failed() const;
 };
 

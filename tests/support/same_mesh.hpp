@@ -1,4 +1,4 @@
-// Whether two prepared meshes are the same to the bit.
+// Comparison of two prepared meshes, to the bit.
 #pragma once
 
 #include "geodisk/mesh.hpp"

@@ -1,4 +1,4 @@
-// Which sanitizer of GCC or Clang the tests are built with.
+// Sanitizer of GCC or Clang that the tests are built with.
 #pragma once
 
 #if defined(__SANITIZE_ADDRESS__)

@@ -141,7 +141,7 @@ void roughen(MeshFile& mesh, std::uint64_t seed, std::size_t splits, double nois
     flip_edges(mesh, edits, 0.7);
 }
 
-/// Which way something lies from the middle of a body, and the cosine of how far around it reaches.
+/// Direction of something from the middle of a body, and the cosine of how far around it reaches.
 struct Spot {
     Vec3 way;
     double cosine;

@@ -11,7 +11,7 @@
 
 namespace geodisk::test {
 
-/// What is known of a mesh.
+/// Facts about a mesh.
 struct KnownMesh {
     std::string_view name;
     std::uint64_t vertices, triangles, border_edges, components, crowded_edges;

@@ -34,7 +34,7 @@ PFN_vkCreateDevice real_create_device = nullptr;
 PFN_vkGetDeviceProcAddr real_device_function = nullptr;
 PFN_vkQueueSubmit real_submit = nullptr;
 
-/// How many devices are to be lost.
+/// Returns how many devices are to be lost.
 int losses() {
     const char* const text = std::getenv("GEODISK_TEST_LOSSES");
     return text != nullptr ? std::atoi(text) : 0;
@@ -76,7 +76,7 @@ void disguise(VkPhysicalDeviceProperties& properties) {
     }
 }
 
-/// What is asked for besides.
+/// Disguises what is asked for besides.
 void disguise(void* chain) {
     constexpr std::uint32_t kSubgroup = 32;
     for (auto* next = static_cast<VkBaseOutStructure*>(chain); is_disguised() && next != nullptr;

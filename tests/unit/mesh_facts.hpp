@@ -14,7 +14,7 @@
 
 namespace geodisk::tools {
 
-/// Of a mesh in space.
+/// Returns the position of a vertex of a mesh in space.
 inline Vec3 position_at(const MeshFile& mesh, std::size_t vertex) {
     const double* p = &mesh.positions[3 * vertex];
     return {p[0], p[1], p[2]};
@@ -83,7 +83,7 @@ struct MeshFacts {
     bool is_closed_manifold() const {
         return border_edges == 0 && crowded_edges == 0 && pinched_vertices == 0;
     }
-    /// Of one closed orientable surface.
+    /// Returns the genus of one closed orientable surface.
     std::ptrdiff_t genus() const { return (2 - euler_characteristic) / 2; }
 };
 

@@ -94,7 +94,8 @@ double veronese_area() {
     return area / 2;
 }
 
-/// Whether triangles can be turned over so that neighbours agree, on a closed surface of one part.
+/// Returns true if triangles can be turned over so that neighbours agree, on a closed surface of
+/// one part.
 bool is_orientable(const MeshFile& mesh) {
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::pair<std::size_t, bool>>>
         edges;

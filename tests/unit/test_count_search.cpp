@@ -13,7 +13,7 @@ namespace {
 struct Found {
     std::uint64_t count;
     std::uint32_t tries;
-    double distance; ///< Of the best try; 0 for none.
+    double distance; ///< Distance of the best try; 0 for none.
 };
 
 /// Follows the search from a distance, where `count_at(distance)` samples come out.

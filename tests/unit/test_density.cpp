@@ -1,5 +1,5 @@
-// What radii that vary are made of: images, texture coordinates, values of vertices and curvature;
-// and the radius of samples in files.
+// Sources of radii that vary: images, texture coordinates, values of vertices and curvature; and
+// the radius of samples in files.
 #include "files/image.hpp"
 #include "files/mesh_file.hpp"
 #include "files/sample_file.hpp"
@@ -100,7 +100,7 @@ TEST_CASE("what is no image is refused") {
         fails(folder.write("cut.jpg", std::string_view(kJpeg).substr(0, size)),
               "cannot be read as a JPEG image: ");
     }
-    // What it says of itself takes 12 GB.
+    // The size that its header claims takes 12 GB.
     std::string huge = png_bytes(3, 2, std::string(6, 'x'));
     const std::string size =
         big_endian(100000) + big_endian(60000) + std::string("\x08\0\0\0\0", 5);

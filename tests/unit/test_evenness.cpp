@@ -1,4 +1,4 @@
-// Whether counts of samples are told from those of an even spread.
+// Tests that counts of samples are distinguished from those of an even spread.
 #include <doctest/doctest.h>
 
 #include <cmath>

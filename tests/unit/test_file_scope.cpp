@@ -14,7 +14,7 @@ using namespace geodisk::tools;
 
 namespace {
 
-/// What a mesh in the folder `in` names.
+/// Kind of file that a mesh in the folder `in` names.
 enum class Named { library, image, buffer };
 
 constexpr std::array kAll{Named::library, Named::image, Named::buffer};

@@ -1,4 +1,4 @@
-// What a command reads is never written.
+// Files that a command reads are never written.
 #include "files/files_in_use.hpp"
 
 #include <algorithm>

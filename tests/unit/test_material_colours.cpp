@@ -61,7 +61,7 @@ void check_colours(const MeshFile& mesh, std::uint32_t triangle,
     }
 }
 
-/// Of 0 elements if the mesh has no such warning.
+/// Returns the warning of this kind; one of 0 elements if the mesh has none.
 MeshWarning warning_of(const MeshFile& mesh, std::string_view kind) {
     const auto found = std::ranges::find(mesh.warnings, kind, &MeshWarning::kind);
     return found == mesh.warnings.end() ? MeshWarning{} : *found;

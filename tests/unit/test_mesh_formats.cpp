@@ -1,4 +1,4 @@
-// What is particular to each format of mesh files.
+// Particulars of each format of mesh files.
 #include "files/mesh_file.hpp"
 
 #include "mesh_bytes.hpp"

@@ -1,4 +1,4 @@
-// What is told of meshes whose faces hang together in odd ways.
+// Warnings about meshes whose faces hang together in odd ways.
 #include "files/mesh_file.hpp"
 #include "geometry/surface_warnings.hpp"
 #include "test_files.hpp"

@@ -90,8 +90,8 @@ void check_same(const ObjContent& ours, const ObjContent& theirs) {
     CHECK(ours.faces == theirs.faces);
 }
 
-/// What tinyobjloader reads as something else, and where a copy that is dropped is no face to
-/// compare.
+/// Files that tinyobjloader reads as something else, and those where a copy that is dropped is no
+/// face to compare.
 const std::set<std::string> kOtherwise{
     "good_bom.obj",          "good_line_continuation.obj", "good_whitespace.obj",
     "warn_isolated_nan.obj", "warn_duplicate_faces.obj",   "warn_duplicate_flipped.obj"};

@@ -1,4 +1,4 @@
-// What pages carry, as far as that needs no device.
+// Data that pages carry, as far as that needs no device.
 #include <doctest/doctest.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// What pictures are made of, as far as that needs no device.
+// Parts that pictures are made of, as far as that needs no device.
 #include <doctest/doctest.h>
 
 #include <algorithm>

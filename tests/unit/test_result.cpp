@@ -13,7 +13,7 @@
 
 namespace {
 
-/// What a process that runs `misuse` prints before it aborts.
+/// Returns what a process that runs `misuse` prints before it aborts.
 template <class Misuse>
 std::string last_words(const Misuse& misuse) {
     int ends[2];

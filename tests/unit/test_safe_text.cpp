@@ -79,7 +79,7 @@ TEST_CASE("JSON holds every name, and no control character as it is") {
         CHECK_FALSE(has_control(line));
         CHECK(nlohmann::json::parse(line)["mesh"].is_string());
     }
-    // What is UTF-8 comes back as it was; U+FFFD stands for what is not.
+    // Valid UTF-8 comes back as it was; U+FFFD stands for what is not.
     const std::string mixed = "\x1b\xc2\x9b\xe2\x80\xae\n\"</script>";
     CHECK(nlohmann::json::parse(json_text({{"mesh", mixed}}, 2))["mesh"] == mixed);
     CHECK(json_text("a\xff", -1) == "\"a\xef\xbf\xbd\"");

@@ -44,7 +44,7 @@ Vec3 normal_of(const MeshFile& mesh, std::size_t triangle) {
     return cross(corner_of(mesh, triangle, 1) - a, corner_of(mesh, triangle, 2) - a);
 }
 
-/// What makes a surface hard.
+/// Properties that make a surface hard.
 struct Hardness {
     std::size_t border_loops = 0;
     double slivers = 0;        ///< Share of triangles over 20 times as long as high.
@@ -118,7 +118,7 @@ Hardness hardness_of(const MeshFile& mesh) {
     return found;
 }
 
-/// Whether an edge of one triangle passes through another one.
+/// Returns true if an edge of one triangle passes through another one.
 bool passes_through(const MeshFile& mesh, std::size_t one, std::size_t other) {
     const auto volume = [](const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
         return dot(cross(b - a, c - a), d - a);
@@ -179,7 +179,7 @@ TEST_CASE("stand-ins: their table is right, and they are made alike each time") 
 TEST_CASE("stand-ins: scans are noisy, uneven, irregular and of the genus they should have") {
     struct Scan {
         const char* name;
-        std::ptrdiff_t euler_characteristic; ///< Of all parts.
+        std::ptrdiff_t euler_characteristic; ///< Euler characteristic of all parts.
         std::size_t border_loops;
     };
     for (const Scan& scan :

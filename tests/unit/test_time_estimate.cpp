@@ -1,4 +1,4 @@
-// How long a run is said to take.
+// Estimates of how long a run takes.
 #include <doctest/doctest.h>
 
 #include "program/time_estimate.hpp"

@@ -15,7 +15,7 @@ namespace geodisk::tools {
 #ifndef _WIN32
 namespace {
 
-/// What load_tuning() says of a file that holds `text`.
+/// Returns what load_tuning() says of a file that holds `text`.
 std::string message_for(const TemporaryFolder& folder, const std::string& text) {
     setenv("XDG_CACHE_HOME", std::filesystem::path(folder / ".").c_str(), 1);
     const DeviceReport device;

@@ -69,7 +69,7 @@ TEST_CASE("groups of one law differ as often as chance allows") {
         means += found.radial_mean.p < 0.05 ? 1 : 0;
         anisotropies += found.anisotropy.p < 0.05 ? 1 : 0;
     }
-    // Of a binomial law with 5 expected more than 14 come once in ten thousand times.
+    // More than 14 come once in ten thousand times of a binomial law with 5 expected.
     CHECK(means <= 14);
     CHECK(anisotropies <= 14);
 }

@@ -1,4 +1,4 @@
-// Whether samples of many seeds lie on a surface as its area does.
+// Tests of whether samples of many seeds lie on a surface as its area does.
 #pragma once
 
 #include <cstdint>

@@ -28,7 +28,7 @@ Triangle triangle_of(const HalfEdge& edge) {
     return result;
 }
 
-/// What triangles add up to, entry by entry.
+/// Sums over triangles, entry by entry.
 struct Entries {
     std::vector<Eigen::Triplet<double>> stiffness, mass;
 

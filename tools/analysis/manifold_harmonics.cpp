@@ -33,9 +33,9 @@ constexpr double kNarrowest = 1e-7;
 /// By which a shift moves that hits an eigenvalue.
 constexpr double kNudge = 1e-9;
 constexpr int kMaxNudges = 100;
-constexpr double kTolerance = 1e-10; ///< Of an eigenvalue of the inverse.
+constexpr double kTolerance = 1e-10; ///< Tolerance of an eigenvalue of the inverse.
 constexpr Index kMaxRestarts = 300;
-/// Of the Krylov space, beyond twice the eigenvalues looked for.
+/// Dimensions of the Krylov space beyond twice the eigenvalues looked for.
 constexpr std::size_t kSpareDimensions = 20;
 
 std::size_t krylov_size(std::size_t wanted) {
@@ -59,7 +59,7 @@ class Factors {
         }
         throw UserError(ExitCode::bad_input, "the waves of the mesh are beyond double precision");
     }
-    /// How many eigenvalues are below the shift.
+    /// Returns how many eigenvalues are below the shift.
     std::size_t below() const {
         return static_cast<std::size_t>((solver_.vectorD().array() < 0).count());
     }
@@ -112,7 +112,7 @@ class Inverse {
     Eigen::MatrixXd known_, weighted_;
 };
 
-/// What a slice's Lanczos runs have found.
+/// Results of a slice's Lanczos runs.
 class FoundModes {
   public:
     FoundModes(const Laplacian& laplacian, const Slice& slice)

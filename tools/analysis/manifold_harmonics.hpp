@@ -21,7 +21,7 @@ struct HarmonicBand {
     Eigen::MatrixXd functions;
 };
 
-/// What computing them takes.
+/// Cost of computing them.
 struct HarmonicCost {
     double seconds, bytes;
 };
@@ -38,7 +38,8 @@ class ManifoldHarmonics {
     ~ManifoldHarmonics();
     ManifoldHarmonics(ManifoldHarmonics&&) noexcept;
 
-    /// How many there are; those of the finest waves hardly resemble those of the smooth surface.
+    /// Returns the number of harmonics. Those of the finest waves hardly resemble those of the
+    /// smooth surface.
     std::size_t count() const { return count_; }
 
     /// A guess, from the time that solving once took.

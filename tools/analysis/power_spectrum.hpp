@@ -21,8 +21,8 @@ class PowerSpectrum {
     /// waves per unit of length.
     PowerSpectrum(const BoxParams& box, double highest);
 
-    /// How many frequencies the object would hold, 8 bytes each: a half of those in the box around
-    /// the highest, as power is the same at opposite ones.
+    /// Returns how many frequencies the object would hold, 8 bytes each: a half of those in the box
+    /// around the highest, as power is the same at opposite ones.
     static double count(const BoxParams& box, double highest);
 
     /// Adds a set: as many coordinates per sample as there are sides, at least one sample. Works on
@@ -51,8 +51,9 @@ class PowerSpectrum {
     double highest_;
     std::vector<std::int64_t> max_;
     std::uint32_t sets_ = 0;
-    /// Of the sets' periodograms, row by row. A row has all waves along the first side, and certain
-    /// ones along each of the others: any, but none below 0 along the last, which goes slowest.
+    /// Sums of the sets' periodograms, row by row. A row has all waves along the first side, and
+    /// certain ones along each of the others: any, but none below 0 along the last, which goes
+    /// slowest.
     std::vector<double> sums_;
 };
 

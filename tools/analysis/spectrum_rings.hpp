@@ -11,7 +11,7 @@ namespace geodisk::tools::analysis {
 struct SpectrumRing {
     double frequency; ///< The middle, in waves per unit of length.
     std::uint32_t count;
-    double mean;       ///< Of the power, the radial mean.
+    double mean;       ///< Mean of the power, the radial mean.
     double anisotropy; ///< Its variance over its squared mean, of the power averaged over sets.
 };
 
@@ -27,7 +27,7 @@ class RingSums {
     /// Rings are `width` wide, from frequency 0 to `highest`; both positive.
     RingSums(double width, double highest);
 
-    /// Of a frequency beyond the highest nothing is added.
+    /// Adds power at a frequency. Ignores frequencies beyond the highest.
     void add(double frequency, double power);
 
     /// Those of at least two frequencies, as fewer have no variance.

@@ -7,7 +7,7 @@
 namespace geodisk::tools::analysis {
 namespace {
 
-/// Of a function over the samples, by its values at the nodes.
+/// Returns the sum of a function over the samples, by its values at the nodes.
 double sum_of(const double* at_nodes, const Laplacian& laplacian, const PlacedSamples& samples) {
     double sum = 0;
     for (const auto& [face, weight1, weight2] : samples) {

@@ -26,17 +26,17 @@ struct SurfaceSpectrum {
     /// By set, then harmonic.
     std::vector<std::vector<double>> powers;
 
-    /// Of the power averaged over `sets`, numbers of them, as wide as the rings of a square of the
-    /// same area. The anisotropy is 2 / sets.size() if no direction is another than the others,
-    /// twice as much as in the plane: the waves are real ones.
+    /// Returns the rings of the power averaged over `sets`, numbers of them, as wide as the rings
+    /// of a square of the same area. The anisotropy is 2 / sets.size() if no direction is another
+    /// than the others, twice as much as in the plane: the waves are real ones.
     std::vector<SpectrumRing> rings(std::span<const std::size_t> sets) const;
-    /// Of all sets.
+    /// Returns the rings of all sets.
     std::vector<SpectrumRing> rings() const;
 };
 
-/// Of the first so many of `harmonics`, at most their count. Sets are not empty. Works on as many
-/// threads as there are cores, and the result does not depend on them. Throws as
-/// ManifoldHarmonics::compute().
+/// Returns the spectrum by the first so many of `harmonics`, at most their count. Sets are not
+/// empty. Works on as many threads as there are cores, and the result does not depend on them.
+/// Throws as ManifoldHarmonics::compute().
 SurfaceSpectrum compute_spectrum(const Laplacian& laplacian, const ManifoldHarmonics& harmonics,
                                  std::size_t count, std::span<const PlacedSamples> sets,
                                  const PartDone& tell);

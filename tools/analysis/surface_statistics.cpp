@@ -20,7 +20,7 @@ constexpr double kMaxCells = 0x1p24;
 /// Sources that a thread takes at a time.
 constexpr std::size_t kBatch = 64;
 constexpr double kNone = std::numeric_limits<double>::infinity();
-/// Of distances, in each minimum distance.
+/// Bins of distances in each minimum distance.
 constexpr std::size_t kBinsPerDistance = 20;
 
 /// Uniform in [0, 1), the same on every machine.
@@ -65,7 +65,7 @@ struct Pair {
     double distance;
 };
 
-/// What the disks of a batch of samples found.
+/// Findings of the disks of a batch of samples.
 struct Found {
     std::vector<Pair> sample_distances; ///< Each pair both ways.
     /// Distances of places from samples, for each place and class: `place * classes + class`.
@@ -78,7 +78,7 @@ struct Layout {
     ref::Surface<double> surface;
     std::size_t samples;
     ref::Bins<double> bins;              ///< Samples, then places.
-    std::vector<std::uint32_t> place_of; ///< Of each sample, in the bins.
+    std::vector<std::uint32_t> place_of; ///< Place of each sample, in the bins.
 
     Layout(const PreparedMesh& mesh, std::span<const SurfaceDisk> given,
            const std::vector<Point>& places, double spacing)

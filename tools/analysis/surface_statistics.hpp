@@ -1,4 +1,4 @@
-// What can be said of samples on a surface by their geodesic distances.
+// Statistics of samples on a surface by their geodesic distances.
 #pragma once
 
 #include <cstdint>
@@ -41,14 +41,14 @@ struct SurfaceStatistics {
 
     double reach = kReach;
     double smallest = 0;             ///< Distance of any two; the reach, if all are farther apart.
-    double mean_nearest = 0;         ///< Of each sample's nearest, of those that have one in reach.
+    double mean_nearest = 0;         ///< Mean distance to a nearest sample, of those in reach.
     std::uint64_t lonely = 0;        ///< Samples without another one in reach.
-    Histogram nearest;               ///< Of each sample's nearest.
-    std::vector<Neighbor> neighbors; ///< Of each sample: the nearest.
+    Histogram nearest;               ///< Distances of each sample's nearest.
+    std::vector<Neighbor> neighbors; ///< Nearest of each sample.
     std::uint32_t probes = 0;        ///< Random places, uniform by area of the faces looked at.
     double uncovered = 0;   ///< Part of them that is not within 1 of a sample, where another
                             ///< one would have room, of any class.
-    double largest_gap = 0; ///< Of a probe to the nearest sample; the reach, if beyond it.
+    double largest_gap = 0; ///< Distance of a probe to the nearest sample; the reach, if beyond it.
     /// Pairs at a distance, over those of samples and random places there: 1 where samples know
     /// nothing of each other. As the surface is the same for both, its bends and borders cancel.
     /// Empty where radii vary or there are classes, as there samples are not equally dense.

@@ -19,7 +19,7 @@ struct Circumstances {
     std::string build_type, compiler;
     std::string device, driver, device_type;
     std::string cpu;    ///< Model name, or "unknown".
-    unsigned cores = 0; ///< That this process may be scheduled on; 0 if unknown.
+    unsigned cores = 0; ///< Cores that may run this process; 0 if unknown.
     std::string date;   ///< UTC, ISO 8601.
     int repeats = 0, warm_ups = 0;
     std::uint64_t seed = 0;

@@ -17,12 +17,12 @@ namespace geodisk::bench {
 /// to result.
 struct CopiesRow {
     std::string mesh;
-    std::uint64_t triangles = 0; ///< Of all copies.
+    std::uint64_t triangles = 0; ///< Triangles of all copies.
     std::uint64_t samples = 0;   ///< The same.
     struct {
         double one_by_one = 0;
-        double one_job = 0;  ///< Of all copies, each with a seed of its own.
-        double one_mesh = 0; ///< That has all copies as parts, prepared before.
+        double one_job = 0;  ///< Seconds of all copies, each with a seed of its own.
+        double one_mesh = 0; ///< Seconds of a mesh with all copies as parts, prepared before.
     } seconds;
 };
 

@@ -29,7 +29,7 @@ struct Measurement {
         double device = 0; ///< With upload and readback. Meaningful where the device is a CPU.
         double reference = 0;
     } cpu_seconds;
-    RunReport run; ///< Of the last run; only its seconds vary.
+    RunReport run; ///< Report of the last run; only its seconds vary.
 
     double per_sample(double value) const { return value / static_cast<double>(samples); }
     double per_disk(double value) const { return value / static_cast<double>(run.disks); }
@@ -45,7 +45,7 @@ struct BenchMesh {
 /// Prepares `mesh` `repeats` times. Throws UserError(bad_input) if it is rejected.
 BenchMesh prepare_mesh(const std::string& name, const tools::MeshFile& mesh, int repeats);
 
-/// What gives about `count` samples.
+/// Returns parameters that give about `count` samples.
 SampleParams params_for(const BenchMesh& mesh, double count, std::uint64_t seed);
 
 /// "bunny.ply, 1,000 samples", for messages.

@@ -1,4 +1,4 @@
-// What a benchmark run is asked to do.
+// Options of a benchmark run.
 #pragma once
 
 #include <cstdint>
@@ -17,15 +17,15 @@ struct Options {
     std::vector<double> counts; ///< Target number of samples; those of the sweep if `scaling`.
     int repeats = 5;
     int warm_ups = 1;
-    std::uint64_t seed = 1; ///< Of all runs; copies count on from it.
+    std::uint64_t seed = 1; ///< Seed of all runs; copies count on from it.
     std::string device;
     RunnerOptions runner;
 
     bool tune = false;
     bool scaling = false;
-    std::uint32_t copies = 0;    ///< Of each mesh, to sample together; 0 for a table of meshes.
+    std::uint32_t copies = 0; ///< Copies of each mesh, to sample together; 0 for a table of meshes.
     double face_sweep_count = 0; ///< Target number of samples while triangles vary.
-    std::uint64_t max_faces = 0; ///< Where the sweep of triangles ends.
+    std::uint64_t max_faces = 0; ///< Maximum in the sweep of triangles.
 
     std::string json, csv; ///< Files to write; empty for none.
 };

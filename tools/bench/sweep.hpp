@@ -1,4 +1,4 @@
-// Which meshes and counts a benchmark run goes through, and how times grow with them.
+// Meshes and counts that a benchmark run goes through, and the growth of times with them.
 #pragma once
 
 #include <cstdint>
@@ -16,12 +16,12 @@
 
 namespace geodisk::bench {
 
-/// What a series varies. `listed` are the counts asked for, and no sweep.
+/// Quantity that a series varies. `listed` are the counts asked for, and no sweep.
 enum class Sweep { listed, samples, triangles };
 
 const char* to_string(Sweep sweep);
 
-/// How one quantity grows along a sweep.
+/// Growth of one quantity along a sweep.
 struct Growth {
     const char* quantity;        ///< "device", "reference" or "prepare": which seconds.
     std::optional<PowerLaw> law; ///< Nothing if the sweep has fewer than two steps.

@@ -10,14 +10,14 @@
 namespace geodisk::bench {
 namespace {
 
-/// What a change must gain to be kept.
+/// Minimum gain of a change that is kept.
 constexpr double kMinGain = 0.03;
 
 struct Job {
     PreparedMesh mesh;
     SampleParams params;
     std::string what;
-    std::vector<Sample> samples; ///< Of the first run, for all others to equal.
+    std::vector<Sample> samples; ///< Samples of the first run, for all others to equal.
 };
 
 std::vector<Job> jobs_of(const Options& options, const std::vector<NamedMesh>& meshes) {

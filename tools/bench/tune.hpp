@@ -15,7 +15,7 @@ namespace geodisk::bench {
 
 /// A tuning that was measured in turn with the best one so far.
 struct Trial {
-    std::string setting; ///< What it changes, "pool_block 32".
+    std::string setting; ///< Setting that it changes, "pool_block 32".
     double ratio = 0;    ///< Its device time over that of the best, geometric mean over the work.
     bool is_kept = false;
 };

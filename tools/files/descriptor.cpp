@@ -23,7 +23,7 @@ int copy_descriptor(int descriptor) {
     return copy;
 }
 
-// What a process has open so, others cannot write or remove.
+// Opens a file so that other processes cannot write or remove it.
 int open_alone(const std::filesystem::path& path, int flags) {
     int descriptor = -1;
     const int error = _wsopen_s(&descriptor, path.c_str(), flags | _O_BINARY | _O_NOINHERIT,

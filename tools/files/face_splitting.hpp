@@ -10,13 +10,13 @@
 namespace geodisk::tools {
 
 struct SplitCounts {
-    Found small_faces;          ///< Of fewer than 3 corners, which make no triangle.
-    Found bent_faces;           ///< Of more than 3 corners that are far from flat.
+    Found small_faces;          ///< Faces of fewer than 3 corners, which make no triangle.
+    Found bent_faces;           ///< Faces of more than 3 corners that are far from flat.
     std::uint64_t polygons = 0; ///< Faces of more than 3 corners.
-    Found repeating_faces;      ///< That lost some of their triangles as they repeat a vertex.
+    Found repeating_faces;      ///< Faces that lost some triangles as they repeat a vertex.
 };
 
-/// How many triangles all faces make.
+/// Returns how many triangles all faces make.
 std::uint64_t triangles_of(const PolygonMesh& polygons);
 
 /// Fills `mesh.triangles` and `mesh.polygons`, and may take `polygons.corners` for it: a face of k

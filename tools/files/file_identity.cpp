@@ -42,7 +42,7 @@ std::string number_of(const struct stat& status) {
     return std::to_string(status.st_dev) + ':' + std::to_string(status.st_ino);
 }
 
-/// What the file system knows the file by, or "" where there is none.
+/// Returns what the file system knows the file by, or "" where there is none.
 std::string number_of(const std::filesystem::path& path) {
     struct stat status {};
     return stat(path.c_str(), &status) == 0 ? number_of(status) : "";
@@ -59,7 +59,8 @@ std::string identity_of_stream(const std::filesystem::path& path, const StreamPa
 }
 #endif
 
-/// Of a file that does not exist: the folder that does, and the names below it.
+/// Returns the identity of a file that does not exist: the folder that does, and the names below
+/// it.
 std::string identity_in_folder(const std::filesystem::path& path) {
     std::error_code ignored;
     std::filesystem::path folder = std::filesystem::absolute(path, ignored).lexically_normal();

@@ -13,7 +13,7 @@ namespace geodisk::tools {
 /// A file of the command line, and what it is to the user: "the mesh".
 struct NamedFile {
     std::string what, path;
-    std::string format = {}; ///< Of a mesh; "" for that of its extension.
+    std::string format = {}; ///< Format of a mesh; "" for that of its extension.
 };
 
 class FilesInUse {

@@ -10,7 +10,7 @@ namespace geodisk::tools {
 
 struct GltfChunks {
     std::string json;
-    std::string_view binary; ///< Of .glb alone; a part of the bytes of the file.
+    std::string_view binary; ///< Chunk of .glb alone; a part of the bytes of the file.
 };
 
 /// Splits `bytes`, those of the file `path`. Throws UserError(bad_input) if they are no glTF 2.

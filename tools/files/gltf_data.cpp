@@ -89,7 +89,7 @@ double GltfAccessor::divisor() const {
 struct GltfData::Elements {
     const char* first = nullptr;
     std::uint64_t stride = 0;
-    std::uint64_t type = 0; ///< Of a component.
+    std::uint64_t type = 0; ///< Type of a component.
 
     template <class Value>
     Value value(std::uint64_t element, std::size_t component) const {

@@ -14,16 +14,16 @@
 
 namespace geodisk::tools {
 
-/// What an accessor promises.
+/// Promises of an accessor.
 struct GltfAccessor {
     std::uint64_t count = 0;
     std::uint64_t component_type = 0;
     std::size_t components = 0; ///< In each element: 3 for VEC3.
     bool is_normalized = false;
 
-    /// What its integers are divided by.
+    /// Returns the number that its integers are divided by.
     double divisor() const;
-    /// True for integers that stand for themselves.
+    /// Returns true for integers that stand for themselves.
     bool is_whole() const;
 };
 
@@ -37,7 +37,7 @@ class GltfData {
         : document_(document), binary_(binary), scope_(scope) {}
 
     GltfAccessor describe(std::uint64_t accessor, const std::string& where) const;
-    /// True if an accessor has numbers of its own, so that they are not all zero.
+    /// Returns true if an accessor has numbers of its own, so that they are not all zero.
     bool has_values(std::uint64_t accessor, const std::string& where) const;
 
     /// Returns the numbers of an accessor, element after element. `type` is as "VEC3".
@@ -51,7 +51,7 @@ class GltfData {
     /// Returns the bytes of a view, decompressed if need be.
     std::string_view view_bytes(std::uint64_t view, const std::string& where);
 
-    /// What was odd about the data.
+    /// Returns warnings about the data.
     const std::vector<MeshWarning>& warnings() const noexcept { return warnings_; }
 
   private:

@@ -35,7 +35,7 @@ class GltfMaterials {
     GltfData& data_;
     MaterialColours read_;
     std::map<std::uint32_t, std::string> uvs_;       ///< By material.
-    std::map<std::uint64_t, std::uint32_t> indices_; ///< Of images that were read, by their number.
+    std::map<std::uint64_t, std::uint32_t> indices_; ///< Indices of images read, by their number.
 };
 
 } // namespace geodisk::tools

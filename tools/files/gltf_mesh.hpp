@@ -104,7 +104,7 @@ class GltfMeshReader {
     GltfKind kind_;
     std::string place_;           ///< The primitive that is being read, for messages.
     std::string material_uvs_;    ///< Attribute that its material needs, or "".
-    std::vector<double> weights_; ///< Of morph targets.
+    std::vector<double> weights_; ///< Weights of morph targets.
     std::map<Key, std::size_t> known_;
 };
 

@@ -1,4 +1,4 @@
-// Where the vertices of a glTF file are.
+// Places of the vertices of a glTF file.
 #pragma once
 
 #include <cstddef>

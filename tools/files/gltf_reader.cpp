@@ -208,7 +208,7 @@ class GltfReader {
     GltfScene scene_;
     GltfMaterials materials_;
     GltfMeshReader meshes_;
-    bool has_materials_; ///< Whether they are wanted.
+    bool has_materials_; ///< True if they are wanted.
     PolygonMesh mesh_;
     std::uint64_t others_ = 0; ///< Primitives without triangles.
 };

@@ -81,7 +81,8 @@ glm::dmat4 GltfScene::transform_of(const GltfJson& node, const std::string& name
     return composed(data_or_null(translation), data_or_null(rotation), data_or_null(scale));
 }
 
-/// Where the node has its instances, relative to it; just there if it has none.
+/// Returns the transforms of the node's instances, relative to it; the identity alone if it has
+/// none.
 std::vector<glm::dmat4> GltfScene::instances_of(const GltfJson& node, const std::string& name) {
     const GltfJson* const extension =
         document_.find_extension(node, "EXT_mesh_gpu_instancing", name);
@@ -161,7 +162,7 @@ void GltfScene::add_nodes(std::uint64_t root, std::vector<GltfPlacement>& placem
     }
 }
 
-/// Of any node, whether in the scene or not.
+/// Returns the transform of any node, in the scene or not.
 glm::dmat4 GltfScene::global_transform(std::uint64_t index) {
     std::vector<std::uint64_t> path; // Up to a node that is known, or to the root.
     std::optional<std::uint64_t> next = index;

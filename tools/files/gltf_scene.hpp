@@ -21,7 +21,7 @@ struct GltfPlacement {
     std::uint32_t mesh = 0;
     std::vector<glm::dmat4> transforms; ///< One, or those of instances.
     std::optional<std::uint64_t> skin;
-    std::vector<double> weights; ///< Of morph targets, where the node has its own.
+    std::vector<double> weights; ///< Weights of morph targets, if the node has its own.
 };
 
 /// Throws UserError(bad_input), also if nodes make no tree.

@@ -11,7 +11,7 @@
 namespace geodisk::tools {
 namespace {
 
-constexpr double kWhite = 65535; ///< Of a component.
+constexpr double kWhite = 65535; ///< Value of a white component.
 
 /// Returns the place from 0 to 1 that has the colour of another one.
 double folded(double at, ImageWrap wrap) {
@@ -69,7 +69,7 @@ double Image::largest_component() const {
 
 double Image::component(double u, double v, std::size_t index, ImageWrap wrap_u,
                         ImageWrap wrap_v) const {
-    // Where in units of pixels, from the centre of the upper left one.
+    // Place in units of pixels, from the centre of the upper left one.
     const double x = folded(u, wrap_u) * static_cast<double>(width_) - 0.5;
     const double y = (1 - folded(v, wrap_v)) * static_cast<double>(height_) - 0.5;
     const double left = std::floor(x), top = std::floor(y);

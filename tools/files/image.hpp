@@ -30,7 +30,7 @@ class Image {
 
   private:
     std::int64_t width_ = 0, height_ = 0;
-    std::size_t components_;            ///< Of each pixel.
+    std::size_t components_;            ///< Components of each pixel.
     std::vector<std::uint16_t> pixels_; ///< From the upper left, row by row.
 };
 

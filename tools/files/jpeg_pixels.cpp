@@ -9,12 +9,11 @@
 namespace geodisk::tools {
 namespace {
 
-/// Of the scans of a progressive image each can take as long as the first, so their number has to
-/// be bounded.
+/// Maximum of scans of a progressive image: each can take as long as the first.
 constexpr int kMaxScans = 100;
 
-/// What libjpeg's callbacks share. libjpeg ends on errors by a jump, over which nothing may live
-/// that has a destructor.
+/// State that libjpeg's callbacks share. libjpeg ends on errors by a jump, over which nothing may
+/// live that has a destructor.
 struct JpegReader {
     jpeg_decompress_struct jpeg{};
     jpeg_error_mgr errors{};

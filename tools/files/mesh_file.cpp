@@ -92,7 +92,7 @@ void check_corners(const Path& path, const PolygonMesh& polygons, MeshFile& mesh
                 "vertices that are in no face have coordinates that are not finite");
 }
 
-/// Whether the triangle is more than a line or point, up to rounding, at any scale.
+/// Returns true if the triangle is more than a line or point, up to rounding, at any scale.
 bool has_area(const MeshFile& mesh, const std::uint32_t* corner) {
     const auto coordinate = [&](int k, std::size_t axis) {
         return mesh.positions[std::size_t{corner[k]} * mesh.dimension + axis];

@@ -28,7 +28,7 @@ struct MeshSources {
     /// as of STL in any case.
     std::optional<Length> weld = std::nullopt;
     bool has_uvs = false; ///< Read texture coordinates: `vt` of OBJ, see PlyWanted for PLY.
-    ReadingProgress progress = {}; ///< Of the mesh file, but for glTF.
+    ReadingProgress progress = {}; ///< Progress of reading the mesh file; not for glTF.
     /// Leave border edges apart that lie exactly on others. They are joined otherwise, unless
     /// `weld` or `edge_lengths` is given.
     bool keep_seams = false;
@@ -56,10 +56,10 @@ MeshFile split_into_triangles(const MeshSources& sources, PolygonMesh&& polygons
 /// The names of all formats: "obj".
 std::vector<std::string> mesh_formats();
 
-/// Whether `path` is "builtin:NAME" rather than a file.
+/// Returns true if `path` is "builtin:NAME" rather than a file.
 bool is_builtin(const std::string& path);
 
-/// Of one file.
+/// Reads the mesh of one file.
 MeshFile read_mesh(const std::string& path);
 
 /// Writes positions and triangles as binary PLY that reads back exactly: element vertex with double

@@ -192,7 +192,7 @@ class MtlReader {
     Path mtl_;
     std::uint32_t line_ = 0;
     std::vector<std::string_view> words_;
-    std::string name_;                  ///< Of the material that is read.
+    std::string name_;                  ///< Name of the current material.
     MaterialColour* current_ = nullptr; ///< Null for one that is not wanted.
     std::uint64_t ignored_ = 0;         ///< Options.
     std::string ignored_place_;

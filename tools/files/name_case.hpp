@@ -5,8 +5,8 @@
 
 namespace geodisk::tools {
 
-/// Whether it does so where `path` is, or will be: asked of the nearest folder that is there, by
-/// its own name in the other case.
+/// Returns true if the file system at `path` does so. `path` may be a file that does not exist yet.
+/// Asks the nearest folder that exists, by its own name in the other case.
 bool ignores_case(const std::filesystem::path& path);
 
 } // namespace geodisk::tools

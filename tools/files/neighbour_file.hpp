@@ -14,7 +14,7 @@ namespace geodisk::tools {
 /// Rows of targets, one for each source (CSR).
 struct NeighbourTable {
     std::vector<std::uint32_t> sources; ///< Number of the vertex or point of each row.
-    std::vector<std::uint64_t> offsets; ///< Where each row begins, and the end of the last.
+    std::vector<std::uint64_t> offsets; ///< Start of each row, and the end of the last.
     std::vector<std::uint32_t> targets;
     std::vector<float> distances; ///< In mesh units.
 };

@@ -73,7 +73,7 @@ class Arrays {
 
     ZipWriter& zip_;
     std::size_t rows_;
-    UninitializedVector<char> bytes_; ///< Of the array being added.
+    UninitializedVector<char> bytes_; ///< Bytes of the array being added.
 };
 
 template <class Value>

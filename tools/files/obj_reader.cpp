@@ -386,7 +386,7 @@ class ObjReader {
     ObjLines lines_;
     std::uint32_t line_ = 0;
     std::vector<std::string_view> tokens_;
-    bool has_uvs_, has_normals_, has_colours_, has_materials_; ///< What to read.
+    bool has_uvs_, has_normals_, has_colours_, has_materials_; ///< Parts of the file to read.
     MeshField colours_ = make_colours(MeshField::Of::corners, 3);
     MeshField normals_ = make_field("normal", MeshField::Of::corners, 3);
     std::vector<std::uint32_t> vertex_colours_; ///< Index of each, or kNone.

@@ -277,7 +277,7 @@ class OffReader {
     bool has_dimension_ = false; ///< The number of coordinates follows the keyword.
     const WantedFields& fields_;
     bool has_uvs_ = false, has_normals_ = false, has_colours_ = false; ///< Vertices have them.
-    std::size_t colour_size_ = 0;                                      ///< Of the first vertex.
+    std::size_t colour_size_ = 0; ///< Size of the first vertex's colour.
     std::vector<double> normals_, colours_;
 };
 

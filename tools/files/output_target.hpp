@@ -1,4 +1,4 @@
-// Where an output file goes, and what it replaces there.
+// Target of an output file, and the file that it replaces.
 #pragma once
 
 #include <cstdio>
@@ -17,7 +17,7 @@ struct FileRights {
 
 struct OutputTarget {
     std::filesystem::path path; ///< With symbolic links followed, also where they lead to nothing.
-    std::optional<FileRights> replaced; ///< Of the file that is there.
+    std::optional<FileRights> replaced; ///< Rights of the file that is there.
     std::optional<StreamPath> stream;   ///< Set for what is written to, not replaced.
 };
 

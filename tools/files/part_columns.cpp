@@ -20,7 +20,7 @@ struct PartColumn {
     std::string_view name;
     PartValue value;         ///< Null for the parts that no path joins.
     bool may_lack;           ///< Faces without a value have kNoPart.
-    std::string_view source; ///< What to use to have it.
+    std::string_view source; ///< Option or format that provides it.
 };
 
 constexpr std::string_view kGltf = "a glTF file";

@@ -21,7 +21,7 @@ struct PlyProperty {
     std::string name;
     PlyType type;
     std::optional<PlyType> count_type; ///< Set for list properties.
-    std::uint32_t line = 0;            ///< Of the header, from 1.
+    std::uint32_t line = 0;            ///< Line in the header, from 1.
 };
 
 struct PlyElement {
@@ -74,7 +74,7 @@ class PlyFile {
     /// Reads all records of `element`. Every element must be read, in the order of elements().
     void read_records(const PlyElement& element, const Visitor& visit);
 
-    /// How many records of `element` the rest of the file can hold at most.
+    /// Returns how many records of `element` the rest of the file can hold at most.
     std::size_t possible_records(const PlyElement& element) const;
 
     /// Header lines that are no records, and ascii lines with more values than properties: ignored.
@@ -123,7 +123,7 @@ class PlyFile {
     Found unknown_lines_;
     std::uint64_t surplus_lines_ = 0;
     char line_end_ = '\n';                 ///< CR in files that have no LF after it.
-    std::vector<std::string_view> tokens_; ///< Of the ascii record being parsed.
+    std::vector<std::string_view> tokens_; ///< Tokens of the ascii record being parsed.
 };
 
 } // namespace geodisk::tools

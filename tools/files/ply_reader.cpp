@@ -39,7 +39,7 @@ std::vector<std::size_t> numbered_columns(const Path& path, const PlyElement& el
     return columns;
 }
 
-/// Where the coordinates stand; nowhere if the element has none and need not.
+/// Returns the columns of the coordinates; none if the element has none and need not have any.
 std::vector<std::size_t> coordinate_columns(const Path& path, const PlyElement& element,
                                             bool must_exist) {
     if (element.find_scalar("x0")) {
@@ -84,7 +84,7 @@ std::vector<std::size_t> uv_columns(const Path& path, const PlyElement& element,
     return columns;
 }
 
-/// Where a property of faces or vertices stands.
+/// Column of a property of faces or vertices.
 struct PropertyColumn {
     std::size_t index; ///< In PolygonMesh::properties.
     std::size_t column;

@@ -10,8 +10,8 @@
 namespace geodisk::tools {
 namespace {
 
-/// What libpng's callbacks share. libpng ends on errors by a jump, over which nothing may live that
-/// has a destructor.
+/// State that libpng's callbacks share. libpng ends on errors by a jump, over which nothing may
+/// live that has a destructor.
 struct PngReader {
     const unsigned char* next = nullptr;
     std::size_t left = 0;

@@ -25,10 +25,10 @@ struct PolygonMesh {
     std::vector<std::vector<double>> attributes; ///< Those asked for, a value per vertex each.
     std::vector<std::uint32_t> corners; ///< Vertex indices of all faces, one face after another.
     std::vector<std::size_t> face_ends; ///< For each face, the end of its corners.
-    /// Where asked for: texture coordinates, two each, and the one of every corner, or kNoUv.
+    /// Texture coordinates, if asked for: two each, and the one of every corner, or kNoUv.
     std::vector<double> uvs;
     std::vector<std::uint32_t> corner_uvs;
-    /// Where the file divides its faces: the parts, and the index there of each face's.
+    /// Parts that the file divides its faces into, if it does, and the index there of each face's.
     std::vector<MeshPart> parts;
     std::vector<std::uint32_t> part_of_face;
     PartNames part_names;
@@ -37,7 +37,7 @@ struct PolygonMesh {
     /// `uvs` instead.
     std::vector<MeshField> fields;
     std::optional<MeshField> normals;         ///< Those of the file, where asked for and there.
-    std::optional<MaterialColours> materials; ///< Where asked for and there.
+    std::optional<MaterialColours> materials; ///< Colours of materials, where asked for and there.
     /// Texture coordinates of each corner for its material, where they are not the field "uv".
     std::optional<MeshField> material_uvs;
     ElementNames names;
@@ -84,7 +84,7 @@ PolygonMesh read_off(const Path& path, const WantedFields& fields, const Reading
 /// mesh and primitive.
 PolygonMesh read_gltf(const Path& path, const WantedFields& fields, const FileScope& scope);
 
-/// What to read of element `vertex`.
+/// Data to read of element `vertex`.
 struct PlyWanted {
     bool has_coordinates = true;             ///< False: if it has no coordinates, do without.
     std::span<const std::string> attributes; ///< Names of scalar properties.

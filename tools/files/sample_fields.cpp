@@ -52,7 +52,7 @@ void interpolate(const MeshFile& mesh, const MeshField& field, const SampleRow& 
     }
 }
 
-/// True if int32 holds all values.
+/// Returns true if int32 holds all values.
 bool fit_integers(std::span<const double> values) {
     return std::ranges::all_of(values, [](double x) {
         return x >= std::numeric_limits<std::int32_t>::min() &&

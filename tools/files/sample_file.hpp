@@ -30,12 +30,12 @@ struct SampleRow {
     std::optional<std::uint32_t> polygon;
 };
 
-/// Whether polygons were split.
+/// Returns true if polygons were split.
 inline bool has_polygons(std::span<const SampleRow> rows) {
     return !rows.empty() && rows.front().polygon.has_value();
 }
 
-/// Whether radii vary.
+/// Returns true if radii vary.
 inline bool has_radii(std::span<const SampleRow> rows) {
     return !rows.empty() && rows.front().radius > 0;
 }
@@ -94,7 +94,7 @@ struct SampleField {
     bool is_float = false; ///< Files hold it in single precision.
 };
 
-/// What a file of samples holds besides SampleRow.
+/// Columns of a file of samples besides SampleRow.
 struct FurtherColumns {
     std::span<const ExtraColumn> numbers = {};
     std::span<const SampleField> fields = {};

@@ -28,7 +28,7 @@ bool has_colours(const SampleLayout& layout);
 struct SampleClass {
     std::string name;                ///< "Class0" and so on.
     std::array<double, 3> colour;    ///< Linear.
-    std::vector<std::uint32_t> rows; ///< Of the samples, at least one.
+    std::vector<std::uint32_t> rows; ///< Rows of the samples, at least one.
 };
 
 /// Returns the classes that have samples, in order; none if the samples have no classes.

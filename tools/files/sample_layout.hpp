@@ -18,16 +18,16 @@
 
 namespace geodisk::tools {
 
-/// What the columns of a file are.
+/// Columns of a file.
 struct SampleLayout {
     std::uint32_t dimension;
-    std::uint32_t named; ///< How many of the first three coordinates by the names x, y and z.
+    std::uint32_t named; ///< Number of coordinates that have the names x, y and z.
     bool has_float_positions;
     bool has_radius;
     bool has_polygon = false;
     bool is_on_surface = true;
     FurtherColumns further = {};
-    std::array<double, 3> origin{}; ///< What x, y and z are relative to.
+    std::array<double, 3> origin{}; ///< Origin that x, y and z are relative to.
     bool has_float_numbered = has_float_positions;
     ColourEncoding colours = ColourEncoding::srgb;
     bool is_text = false; ///< Numbers are written as text.
@@ -148,7 +148,8 @@ struct SampleBox {
     void add(const SampleBox& other);
 };
 
-/// Whether rounding to float moves no position by more than a millionth of the set's extent.
+/// Returns true if rounding to float moves no position by more than a millionth of the set's
+/// extent.
 bool float_is_enough(const SampleBox& box, std::uint32_t dimension);
 
 /// Returns true for CSV and NPZ, which hold what coordinates there are, as they are. Viewers read
@@ -161,7 +162,7 @@ SampleLayout layout_in(SampleFormat format, std::uint32_t dimension, bool is_flo
 /// The middle of the samples' bounding box, of x y z; 0 without samples.
 std::array<double, 3> middle_of(std::span<const SampleRow> rows);
 
-/// Where to put the origin of x y z in float: 0 unless float would blur them.
+/// Returns where to put the origin of x y z in float: 0 unless float would blur them.
 std::array<double, 3> origin_for_float(std::span<const SampleRow> rows, std::uint32_t dimension);
 
 /// Throws UserError(usage) if x y z relative to `origin`, or the radii, are too large or too small

@@ -20,7 +20,7 @@
 
 namespace geodisk::tools {
 
-/// Where each column of a sample stands in the file.
+/// Columns of a sample in the file.
 struct ColumnPlaces {
     std::array<std::optional<std::size_t>, kSampleColumnNames.size()> named;
     std::vector<std::size_t> coordinates;
@@ -30,10 +30,10 @@ struct ColumnPlaces {
     std::uint32_t dimension() const { return static_cast<std::uint32_t>(coordinates.size()); }
 };
 
-/// What samples lie in, and so what columns must be there.
+/// Domain that samples lie in, which decides what columns must be there.
 enum class SampleDomain { surface, box };
 
-/// Where the column of a name stands, if the file has it.
+/// Returns where the column of a name stands, if the file has it.
 using PlaceOf = std::function<std::optional<std::size_t>(std::string_view name)>;
 
 /// Throws UserError(bad_input) for a column that is missing.

@@ -1,4 +1,4 @@
-// Where samples are written, and in which format.
+// Target and format of written samples.
 #pragma once
 
 #include <string>
@@ -15,7 +15,7 @@ enum class SampleFormat { ply, csv, xyz, obj, pcd, npz, gltf, glb, usda };
 struct SampleTarget {
     Path path;
     SampleFormat format = SampleFormat::ply;
-    bool is_text = false;       ///< Of PLY and PCD, which may be binary.
+    bool is_text = false;       ///< True for PLY and PCD as text rather than binary.
     bool has_header = true;     ///< Write the header's comments, where the format has comments.
     Up up = Up::y;              ///< Axis of the samples that points up in scenes.
     double metres_per_unit = 1; ///< Unit of lengths in scenes.
@@ -28,7 +28,7 @@ SampleTarget sample_target(const Path& path, std::string_view format = {}, bool 
 /// The names of all formats: "npz".
 std::vector<std::string> sample_formats();
 
-/// Whether `name` is that of a format.
+/// Returns true if `name` is that of a format.
 bool is_sample_format(std::string_view name);
 
 /// Returns true for a format that holds a scene, with an axis that points up and a unit: USD, glTF.

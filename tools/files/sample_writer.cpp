@@ -25,7 +25,7 @@ void write_by_row(AtomicFile& file, const RowFormat& format, const SampleHeader&
     });
 }
 
-/// Whether the header is one of comments, which may be left out.
+/// Returns true if the header consists of comments, which may be left out.
 bool has_comments(SampleFormat format) {
     return format == SampleFormat::obj || format == SampleFormat::pcd;
 }

@@ -33,7 +33,7 @@ class EdgeLengths {
     /// Throws UserError(bad_input) if the file has no length for the edge.
     double between(std::uint32_t a, std::uint32_t b);
 
-    /// How many edges nobody has asked for.
+    /// Returns how many edges nobody has asked for.
     std::size_t unused() const;
 
   private:

@@ -169,7 +169,7 @@ class AsciiReader {
     std::vector<std::string_view> tokens_;
     PolygonMesh mesh_;
     bool in_solid_ = false, in_facet_ = false;
-    int vertices_ = 0; ///< Of the facet so far.
+    int vertices_ = 0; ///< Vertices of the facet so far.
 };
 
 /// Some binary files begin with "solid" as well; these have just the size they tell, or a count

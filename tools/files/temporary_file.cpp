@@ -91,7 +91,7 @@ int link_file(const std::filesystem::path& from, const std::filesystem::path& to
 std::FILE* open_new(const std::filesystem::path& path) {
     const int descriptor = open_alone(path, O_CREAT | O_EXCL | O_WRONLY | kNoFollow);
     if (descriptor < 0) {
-        // Where it is locked, another process has taken it for abandoned meanwhile, and removes it.
+        // A locked file was taken for abandoned by another process meanwhile, which removes it.
         errno = errno == EWOULDBLOCK ? EEXIST : errno;
         return nullptr;
     }

@@ -60,9 +60,9 @@ class TextLines {
         return true;
     }
 
-    /// Of the line that next() gave last, from 1.
+    /// Returns the number of the line that next() gave last, from 1.
     std::uint32_t number() const noexcept { return number_; }
-    /// Where the next line begins.
+    /// Returns where the next line begins.
     std::size_t position() const noexcept { return position_; }
 
     /// Tells that the line that next() gave last holds a NUL, and where in the text.
@@ -76,7 +76,7 @@ class TextLines {
 
     std::string_view text_;
     ReadingProgress progress_;
-    std::size_t begin_ = 0; ///< Of the last line.
+    std::size_t begin_ = 0; ///< Start of the last line.
     std::size_t position_ = 0;
     std::size_t feed_ = 0; ///< The first LF from there on, or the end.
     std::uint32_t number_ = 0;

@@ -11,8 +11,8 @@
 
 namespace geodisk::tools {
 
-/// Where the tuning of this device and driver is kept; empty if the user has no folder for cached
-/// files. It is beside those of ContextOptions::keep_pipelines.
+/// Returns the path of the tuning of this device and driver; empty if the user has no folder for
+/// cached files. It is beside those of ContextOptions::keep_pipelines.
 std::filesystem::path tuning_path(const DeviceReport& device);
 
 /// Nothing unless `name` is what to_string() calls one of them.

@@ -131,7 +131,7 @@ std::vector<Path> driver_folders() {
 #endif
 }
 
-/// What follows the name of the file or folder in a message.
+/// Returns the end of a message, after the name of the file or folder.
 std::string fault_of_file(const Path& file) {
     std::error_code ignored;
     if (!std::filesystem::exists(file, ignored)) {

@@ -1,4 +1,4 @@
-// What the environment says of Vulkan devices and drivers. The library itself never reads it.
+// Settings of the environment for Vulkan devices and drivers. The library itself never reads it.
 #pragma once
 
 #include <span>

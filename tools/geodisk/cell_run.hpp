@@ -19,7 +19,7 @@ namespace geodisk::tools {
 struct CellResult {
     SurfaceCells cells;
     std::vector<double> points; ///< Coordinates of the samples, as many as the mesh has each.
-    TriangleAngles angles;      ///< Of the flat triangles of the dual graph.
+    TriangleAngles angles;      ///< Angles of the flat triangles of the dual graph.
     DeviceRun done;
 };
 

@@ -22,7 +22,7 @@
 
 namespace geodisk::tools {
 
-/// How a set of samples came about.
+/// Account of how a set of samples was made.
 struct DeviceRun {
     DeviceReport device;
     Tuning tuning;                 ///< As used.
@@ -53,7 +53,7 @@ class SurfaceSampler {
     virtual const std::vector<ProcessReport>& processes() const = 0;
 };
 
-/// How far a run is that should give about `expected` samples, up to 1.
+/// Returns the part of a run that is done, up to 1. The run should give about `expected` samples.
 double part_done(const Progress& state, double expected);
 
 /// The device was lost in a run, or has not answered.
@@ -118,7 +118,7 @@ class RunDevice {
     /// compiling that no run has told of. Throws UserError.
     double compile(const Domain& domain, ProgressLine& progress);
 
-    // Of a device that is open.
+    // Members of an open device.
     const Context& context() const { return opened_->device->context; }
     Runner& runner() { return opened_->runner; }
     /// Its runner's, with the tuning that is kept for the device.
@@ -147,9 +147,9 @@ class RunDevice {
     DeviceLog log_;
     std::shared_ptr<SharedDevice> shared_;
     std::optional<Opened> opened_;
-    std::future<Begun> begun_; ///< Of begin_open().
+    std::future<Begun> begun_; ///< Result of begin_open().
     SurfaceSampler* sampler_ = nullptr;
-    double open_seconds_ = 0, compile_seconds_ = 0; ///< That no run has told of yet.
+    double open_seconds_ = 0, compile_seconds_ = 0; ///< Seconds that no run has reported yet.
 };
 
 } // namespace geodisk::tools

@@ -16,7 +16,8 @@ namespace {
 constexpr double kPilotSeconds = 2;
 constexpr double kStartSeconds = 0.5; // That say little of the rest.
 
-/// Of the buffers, with as many stages at once as the device binds and `bound` allows, if not 0.
+/// Returns the bytes of the buffers, with as many stages at once as the device binds and `bound`
+/// allows, if not 0.
 std::uint64_t planned_bytes(const Sampler& sampler, const RunnerOptions& options,
                             const Domain& domain) {
     RunPlan plan = take(sampler.plan_run(domain, options.pool_bytes));

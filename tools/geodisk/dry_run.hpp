@@ -1,4 +1,4 @@
-// What a run would be like, for the commands that sample.
+// Forecasts of runs, for the commands that sample.
 #pragma once
 
 #include <cstdint>
@@ -9,18 +9,18 @@
 
 namespace geodisk::tools {
 
-/// What a job would give and take.
+/// Forecast of a job: its samples, time and memory.
 struct DryRun {
     DeviceReport device;
     double min_distance = 0; ///< The first that is tried, where a count chooses it.
     std::uint64_t seed = 0;
     double expected = 0;   ///< Samples, about.
-    double candidates = 0; ///< That the pool expects, or darts.
+    double candidates = 0; ///< Candidates that the pool expects, or darts.
     std::uint64_t device_bytes = 0;
     double compile_seconds = 0;
     double pilot_seconds = 0;
-    double pilot_part = 0;     ///< Of the run, that the pilot did, up to 1.
-    double sample_seconds = 0; ///< Of the run, where the rest goes on as the pilot did.
+    double pilot_part = 0;     ///< Part of the run that the pilot did, up to 1.
+    double sample_seconds = 0; ///< Seconds of the run, if the rest goes on as the pilot did.
 };
 
 /// Compiles on the device what the first step of a request needs, and begins it: a pilot that ends

@@ -20,8 +20,8 @@ namespace geodisk::tools {
 struct MapResult {
     SampleMap map;
     std::uint64_t covered = 0;     ///< Texels with a face.
-    std::uint64_t overlapping = 0; ///< Of these, with several.
-    std::uint64_t unreached = 0;   ///< Of these, in parts of the mesh without a sample.
+    std::uint64_t overlapping = 0; ///< Covered texels with several faces.
+    std::uint64_t unreached = 0;   ///< Covered texels in parts of the mesh without a sample.
     std::uint64_t repeating = 0;   ///< Faces with texture coordinates outside of 0 to 1.
     float largest_distance = 0;
     double error = 0; ///< Bound on that of distances, in mesh units.

@@ -34,13 +34,13 @@ NumberedPoints places_of(const MeshInput& mesh);
 /// or that no face uses.
 NumberedPoints vertices_of(const MeshInput& mesh, const std::vector<VertexRange>& wanted);
 
-/// What to search for.
+/// Search to run.
 struct NeighbourJob {
     NumberedPoints sources;
     NeighbourKind kind = NeighbourKind::vertices;
     std::vector<Sample> points; ///< To search, if `kind` says so.
     double within = 0;
-    std::vector<double> radii; ///< Of each source, or empty.
+    std::vector<double> radii; ///< Radius of each source, or empty.
     std::uint32_t nearest = 0;
     std::uint64_t max_pairs = 0; ///< 0 for the library's.
 };

@@ -13,7 +13,7 @@
 namespace geodisk::tools {
 namespace {
 
-/// What a browser opens within seconds, as pages of about 200 MB.
+/// Maximum that a browser opens within seconds, as pages of about 200 MB.
 constexpr std::size_t kMaxTriangles = std::size_t{1} << 22;
 /// The same of windows, as 64 MB.
 constexpr std::size_t kMaxWindows = std::size_t{1} << 22;

@@ -1,4 +1,4 @@
-// What the page of a report shows of a mesh and its samples.
+// Content of the page of a report: a mesh and its samples.
 #pragma once
 
 #include <optional>
@@ -18,10 +18,10 @@ namespace geodisk::tools {
 
 struct PageContent {
     std::vector<report::PageArray> arrays;
-    std::vector<std::string> left_out; ///< What the page does not show, and why, in sentences.
+    std::vector<std::string> left_out; ///< Content that is not shown, and why, in sentences.
     bool has_surface = false;
-    std::optional<report::DiskScale> disks; ///< Where they are shown.
-    std::size_t windows = 0;                ///< Of all disks.
+    std::optional<report::DiskScale> disks; ///< Scale of the disks, if they are shown.
+    std::size_t windows = 0;                ///< Number of windows of all disks.
     picture::Up up = picture::Up::y;
 };
 

@@ -1,4 +1,4 @@
-// What samples are written with besides place, face and weights: normals, attributes, frames.
+// Data that samples are written with besides place, face and weights: normals, attributes, frames.
 #pragma once
 
 #include <cstdint>

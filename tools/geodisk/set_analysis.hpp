@@ -18,7 +18,7 @@ class Command;
 /// Adds --probes.
 void add_probes_option(Command command, std::string& probes);
 
-/// How many random places are to be looked at: as --probes says, or if that is "", what suits so
+/// Returns how many random places to look at: as --probes says, or if that is "", what suits so
 /// many samples. Throws UserError(usage).
 std::uint32_t probes_for(const std::string& probes, std::size_t samples);
 

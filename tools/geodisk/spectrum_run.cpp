@@ -17,7 +17,8 @@ using analysis::Laplacian;
 using analysis::ManifoldHarmonics;
 
 constexpr std::size_t kHarmonics = 1000;
-/// Of the vertices: shorter waves than of so many harmonics have hardly three vertices each.
+/// Maximum of harmonics, as a part of the vertices: the waves of more harmonics have hardly three
+/// vertices each.
 constexpr double kMaxOfVertices = 0.1;
 
 void check_on_surface(std::span<const analysis::PlacedSamples> sets, const Laplacian& laplacian) {

@@ -11,7 +11,8 @@
 
 namespace geodisk::tools {
 
-/// What a checkpoint is of: digests, equal only if all that the samples depend on is equal.
+/// Digests of the job of a checkpoint. They are equal only if all that the samples depend on is
+/// equal.
 struct JobDigests {
     std::uint64_t mesh = 0;    ///< mesh_digest() and fields_digest(), added up.
     std::uint64_t options = 0; ///< job_digest().

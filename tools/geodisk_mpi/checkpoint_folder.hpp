@@ -46,7 +46,7 @@ class CheckpointFolder {
 
     Path folder_;
     bool resumes_, is_quiet_;
-    std::uint32_t number_ = 0; ///< Of the current surface, from 1.
+    std::uint32_t number_ = 0; ///< Number of the current surface, from 1.
     JobDigests job_;
     Checkpoint last_;
     Checkpoints checkpoints_;

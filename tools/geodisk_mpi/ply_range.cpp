@@ -29,7 +29,7 @@ struct NeedsWhole {
     std::string why;
 };
 
-/// Where a value stands in a record.
+/// Place of a value in a record.
 struct ValuePlace {
     std::size_t offset;
     PlyType type;
@@ -60,14 +60,14 @@ struct PlacedRule {
     ValuePlace place;
 };
 
-/// Where vertices and faces stand in the file.
+/// Places of vertices and faces in the file.
 struct PlyLayout {
     bool is_little_endian = true;
     Records vertices, faces;
     std::array<ValuePlace, 3> coordinates;
     ValuePlace corner_count; ///< Corners follow it.
     PlyType corner_type;
-    std::optional<ValuePlace> density; ///< Of vertices.
+    std::optional<ValuePlace> density; ///< Density of vertices.
     std::vector<PlacedRule> vertex_rules, face_rules;
 
     double value(const char* record, const ValuePlace& place) const {

@@ -15,10 +15,10 @@
 
 namespace geodisk::tools {
 
-/// What a job takes from a file besides its surface.
+/// Data that a job takes from a file besides its surface.
 struct RangeWants {
     std::optional<DensitySource> density; ///< Radii of a property of vertices.
-    std::vector<MaskRule> mask;           ///< Of properties, and of coordinates of vertices.
+    std::vector<MaskRule> mask;           ///< Rules on properties, and on coordinates of vertices.
     bool has_count = false;               ///< It derives its distance from a count.
 };
 

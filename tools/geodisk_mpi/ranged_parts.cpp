@@ -16,7 +16,7 @@ constexpr std::uint64_t kFacesOfPart = std::uint64_t{1} << 20;
 
 struct Corner {
     double place[3];
-    float factor, packing; ///< Of VertexRadii, or 0.
+    float factor, packing; ///< Values of VertexRadii, or 0.
 };
 struct FaceCorners {
     std::uint32_t face;

@@ -19,10 +19,10 @@ namespace {
 // Samples whose corners are found at once: all processes hear of their faces.
 constexpr std::uint64_t kSamplesAtOnce = std::uint64_t{1} << 18;
 
-/// How samples are divided.
+/// Division of the samples.
 struct Blocks {
     std::uint64_t count = 0;
-    double min_distance = 0; ///< Of the job.
+    double min_distance = 0; ///< Minimum distance of the job.
     bool divides = false;
 
     /// Returns where the block of a process begins, or the end of the last one's.
@@ -34,7 +34,7 @@ struct Blocks {
     }
 };
 
-/// What is known of the rows of one process.
+/// Facts about the rows of one process.
 struct Block {
     std::uint64_t digest;
     SampleBox box;

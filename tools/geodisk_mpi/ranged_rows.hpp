@@ -27,7 +27,7 @@ class RangedRows {
 
     std::vector<SampleRow>& own() { return own_; }
 
-    // Of all rows, the same on all processes.
+    // Properties of all rows, the same on all processes.
 
     std::uint64_t count() const { return count_; }
     std::uint64_t digest() const { return digest_; }

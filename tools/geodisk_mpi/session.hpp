@@ -69,7 +69,7 @@ class Session : public SurfaceSampler {
     void help(const SampleJob* job);
 
   private:
-    /// What the others are to do.
+    /// Task for the other processes.
     enum class Task : std::uint8_t {
         nothing,
         read,

@@ -4,7 +4,7 @@
 
 namespace geodisk::tools {
 
-/// Of an angle of up to about 2^20, within some units of the last place.
+/// Sine and cosine of an angle of up to about 2^20, within some units of the last place.
 double sine(double angle);
 double cosine(double angle);
 

@@ -99,7 +99,7 @@ struct BisectedMesh::Edges {
     std::vector<std::uint32_t> of_corner; ///< Edge from each corner to the next.
     std::vector<Ends> ends;
     std::vector<std::size_t> starts;
-    std::vector<std::uint32_t> corners; ///< Where the edges of triangles begin, by edge.
+    std::vector<std::uint32_t> corners; ///< Corners where the edges of triangles begin, by edge.
 };
 
 BisectedMesh::BisectedMesh(const MeshFile& mesh)

@@ -74,9 +74,9 @@ class BisectedMesh {
     std::vector<double> positions_;
     std::vector<std::uint32_t> triangles_;
     std::vector<FacePart> parts_;
-    std::vector<std::size_t> first_part_; ///< Of each face, and one past the last.
+    std::vector<std::size_t> first_part_; ///< First part of each face, and one past the last.
     std::size_t old_vertices_;
-    std::vector<Ends> ends_; ///< Of each new vertex.
+    std::vector<Ends> ends_; ///< Ends of the edge of each new vertex.
 };
 
 } // namespace geodisk::tools

@@ -9,7 +9,7 @@
 
 namespace geodisk::tools {
 
-/// What lies beyond the edges of an image.
+/// Colours beyond the edges of an image.
 enum class ImageWrap : std::uint8_t { repeat, mirror, clamp };
 
 struct MaterialColour {

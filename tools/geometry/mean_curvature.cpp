@@ -14,9 +14,9 @@ struct EdgeSide {
     std::uint32_t a, b;
 };
 
-/// Of a triangle, by corner; zeros for one without area.
+/// Shape of a triangle, by corner; zeros for one without area.
 struct Shape {
-    std::array<double, 3> cotangents{}; ///< Of the angles.
+    std::array<double, 3> cotangents{}; ///< Cotangents of the angles.
     std::array<double, 3> areas{}; ///< The part of the area that is nearest, if none is obtuse.
 };
 
@@ -106,7 +106,7 @@ class Laplacian {
 
     const MeshFile& mesh_;
     std::size_t vertices_;
-    std::vector<double> sums_; ///< Of cotangents times edges, `dimension` to a vertex.
+    std::vector<double> sums_; ///< Sums of cotangents times edges, `dimension` to a vertex.
     std::vector<double> areas_;
 };
 

@@ -11,9 +11,10 @@ namespace geodisk::tools {
 /// Laplacian of the position over the mixed area of Meyer et al. (2003). It is that of a surface in
 /// any space, always finite, and 0 at unused vertices.
 ///
-/// Where the surface ends, the Laplacian would tell how the border bends: vertices of edges that
-/// have other than two faces take the mean of their neighbours that have none, or 0. Faces without
-/// area, to 1e-7 of their longest side squared, do not count. The mesh must have coordinates.
+/// At the ends of the surface, the Laplacian would show how the border bends. Vertices of edges
+/// that have other than two faces take the mean of their neighbours that have none, or 0. Faces
+/// without area, to 1e-7 of their longest side squared, do not count. The mesh must have
+/// coordinates.
 std::vector<double> mean_curvatures(const MeshFile& mesh);
 
 /// Radius factors from curvature: g = 1 / (1 + H / M), where H is the curvature at the vertex and M

@@ -57,7 +57,7 @@ struct MeshField {
     bool is_whole = false;      ///< Integers and labels, which are not interpolated.
     bool is_colour = false;     ///< From 0 to 1.
     bool is_light = false;      ///< Colours are amounts of light; else as sRGB encodes them.
-    bool is_from_top = false;   ///< Of texture coordinates: v = 0 is the upper edge of an image.
+    bool is_from_top = false;   ///< Texture coordinates have v = 0 at the top of an image.
     std::vector<double> values; ///< All components of each vertex, index of a corner, or face.
     /// Index of the value of each corner, or kNone. Empty unless corners have values.
     std::vector<std::uint32_t> corners;
@@ -65,9 +65,9 @@ struct MeshField {
     static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 };
 
-/// What joining vertices did.
+/// Counts of what joining vertices did.
 struct WeldCounts {
-    std::uint64_t merged_vertices = 0;  ///< That became another one.
+    std::uint64_t merged_vertices = 0;  ///< Vertices that became another one.
     std::uint64_t degenerate_faces = 0; ///< Triangles that take no part since.
     std::uint64_t joined_edges = 0;     ///< Border edges joined to others along seams.
 };
@@ -85,33 +85,34 @@ struct MeshFile {
     /// that the numbers are the same.
     std::vector<std::uint32_t> polygons;
     std::uint32_t polygon_count = 0; ///< Faces of the file, where `polygons` is not empty.
-    /// Where the file divides its faces: the parts, and the index there of each triangle's.
+    /// Parts that the file divides its faces into, if it does, and the index there of each
+    /// triangle's.
     std::vector<MeshPart> parts;
     std::vector<std::uint32_t> part_of_triangle;
     PartNames part_names;
     std::uint32_t dimension = 3;
-    /// Of the edges of each triangle, from corner to corner, where they and not the positions make
-    /// the surface; else empty.
+    /// Lengths of the edges of each triangle, from corner to corner, if they and not the positions
+    /// make the surface; else empty.
     std::vector<double> lengths;
     std::vector<std::vector<double>> attributes; ///< By name as asked for, a value per vertex.
     /// Those asked for, a value per triangle, or per vertex of the file.
     std::vector<MeshProperty> properties;
-    /// Where asked for: all that the corners of faces have, ascending by vertex and each just once;
-    /// several at a vertex on a seam.
+    /// Texture coordinates, if asked for: all that the corners of faces have. They ascend by
+    /// vertex, each just once, with several at a vertex on a seam.
     std::vector<VertexUv> uvs;
     /// Attributes asked for, by vertices and triangles' corners of the file, and by its faces.
     std::vector<MeshField> fields;
     std::optional<MeshField> normals; ///< Those of the file, where asked for; not of unit length.
     /// Texture coordinates, where textures are looked up; with gaps if materials have them.
     std::optional<MeshField> texture_uvs;
-    std::optional<MaterialColours> materials; ///< Where asked for.
-    std::optional<WeldCounts> weld;           ///< Where vertices were joined.
+    std::optional<MaterialColours> materials; ///< Colours of materials, if asked for.
+    std::optional<WeldCounts> weld;           ///< Set if vertices were joined.
     /// Lowest vertex that each one is joined with. Empty where none are.
     std::vector<std::uint32_t> joined;
     /// Corners of triangles as the file has them, where vertices are joined. Else empty.
     std::vector<std::uint32_t> file_triangles;
     ElementNames names;
-    std::vector<MeshWarning> warnings; ///< What was dropped or ignored.
+    std::vector<MeshWarning> warnings; ///< Warnings about what was dropped or ignored.
 
     std::size_t triangle_count() const { return triangles.size() / 3; }
     /// Vertices of all corners, before any were joined.
@@ -136,7 +137,7 @@ struct MeshFile {
                                             &texture_uvs->corners[3 * triangle] + 3,
                                             [](std::uint32_t i) { return i == MeshField::kNone; }));
     }
-    /// Whether the triangle names three vertices.
+    /// Returns true if the triangle names three vertices.
     bool takes_part(std::size_t triangle) const {
         const std::uint32_t* const v = &triangles[3 * triangle];
         return v[0] != v[1] && v[1] != v[2] && v[2] != v[0];

@@ -52,7 +52,7 @@ BareParts parts_without(const PreparedMesh& mesh, std::span<const std::uint32_t>
     }
     struct Part {
         bool has_sample = false, takes_samples = false;
-        double area = 0; ///< That takes samples.
+        double area = 0; ///< Area that takes samples.
     };
     const std::vector<std::uint32_t> part_of = part_of_faces(mesh);
     std::vector<Part> parts(mesh.statistics().components);

@@ -1,4 +1,4 @@
-// What is odd about a mesh, and the words to tell it in.
+// Warnings about a mesh, and the words to report them in.
 #pragma once
 
 #include <algorithm>
@@ -14,12 +14,12 @@ namespace geodisk::tools {
 struct MeshWarning {
     std::string kind; ///< For programs, such as "duplicate_faces".
     std::uint64_t count = 0;
-    std::string first;   ///< Where the first one is, in the words of the file; "" for no place.
+    std::string first;   ///< Place of the first one, in the words of the file; "" for no place.
     std::string message; ///< For people, with count and place.
-    std::string file;    ///< Which file it is about, where that is not the mesh.
+    std::string file;    ///< File that it is about, if that is not the mesh.
 };
 
-/// How many elements something was found of, and the lowest of them.
+/// Number of elements that something was found of, and the lowest of them.
 struct Found {
     static constexpr std::uint64_t kNone = std::numeric_limits<std::uint64_t>::max();
 
@@ -32,8 +32,8 @@ struct Found {
     }
 };
 
-/// How a file tells where its faces and vertices are: by line, counted from 1, where records have
-/// lines, else by record, counted from 0.
+/// Names by which a file identifies its faces and vertices. Records with lines are named by line,
+/// counted from 1, others by record, counted from 0.
 struct ElementNames {
     std::string face = "face ", vertex = "vertex "; ///< Before the record.
     std::vector<std::uint32_t> face_lines, vertex_lines;

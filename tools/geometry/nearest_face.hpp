@@ -14,7 +14,7 @@ namespace geodisk::tools {
 /// A point of a surface.
 struct SurfacePoint {
     std::uint32_t face = 0;
-    std::array<double, 3> weights{}; ///< Of the corners; they sum to 1.
+    std::array<double, 3> weights{}; ///< Weights of the corners; they sum to 1.
     double distance = 0;             ///< From the point that was asked for.
 };
 
@@ -51,7 +51,7 @@ class NearestFace {
     void look_at(std::uint32_t face, const Vector& point, SurfacePoint& best) const;
 
     const MeshFile& mesh_;
-    double scale_ = 1; ///< Of coordinates here, so that no square leaves the range of double.
+    double scale_ = 1; ///< Scale of coordinates here, so that no square leaves the range of double.
     std::vector<std::uint32_t> faces_;
     std::vector<Node> nodes_;
 };

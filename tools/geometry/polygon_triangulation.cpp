@@ -77,8 +77,8 @@ bool is_fan(const std::vector<Vec2>& points) {
 
 /// Cuts ears until three corners are left.
 ///
-/// What is an ear is remembered: cutting one changes the corners beside it only, so n corners, r of
-/// them not convex, take O(n r) steps.
+/// Ears are remembered: cutting one changes the corners beside it only, so n corners, r of them not
+/// convex, take O(n r) steps.
 class EarClipper {
   public:
     explicit EarClipper(const std::vector<Vec2>& points)

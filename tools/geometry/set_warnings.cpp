@@ -18,7 +18,7 @@ std::string percent(double share) {
     return rounded(100 * share, 2) + " % of the area";
 }
 
-/// What to say where darts ran out before there were as many samples as asked for; else "".
+/// Returns what to say if darts ran out before there were as many samples as asked for; else "".
 std::string shortfall(std::uint64_t samples, std::uint32_t stop_count) {
     return samples >= stop_count ? ""
                                  : "only " + grouped(samples) + " of " + grouped(stop_count) +
@@ -26,7 +26,7 @@ std::string shortfall(std::uint64_t samples, std::uint32_t stop_count) {
                                        "the distance, or raise --darts";
 }
 
-/// Where a count chooses the distance, or stops the darts.
+/// Checks a count that chooses the distance, or stops the darts.
 void check_count(const SampledSet& set, std::vector<MeshWarning>& warnings) {
     if (std::string text = shortfall(set.samples, set.stop_count); !text.empty()) {
         warnings.push_back({"count_missed", set.stop_count - set.samples, "", std::move(text), ""});

@@ -1,4 +1,4 @@
-// What users should know about a set of samples besides what they asked for.
+// Warnings about a set of samples, besides what users asked for.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +21,7 @@ struct SampledSet {
     std::uint32_t stop_count = 0; ///< Samples to stop at, or 0.
     bool has_darts = false;       ///< The number of darts was given.
     double lacks_features = 0;    ///< Angle in degrees of features that were not found, or 0.
-    std::string domain = "mesh";  ///< What has the room for samples.
+    std::string domain = "mesh";  ///< Name of what has the room for samples.
     BareParts bare{};
 };
 

@@ -12,12 +12,12 @@ namespace geodisk::tools {
 /// A geodesic disk: its centre and its radius in mesh units.
 struct SurfaceDisk {
     std::uint32_t face;
-    double weight1, weight2; ///< Of the face's second and third corner.
+    double weight1, weight2; ///< Weights of the face's second and third corner.
     double radius;
     std::uint32_t kind = 0; ///< 1 + class of the sample; 0 without classes.
 };
 
-/// How far samples of classes must be apart.
+/// Distances that samples of classes must keep.
 struct ClassDistances {
     std::size_t count = 0;         ///< Number of classes; 0 without.
     std::vector<double> distances; ///< In mesh units, count * count, row by row.

@@ -41,8 +41,8 @@ OddEdges find_edges(const PreparedMesh& mesh) {
     return found;
 }
 
-/// Whether some faces at the vertex share no edge there with the others, not even by way of others
-/// still. `corners` are its half-edges, `sets` is for its memory.
+/// Returns true if some faces at the vertex share no edge there with the others, not even by way of
+/// other faces. `corners` are its half-edges, `sets` is for its memory.
 bool is_bow_tie(std::span<const HalfEdge> edges, std::span<const std::uint32_t> corners,
                 std::vector<std::uint32_t>& order, std::vector<std::uint32_t>& sets) {
     order.assign(corners.begin(), corners.end());

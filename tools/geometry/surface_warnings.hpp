@@ -1,4 +1,4 @@
-// What is odd about a mesh once its faces are connected.
+// Warnings about a mesh once its faces are connected.
 #pragma once
 
 #include <vector>

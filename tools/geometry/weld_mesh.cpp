@@ -11,7 +11,7 @@
 namespace geodisk::tools {
 namespace {
 
-/// Of the bounding box of all vertices in faces.
+/// Returns the diagonal of the bounding box of all vertices in faces.
 double diagonal_of(const MeshFile& mesh) {
     double diagonal = 0;
     for (std::size_t axis = 0; axis < mesh.dimension; ++axis) {

@@ -28,7 +28,7 @@ struct Options {
     std::string trials;
 };
 
-/// What one pool gave. Times include neither the pool nor the cells of its points.
+/// Results of one pool. Times include neither the pool nor the cells of its points.
 struct Comparison {
     double exact_seconds, curve_seconds, phase_seconds;
     double samples;       ///< By priorities and the closed form.

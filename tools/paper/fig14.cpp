@@ -16,7 +16,7 @@
 namespace geodisk::paper {
 namespace {
 
-/// Of the program of Ebeida et al. 2012, the mean of ten runs.
+/// Values of the program of Ebeida et al. 2012, the mean of ten runs.
 constexpr double kPrintedRho = 0.7791;
 constexpr double kPrintedRadius = 0.005;
 
@@ -26,7 +26,7 @@ struct Options {
     NumberList ratios{"", {"5", "10", "20", "40", "80", "160", "320"}};
 };
 
-/// What repeated runs gave.
+/// Results of repeated runs.
 struct Densities {
     double samples = 0; ///< Mean.
     double mean = 0, least = 1e9, most = 0;

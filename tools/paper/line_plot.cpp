@@ -41,7 +41,7 @@ std::string quoted(const std::string& text) {
     return result + "'";
 }
 
-/// What an axis has to show.
+/// Range that an axis has to show.
 struct Range {
     double low = std::numeric_limits<double>::infinity(), high = -low;
 
@@ -121,7 +121,7 @@ std::string script_of(const LinePlot& plot) {
            lines + '\n';
 }
 
-/// What gnuplot draws, run without a shell; nothing if it cannot be run or fails.
+/// Returns what gnuplot draws, run without a shell; nothing if it cannot be run or fails.
 std::optional<std::string> drawn([[maybe_unused]] const std::string& script) {
 #ifndef _WIN32
     // Files rather than pipes: neither side ever waits for the other.

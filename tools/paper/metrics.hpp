@@ -23,7 +23,7 @@ const char* name_of(Metric metric);
 /// The ranks that sequential dart throwing accepts, ascending.
 std::vector<std::uint32_t> throw_darts(const PaperMesh& mesh, const Pool& pool, Metric metric);
 
-/// What is closer than it should be.
+/// Pairs that are closer than they should be.
 struct Violations {
     std::size_t pairs = 0;
     std::size_t samples = 0; ///< In at least one such pair.

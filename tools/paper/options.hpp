@@ -23,16 +23,16 @@ struct NumberList {
 
 struct CommonOptions {
     std::string out = ".";  ///< Folder of the files.
-    std::uint64_t seed = 1; ///< Of the first repetition; the others follow it.
+    std::uint64_t seed = 1; ///< Seed of the first repetition; the others follow it.
     int repeats = 1;
 
     /// Repetitions and seed: "repeats 3 from seed 1".
     std::string text() const;
-    /// Of repetition `i`, from 0.
+    /// Returns the seed of repetition `i`, from 0.
     std::uint64_t seed_of(int i) const { return seed + static_cast<std::uint64_t>(i); }
 };
 
-/// Where to write, how often to repeat, with which seed.
+/// Adds options for where to write, how often to repeat, and with which seed.
 void add_common_options(tools::Command command, CommonOptions& options);
 
 void add_meshes(tools::Command command, std::vector<std::string>& meshes);

@@ -14,7 +14,8 @@ namespace geodisk::paper {
 
 using tools::Table;
 
-/// What ends the name of picture or plot `i` of so many, counted from 1; "" for the only one.
+/// Returns the end of the name of picture or plot `i` of so many, counted from 1; "" for the only
+/// one.
 std::string numbered(std::size_t i, std::size_t count);
 
 /// Files that appear together, NAME.csv, plots and pictures.

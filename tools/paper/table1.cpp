@@ -71,7 +71,7 @@ void add_printed(Table& table, LinePlot& plot, double ratio, std::size_t group) 
     }
 }
 
-/// What the batches of repeated runs took.
+/// Costs of the batches of repeated runs.
 struct Measured {
     CallHistogram calls;
     double samples = 0;

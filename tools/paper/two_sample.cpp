@@ -18,7 +18,7 @@ constexpr double kLevel = 0.05, kPower = 0.9;
 /// Halvings of what might be detectable.
 constexpr int kSteps = 40;
 
-/// Of a group against another one, ring by ring.
+/// Differences between a group and another one, ring by ring.
 struct RingDifferences {
     std::vector<double> radial_mean, anisotropy;
 };
@@ -43,7 +43,7 @@ double size_of(std::span<const double> by_ring, std::span<const double> weights)
     return std::sqrt(sum / total);
 }
 
-/// What chance makes of a quantity, deal by deal.
+/// Chance variation of a quantity, deal by deal.
 class Chance {
   public:
     explicit Chance(std::span<const double> weights) : weights_(weights) {}
@@ -63,7 +63,7 @@ class Chance {
     }
 
   private:
-    /// What has to be added to each ring, with random signs.
+    /// Returns what has to be added to each ring, with random signs.
     double detectable(ref::RandomStream& random) const {
         std::vector<double> sorted = sizes_;
         std::sort(sorted.begin(), sorted.end());

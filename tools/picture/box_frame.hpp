@@ -18,7 +18,7 @@ class BoxFrame {
     BoxFrame(const BoxParams& box, double radius);
 
     const Scene& scene() const { return scene_; }
-    /// Of no samples.
+    /// Returns the table of no samples.
     const WindowTable& table() const { return table_; }
 
     /// The ball around a point of the box.

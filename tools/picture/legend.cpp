@@ -20,13 +20,13 @@ using glm::vec3;
 /// Pixels of an em in a picture of 1920 x 1080, and the fewest that can be read.
 constexpr double kEm = 24, kSmallestEm = 11;
 constexpr double kUsualSide = 1440;
-/// Of the picture's height, what the strip takes at most, and where words are left out.
+/// Maximum height of the strip, and that of one without words, as parts of the picture's height.
 constexpr double kMaxHeight = 0.25, kMaxShortHeight = 0.5;
 /// All in ems.
 constexpr double kLegendMargin = 1, kGap = 2, kAbove = 0.2, kBarHeight = 0.7, kBelowBar = 0.15;
 constexpr double kRow = 2.8, kTextRow = 1.6; // Of rows with bars, and with text alone.
 constexpr double kLineHeight = 0.14;
-/// Where the scale of distances ends, and that of places with room for a sample begins, in radii.
+/// End of the scale of distances, and start of that of places with room for a sample, in radii.
 constexpr double kEndOfDistances = 2.5, kRoomFor = 2;
 /// As kOverlap in colors.glsl.
 constexpr vec3 kRoomColor{0.835, 0.369, 0};
@@ -110,7 +110,7 @@ vec3 scale_color(double part) {
     return glm::mix(kKnots[i], kKnots[i + 1], static_cast<float>(at - knot));
 }
 
-/// Where a legend is drawn.
+/// Strip that a legend is drawn in.
 struct Legend::Strip {
     Pixels& pixels;
     double left, top;

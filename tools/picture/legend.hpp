@@ -1,4 +1,4 @@
-// What a picture says of itself, in a strip below it.
+// Legend of a picture, in a strip below it.
 #pragma once
 
 #include <cstddef>
@@ -13,10 +13,10 @@ namespace geodisk::tools::picture {
 /// A class of samples in a legend.
 struct LegendClass {
     std::uint64_t samples = 0;
-    double min_distance = 0; ///< Of two samples of the class, in mesh units.
+    double min_distance = 0; ///< Distance of two samples of the class, in mesh units.
 };
 
-/// What a legend shows.
+/// Facts that a legend shows.
 struct LegendFacts {
     std::uint64_t samples = 0;
     /// Minimum distances in mesh units; they differ where radii vary.
@@ -44,9 +44,9 @@ class Legend {
 
     std::uint32_t height() const { return height_; }
 
-    /// What is known once the view is drawn.
+    /// Scales that are known once the view is drawn.
     struct Scale {
-        double pixels_per_unit = 0; ///< Of a length in the middle of the scene, in mesh units.
+        double pixels_per_unit = 0; ///< Pixels per unit of the mesh, in the middle of the scene.
         double densest = 0;         ///< The end of the scale of Style::density, samples per area.
     };
 
@@ -58,10 +58,10 @@ class Legend {
     enum class Kind { text, class_entry, length, distance, density };
     struct Item {
         Kind kind;
-        std::string text; ///< Of a colour bar, the words beside it.
+        std::string text; ///< Text; for a colour bar, the words beside it.
         double width;
         std::size_t number = 0; ///< Class of an entry.
-        double x = 0, y = 0;    ///< Where it begins; y is the upper end of a bar.
+        double x = 0, y = 0;    ///< Start of the item; y is the upper end of a bar.
     };
     struct Strip;
 

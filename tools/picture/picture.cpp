@@ -30,7 +30,7 @@ constexpr double kPointRadius = 1.4;
 constexpr double kPointPart = 0.3;
 /// Disks of fewer pixels merge into a pattern, so that points show more.
 constexpr double kLegibleRadius = 7;
-/// What disks that are thrown until hardly one fits cover.
+/// Part that disks cover that are thrown until hardly one fits.
 constexpr double kCoverage = 0.53;
 /// The end of the scale of densities, in those of disks that few samples have smaller.
 constexpr double kDensest = 1.5;
@@ -103,7 +103,7 @@ std::vector<Pane> lay_out(std::uint32_t width, std::uint32_t height, std::uint32
 
 struct Trial {
     double seen = 0;    ///< Surface there is to see, in areas of the frame.
-    double covered = 0; ///< Of the frame.
+    double covered = 0; ///< Covered part of the frame.
 };
 
 Trial try_view(Renderer& renderer, const Scene& scene, View view, Up up) {
@@ -217,7 +217,7 @@ LegendFacts legend_facts(const Content& content, Style style) {
     return facts;
 }
 
-/// Where each view is drawn, and the legend below it if there are any.
+/// Places of each view, and of the legend below it if there are any.
 struct Layout {
     std::vector<Pane> panes;
     std::vector<Legend> legends;

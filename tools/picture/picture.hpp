@@ -14,13 +14,13 @@
 
 namespace geodisk::tools::picture {
 
-/// What is shown of the samples, all by exact geodesic distance.
+/// Style in which samples are shown, all by exact geodesic distance.
 enum class Style {
     automatic, ///< Disks, or points where disks would be too small to tell apart.
     disks,     ///< The disk of each sample's radius; where two overlap, in another colour.
     points,    ///< The samples.
     voronoi,   ///< To which sample each place is nearest, in radii of the sample.
-    distance,  ///< How far, with lines at each half radius.
+    distance,  ///< Distance to that sample, with lines at each half radius.
     density,   ///< Samples per length, the root of those per area, by the kernel
                ///< 1 - (distance / 5 radii)^2.
 };
@@ -31,7 +31,7 @@ const char* to_string(Style style);
 /// The style of this name. Throws UserError(usage) naming `option`.
 Style parse_style(const std::string& option, const std::string& text);
 
-/// How far around a sample a style looks, in radii of the sample.
+/// Returns how far around a sample a style looks, in radii of the sample.
 double reach_of(Style style);
 
 struct Pixels {

@@ -23,7 +23,7 @@
 namespace geodisk::tools::picture {
 namespace {
 
-/// What stb calls with the file; an exception must not pass through it.
+/// Sink that stb calls with the file; an exception must not pass through it.
 struct Sink {
     AtomicFile& file;
     std::exception_ptr error;

@@ -6,8 +6,8 @@
 
 namespace geodisk::tools::picture {
 
-/// Of a box of two dimensions: a pixel per frequency, with 0 in the middle: black for no power,
-/// white for twice as much as white noise has.
+/// Returns the picture of a box of two dimensions: a pixel per frequency, with 0 in the middle.
+/// Black is no power, and white twice as much as white noise has.
 Pixels power_picture(const analysis::PowerSpectrum& spectrum);
 
 } // namespace geodisk::tools::picture

@@ -22,7 +22,7 @@ constexpr VkDeviceSize kPixelBytes = 4;
 constexpr std::uint32_t kBindings = 6;
 constexpr std::uint32_t kBallCorners = 6;
 
-/// Whether to colour what may be hidden costs less than to find out first what is seen.
+/// Returns true if colouring what may be hidden costs less than finding out first what is seen.
 bool is_cheap(std::uint32_t kind) {
     return kind == kDrawArea || kind == kDrawFrame;
 }
@@ -45,7 +45,7 @@ Module make_module(const Gpu& gpu, const std::uint32_t (&code)[kSize]) {
     return {gpu, module};
 }
 
-/// Where each chunk begins, and the end: as many faces as fit bindings of `most` bytes.
+/// Returns where each chunk begins, and the end: as many faces as fit bindings of `most` bytes.
 std::vector<std::uint32_t> chunk_bounds(const WindowTable& table, VkDeviceSize most) {
     const auto face_count = static_cast<std::uint32_t>(table.faces.size());
     const auto end_of = [&](std::uint32_t face) {

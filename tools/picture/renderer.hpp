@@ -17,7 +17,7 @@
 
 namespace geodisk::tools::picture {
 
-/// What to draw, a kDraw constant of picture_records.h, and the end of its scale, as PushRec has
+/// Subject to draw, a kDraw constant of picture_records.h, and the end of its scale, as PushRec has
 /// it.
 struct DrawKind {
     std::uint32_t kind = kDrawDisks;
@@ -25,7 +25,7 @@ struct DrawKind {
     bool cuts = false; ///< As PushRec::cuts.
 };
 
-/// What there is to draw. Corners of the scene are those of the table's faces.
+/// Content to draw. Corners of the scene are those of the table's faces.
 struct Content {
     const Scene& scene;
     const WindowTable& table;

@@ -10,7 +10,7 @@
 namespace geodisk::tools::picture {
 namespace {
 
-/// How far the eye of a projection lies from the origin, where points are at most 1 from it.
+/// Distance of the eye of a projection from the origin, where points are at most 1 from it.
 constexpr double kEye = 1.5;
 /// At a vertex of more faces nothing is smoothed: it is a tip, and each face would ask all others.
 constexpr std::size_t kMaxSmoothed = 64;

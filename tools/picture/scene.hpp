@@ -1,4 +1,4 @@
-// What is drawn of a surface: its corners in space, about a unit ball.
+// Scene that is drawn of a surface: its corners in space, about a unit ball.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@ struct Scene {
     /// Three to a face. Normals are those of the smooth surface where faces meet at less than
     /// kCrease, else those of the faces; of unit length, or zero for faces without area.
     std::vector<CornerRec> corners;
-    /// What is drawn sticks out from the corners by no more than this.
+    /// Maximum by which what is drawn sticks out from the corners.
     double around = 0;
     /// Lengths here per length of the mesh; 0 where they are not in proportion.
     double scale = 0;

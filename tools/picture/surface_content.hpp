@@ -1,4 +1,4 @@
-// What is drawn of the samples on a surface.
+// Content that is drawn of the samples on a surface.
 #pragma once
 
 #include <cstddef>
@@ -21,8 +21,8 @@ struct SurfaceContent {
     std::vector<SampleRec> samples;
 };
 
-/// Of samples with their own disks, each as large as its radius in mesh units; at least one. Looks
-/// as far around them as `style` does. Throws as make_window_table().
+/// Returns the content for samples with their own disks, each as large as its radius in mesh units;
+/// at least one. Looks as far around them as `style` does. Throws as make_window_table().
 SurfaceContent make_surface_content(const PreparedMesh& mesh, std::vector<SurfaceDisk> disks,
                                     Style style, const PartDone& tell);
 

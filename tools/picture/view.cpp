@@ -20,7 +20,7 @@ namespace {
 
 /// Half the angle that the longer side of a picture takes.
 constexpr double kHalfAngle = 12;
-/// Of the frame on each side.
+/// Margin on each side, as a part of the frame.
 constexpr double kMargin = 0.03;
 /// Flatter along z than this part of the other extents, a surface is taken for terrain.
 constexpr double kFlat = 0.5;
@@ -28,7 +28,7 @@ constexpr double kFlat = 0.5;
 constexpr double kEnd = 0.01;
 /// Faces of an end are within this cosine of its direction.
 constexpr double kLevel = 0.9;
-/// What a surface stands on is at least this part of its area, and so many times what it would
+/// Minimum area that a surface stands on, as a part of its area, and as a multiple of what it would
 /// stand on if another axis were up.
 constexpr double kMinBase = 0.01;
 constexpr double kClearBase = 3;
@@ -82,8 +82,8 @@ double extent_along(const Scene& scene, int axis) {
     return high - low;
 }
 
-/// What the surface stands on if the axis is up: how much more of its area is level at the lower
-/// end than at the upper one, as a part of all.
+/// Returns the base of the surface if the axis is up: how much more of its area is level at the
+/// lower end than at the upper one, as a part of all.
 double base_along(const Scene& scene, int axis) {
     const auto [low, high] = range_of(scene, [axis](glm::dvec3 p) { return p[axis]; });
     const double near = kEnd * (high - low);
@@ -105,7 +105,7 @@ double base_along(const Scene& scene, int axis) {
     return all > 0 ? base / all : 0;
 }
 
-/// Where the eye must be, along `axis`, for a half angle of tangent `t`, and how far from the
+/// Position of the eye along `axis`, for a half angle of tangent `t`, and its distance from the
 /// origin, so that everything lies between two planes through it.
 struct Fit {
     double shift, distance;

@@ -1,4 +1,4 @@
-// Where a scene is looked at from.
+// Views of a scene.
 #pragma once
 
 #include <optional>
@@ -41,16 +41,16 @@ std::vector<View> views_to_try();
 /// The direction that the axis points in.
 glm::dvec3 direction_of(Up up);
 
-/// Where the eye is, seen from the middle of the scene; of length 1.
+/// Returns the direction of the eye, seen from the middle of the scene; of length 1.
 glm::dvec3 direction_of(View view, Up up);
 
-/// Where light comes from: so far to the right, up, and towards the eye.
+/// Direction that light comes from: so far to the right, up, and towards the eye.
 inline constexpr glm::dvec3 kLight{-0.45, 0.65, 0.75};
 
 struct Camera {
     glm::mat4 to_clip; ///< y goes down, depth from 0 to 1.
     glm::vec3 eye;
-    glm::vec3 light; ///< Where light comes from; of length 1.
+    glm::vec3 light; ///< Direction that light comes from; of length 1.
 };
 
 /// Shows all of the scene in a frame that is `aspect` times as wide as it is high.

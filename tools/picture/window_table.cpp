@@ -51,7 +51,7 @@ class WindowMaker {
         detector_.spread(source, *this);
     }
 
-    // What Detector::spread() tells.
+    // Takes what Detector::spread() reports.
     void face(std::uint32_t h, double x, double y, double sigma) const {
         const std::uint32_t base = base_of(h);
         const Point source = ref::in_other_frame(surface_, h, base, Point{x, y});
@@ -117,7 +117,7 @@ class WindowMaker {
         }
     }
 
-    /// Whether a square around `middle` has points on the side of `normal`.
+    /// Returns true if a square around `middle` has points on the side of `normal`.
     static bool sees(Point normal, Point middle, double size) {
         return normal.x * middle.x + normal.y * middle.y +
                    (std::abs(normal.x) + std::abs(normal.y)) * size / 2 >=

@@ -19,9 +19,9 @@ namespace geodisk::tools::picture {
 /// seen through, of sigma and the straight way to the window's source; p lies outside the disk of s
 /// where there is none, or that is larger.
 struct WindowTable {
-    double unit = 1;                   ///< Of all lengths here, in mesh units.
+    double unit = 1;                   ///< Unit of all lengths here, in mesh units.
     std::vector<FaceRec> faces;        ///< Cells count from 0 over all faces.
-    std::vector<std::uint32_t> starts; ///< Of each cell's windows, and the end.
+    std::vector<std::uint32_t> starts; ///< Start of each cell's windows, and the end.
     std::vector<WindowRec> windows;    ///< In each cell by sample, ascending.
 };
 

@@ -16,7 +16,7 @@ namespace geodisk::tools {
 /// Called now and then with the part that is done. It may throw, which ends the work.
 using PartDone = std::function<void(double part)>;
 
-/// How many batches of up to `size` there are.
+/// Returns how many batches of up to `size` there are.
 constexpr std::size_t batch_count(std::size_t count, std::size_t size) {
     return (count + size - 1) / size;
 }

@@ -15,10 +15,10 @@ class Option;
 
 namespace geodisk::tools {
 
-/// What there is to know of an option, flag or argument, for manuals and completion.
+/// Facts about an option, flag or argument, for manuals and completion.
 struct OptionFacts {
     std::vector<std::string> names; ///< With their dashes, or of an argument its one name.
-    std::string type;               ///< What help calls its value.
+    std::string type;               ///< Type of its value, as help names it.
     std::string usual;              ///< The value it has when not given, where help shows it.
     std::string text, group;
     bool is_argument = false, is_flag = false, is_required = false, repeats = false;
@@ -26,7 +26,7 @@ struct OptionFacts {
     std::vector<std::string> offers; ///< Values to choose from, of those there may be.
 };
 
-/// What there is to know of a program or one of its subcommands.
+/// Facts about a program or one of its subcommands.
 struct CommandFacts {
     std::string name, text, footer;
     std::vector<OptionFacts> options;
@@ -60,7 +60,7 @@ class Option {
     /// Completion offers these values; others may be right as well.
     Option offers(std::vector<std::string> values) const;
 
-    /// Whether it was on the command line; known once parsed.
+    /// Returns true if it was on the command line; known once parsed.
     bool is_given() const;
 
   private:
@@ -101,9 +101,9 @@ class Command {
     /// One of its subcommands must be given.
     void needs_command() const;
 
-    /// What --version prints.
+    /// Sets what --version prints.
     void has_version(const std::string& text) const;
-    /// What help ends with.
+    /// Sets what help ends with.
     void has_footer(const std::string& text) const;
     /// Does its work, once all is parsed.
     void calls(std::function<void()> run) const;

@@ -61,8 +61,8 @@ class Sorter {
         }
     }
 
-    /// Where the word stands behind an option whose value may be left out, as --weld says in its
-    /// help: "--weld 1e-6".
+    /// Returns a hint if the word stands behind an option whose value may be left out, as --weld
+    /// says in its help: "--weld 1e-6".
     std::string bare_option_hint(const std::string& argument) const {
         const auto at = std::ranges::find(words_, argument);
         if (at == words_.begin() || at == words_.end() || !at[-1].starts_with("--")) {

@@ -35,7 +35,7 @@ bool is_file(const OptionFacts& option) {
     return option.is_argument || option.type == "FILE" || option.type == "OUT";
 }
 
-// How bash_completion() begins; `option` is the one whose value `word` is, or "".
+// Start of bash_completion(); `option` is the one whose value `word` is, or "".
 constexpr const char* kBashStart =
     R"(    # By the line, as the words that bash makes of it end at ":" and "=" too.
     local line=${COMP_LINE:0:COMP_POINT} word='' option='' options='' offered='' kind='' ended=''
@@ -121,7 +121,7 @@ std::string beginning(std::string text) {
     return text.substr(0, text.find("; "));
 }
 
-/// What zsh does for a value.
+/// Returns what zsh does for a value.
 std::string zsh_action(const OptionFacts& option) {
     if (is_folder(option)) {
         return "_files -/";

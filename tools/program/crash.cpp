@@ -40,7 +40,8 @@ const char* base_name(const char* path) {
     return slash != nullptr ? slash + 1 : path;
 }
 
-/// What everybody calls, and where crashes by bad arguments and abort() show.
+/// Returns true for libraries that everybody calls, and where crashes by bad arguments and abort()
+/// show.
 bool is_common(const char* library) {
     for (const char* const name : {"libc.so", "libm.so", "libstdc++.so", "libgcc_s.so",
                                    "libpthread.so", "ld-linux", "linux-vdso"}) {
@@ -51,7 +52,7 @@ bool is_common(const char* library) {
     return false;
 }
 
-/// Where the innermost call is that is not of a common library.
+/// Place of the innermost call that is not of a common library.
 struct Place {
     const char* library = ""; ///< "" for code of none, such as a driver compiles.
     bool is_ours = false;

@@ -1,4 +1,4 @@
-// What the program says when it crashes: whether it or the driver did.
+// Message of the program when it crashes: whether it or the driver did.
 #pragma once
 
 namespace geodisk::tools {

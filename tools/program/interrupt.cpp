@@ -17,7 +17,7 @@ namespace {
 
 // All that a signal handler may touch.
 std::atomic<int> received_signal = 0;
-std::atomic<int> uninterrupted = 0; ///< How many threads must not be ended.
+std::atomic<int> uninterrupted = 0; ///< Number of threads that must not be ended.
 static_assert(std::atomic<int>::is_always_lock_free);
 std::atomic<const char*> interrupted_program = nullptr; ///< Null until handlers are installed.
 

@@ -81,7 +81,7 @@ void add_options(std::string& page, const std::vector<OptionFacts>& options) {
     }
 }
 
-/// What help ends with: indented lines under headings that end with a colon, and paragraphs.
+/// Adds the end of help: indented lines under headings that end with a colon, and paragraphs.
 void add_footer(std::string& page, const std::string& footer) {
     std::istringstream lines(footer);
     bool is_indented = false;

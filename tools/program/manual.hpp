@@ -9,7 +9,7 @@
 namespace geodisk::tools {
 
 struct ManualPage {
-    std::string name; ///< Of the file: "geodisk-sample.1".
+    std::string name; ///< Name of the file: "geodisk-sample.1".
     std::string text; ///< In the language of man, roff.
 };
 

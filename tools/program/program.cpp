@@ -38,7 +38,7 @@ int fail(const char* program, ExitCode code, const std::string& message) {
     return static_cast<int>(code);
 }
 
-/// Where the user finds the right usage.
+/// Returns where the user finds the right usage.
 std::string hint(const std::string& program, const std::string& command) {
     return " (see " + program + ' ' + (command.empty() ? "" : command + ' ') + "--help)";
 }

@@ -31,7 +31,7 @@ void visit_characters(std::string_view text, const Visit& visit) {
     }
 }
 
-/// Whether a spreadsheet computes a cell that begins so.
+/// Returns true if a spreadsheet computes a cell that begins so.
 bool begins_formula(std::string_view text) {
     return !text.empty() && std::string_view("=+-@").find(text.front()) != std::string_view::npos;
 }

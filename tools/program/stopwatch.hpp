@@ -15,7 +15,7 @@ class Stopwatch {
     Clock::time_point start_ = Clock::now();
 };
 
-/// Of `work()`.
+/// Returns the seconds of `work()`.
 template <class Work>
 double seconds_of(const Work& work) {
     const Stopwatch watch;

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t kLongest = 64; // No name is as long, and long words take time to compare.
 
-/// What makes a difference to people: "--min_distance" is "min-distance".
+/// Returns what makes a difference to people: "--min_distance" is "min-distance".
 std::string essence(std::string_view word) {
     std::string text(word.substr(std::min(word.find_first_not_of('-'), word.size())));
     for (char& c : text) {
@@ -54,7 +54,7 @@ std::string did_you_mean(std::string_view word, std::span<const std::string> kno
     for (const std::string& name : known) {
         const std::string candidate = essence(name);
         const std::size_t distance = candidate.starts_with(wanted) ? 0 : edits(wanted, candidate);
-        // Of a word of two letters nothing would be left.
+        // Nothing would be left of a word of two letters.
         if (distance < fewest && distance + 1 < candidate.size()) {
             fewest = distance;
             best = &name;

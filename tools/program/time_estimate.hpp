@@ -1,4 +1,4 @@
-// How long a run will take, judging by what is done of it.
+// Estimate of how long a run will take, by what is done of it.
 #pragma once
 
 #include <optional>

@@ -12,9 +12,9 @@ using picture::FaceRec;
 using picture::WindowRec;
 using picture::WindowTable;
 
-/// Of a full turn.
+/// Steps of a full turn.
 constexpr double kAngles = 65534;
-/// What the shader's own rounding, in float, comes to, in units.
+/// Amount of the shader's own rounding, in float, in units.
 constexpr double kFloatSeam = 2e-4;
 
 /// 0 for the vector of no length.
@@ -44,7 +44,7 @@ void add_faces(const WindowTable& table, std::vector<PageArray>& arrays) {
     arrays.push_back(whole_numbers("face_rows", rows));
 }
 
-/// What windows are told by, in the order of the table.
+/// Numbers that describe windows, in the order of the table.
 struct Windows {
     std::vector<double> x, y, sigmas;
     std::vector<std::uint32_t> left, right, samples;
@@ -95,7 +95,7 @@ DiskData disk_data(const WindowTable& table) {
     data.arrays.push_back(whole_numbers("cell_windows", counts));
 
     const Windows windows(table);
-    // Of a range at least, as numbers that are all alike have none.
+    // Minimum range, as numbers that are all alike have none.
     constexpr double kMinRange = 1e-6;
     const double reach = std::max({kMinRange, farthest(windows.x), farthest(windows.y)});
     const double longest = std::max(kMinRange, farthest(windows.sigmas));

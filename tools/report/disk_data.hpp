@@ -9,11 +9,11 @@
 
 namespace geodisk::tools::report {
 
-/// What the shader has to know besides the arrays.
+/// Numbers that the shader has to know besides the arrays.
 struct DiskScale {
-    double unit = 1;           ///< Of lengths, in mesh units.
-    double cells_per_unit = 1; ///< Of all faces.
-    double seam = 0;           ///< How far rounding moves what a window lights, in units.
+    double unit = 1;           ///< Unit of lengths, in mesh units.
+    double cells_per_unit = 1; ///< Cells per unit of all faces.
+    double seam = 0;           ///< Maximum by which rounding moves what a window lights, in units.
 };
 
 struct DiskData {

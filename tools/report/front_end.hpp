@@ -9,7 +9,7 @@ namespace geodisk::tools::report {
 /// A text, in the pieces that compilers take.
 using Text = std::span<const std::string_view>;
 
-/// Whether the program was built with three.js, which pages need.
+/// Returns true if the program was built with three.js, which pages need.
 bool has_front_end();
 
 /// The text called `name` as page.html does; empty where there is none.

@@ -10,7 +10,7 @@ namespace {
 
 using picture::CornerRec;
 
-/// Of each coordinate of a normal, from -1 to 1.
+/// Steps of each coordinate of a normal, from -1 to 1.
 constexpr double kNormalSteps = 65534;
 constexpr std::uint32_t kNoNormal = 65535;
 

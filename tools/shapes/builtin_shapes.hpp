@@ -13,7 +13,7 @@ namespace geodisk::tools {
 
 struct BuiltinShape {
     std::string_view name;
-    std::string_view summary; ///< What it is and what the resolution counts, in one line.
+    std::string_view summary; ///< Summary of the shape and what the resolution counts, in one line.
     int default_resolution;
     int min_resolution;
     int max_resolution; ///< Keeps every shape below about 20 million triangles.

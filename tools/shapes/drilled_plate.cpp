@@ -12,7 +12,7 @@ namespace geodisk::tools {
 namespace {
 
 constexpr double kHalfThickness = 0.005;
-// Of the distance between holes.
+// Radius of a hole, as a part of the distance between holes.
 constexpr double kRadius = 0.05;
 constexpr std::uint32_t kHoleSides = 32;
 // By how much slivers are longer than triangles of equal sides would be.

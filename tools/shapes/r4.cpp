@@ -48,7 +48,7 @@ class ProjectivePoints {
 
     std::map<std::array<double, 3>, std::uint32_t> known_;
     std::vector<Vec3> points_;
-    std::vector<std::uint32_t> indices_; ///< Of each vertex of the sphere.
+    std::vector<std::uint32_t> indices_; ///< Index of each vertex of the sphere.
 };
 
 } // namespace
@@ -97,7 +97,7 @@ MeshFile make_veronese(int resolution) {
     for (const Vec3& p : projective.points()) {
         add_vertex(mesh, {p.x * p.x - p.y * p.y, p.x * p.y, p.x * p.z, p.y * p.z});
     }
-    // Of two opposite faces of the icosahedron one is taken, with all that subdivision made of it.
+    // One of two opposite faces of the icosahedron is taken, with all that subdivision made of it.
     const MeshFile icosahedron = make_icosphere(0);
     const ProjectivePoints ends(icosahedron);
     const std::size_t parts = sphere.triangles.size() / icosahedron.triangles.size();

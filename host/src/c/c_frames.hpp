@@ -1,4 +1,4 @@
-// What the objects that record over several frames share in the C API.
+// Parts of the C API shared by the objects that record over several frames.
 #pragma once
 
 #include <vulkan/vulkan_core.h>

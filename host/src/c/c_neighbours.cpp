@@ -17,7 +17,7 @@
 /// Immutable.
 struct geodisk_neighbours {
     geodisk::Neighbours lists;
-    std::vector<std::uint32_t> vertices; ///< Of each source; empty if sources are points.
+    std::vector<std::uint32_t> vertices; ///< Vertex of each source; empty if sources are points.
 };
 
 namespace geodisk::c {

@@ -12,7 +12,7 @@
 
 namespace geodisk::c {
 
-/// Where the sources are.
+/// Places of the sources.
 struct NeighbourSources {
     std::vector<Sample> points;
     std::vector<std::uint32_t> vertices; ///< Empty if sources are points.

@@ -17,8 +17,8 @@ namespace geodisk::c {
 struct RequestState {
     std::shared_ptr<DomainState> of; ///< Its one surface, or a box.
     MeshView view;
-    SampleRequest request; ///< Of a surface.
-    BoxRequest box;        ///< Of a box.
+    SampleRequest request; ///< Request for a surface.
+    BoxRequest box;        ///< Request for a box.
 };
 
 /// Requests, and the runs that serve them.

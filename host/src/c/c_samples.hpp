@@ -13,5 +13,5 @@
 struct geodisk_samples {
     std::shared_ptr<const geodisk::c::DomainState> of;
     geodisk::SampleSet set;
-    geodisk::RequestedSet found{}; ///< What is told of a request besides its set.
+    geodisk::RequestedSet found{}; ///< Results of a request besides its set.
 };

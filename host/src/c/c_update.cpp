@@ -90,7 +90,7 @@ geodisk_update_info info_of(const UpdateReport& report) {
 struct geodisk_updater {
     geodisk::Updater updater;
     std::shared_ptr<const geodisk::c::DomainState> of; ///< The surface of the samples.
-    geodisk::RunReport run{};                          ///< Of the last update.
+    geodisk::RunReport run{};                          ///< Report of the last update.
     std::atomic<bool> is_held = false;
 };
 

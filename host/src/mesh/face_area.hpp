@@ -1,4 +1,4 @@
-// Whether faces have area.
+// Tests for faces that have area.
 #pragma once
 
 #include <cstddef>

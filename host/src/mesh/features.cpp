@@ -16,7 +16,7 @@ namespace {
 using Vector = std::array<double, 8>;
 
 constexpr double kSharpTurn = 45;
-// Of cosines: angles that equal a bound are not above it.
+// Tolerance of cosines: angles that equal a bound are not above it.
 constexpr double kCosineTolerance = 1e-9;
 
 double cosine_of(double degrees) {
@@ -57,7 +57,7 @@ class Finder {
             return true;
         }
         const Vector one = height(h), two = height(other);
-        // Where a face has no area, no angle is known.
+        // No angle is known where a face has no area.
         return dot(one, one) > 0 && dot(two, two) > 0 && -dot(one, two) < flat_;
     }
 

@@ -12,7 +12,7 @@
 
 namespace geodisk {
 
-/// What RadiusField has at half-edges, at vertices.
+/// Values of a RadiusField at vertices instead of half-edges.
 struct VertexRadii {
     std::vector<float> factors, spreads;
     std::vector<float> packing; ///< Empty for factors.
@@ -22,7 +22,7 @@ struct VertexRadii {
     static VertexRadii of_density(std::vector<float> density, std::vector<float> packing);
 };
 
-/// What RadiusField::effective_area() integrates, over a face: its mean is `sum / count`.
+/// Integrand of RadiusField::effective_area() over a face: its mean is `sum / count`.
 struct FaceMean {
     double sum, count;
 
@@ -32,7 +32,7 @@ struct FaceMean {
     double samples() const { return sum / count; }
 };
 
-/// What radii are over a whole surface.
+/// Summary of the radii over a whole surface.
 struct RadiusTotals {
     double effective_area = 0, min_density = 0;
     float largest_density = 0, min_factor = 1;

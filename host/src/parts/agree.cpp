@@ -13,7 +13,7 @@ namespace {
 // Counts of processes whose near samples changed, and, above these bits, of those that failed.
 constexpr std::uint64_t kFailed = std::uint64_t{1} << 32;
 
-/// What a process and one of its neighbours have told each other.
+/// Samples that a process and one of its neighbours have sent each other.
 class Dialog {
   public:
     Dialog(const Part& part, const Neighbour& neighbour) : order_{part.has_keys} {
@@ -67,7 +67,7 @@ class Dialog {
 
   private:
     DartOrder order_;
-    std::vector<std::uint32_t> faces_; ///< That the neighbour must know of, by their numbers.
+    std::vector<std::uint32_t> faces_; ///< Faces that the neighbour must know of, by their numbers.
     Darts told_, heard_;
 };
 

@@ -20,7 +20,7 @@
 
 namespace geodisk {
 
-/// What an agreement took.
+/// Cost of an agreement.
 struct AgreementReport {
     std::uint32_t rounds = 0;   ///< Exchanges, the same for all processes.
     std::uint64_t messages = 0; ///< Messages to neighbours.

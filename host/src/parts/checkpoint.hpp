@@ -27,19 +27,19 @@ inline constexpr std::uint32_t kNoStage = std::numeric_limits<std::uint32_t>::ma
 /// Saves a checkpoint. An error ends the work of all processes.
 using SaveCheckpoint = std::function<Result<Done>(const Checkpoint& checkpoint)>;
 
-/// Where a job begins and how it is saved, known to the first process alone.
+/// Start of a job and the way it is saved, known to the first process alone.
 struct Checkpoints {
-    const Checkpoint* from = nullptr; ///< Where it goes on; null to begin.
+    const Checkpoint* from = nullptr; ///< Checkpoint to continue from; null to begin.
     SaveCheckpoint save;              ///< Null if it is not saved.
     std::uint32_t stages = 1;         ///< Stages from one checkpoint to the next, at least 1.
 };
 
-/// What all processes know of checkpoints.
+/// Facts about checkpoints that all processes know.
 struct CheckpointTerms {
     bool is_saved = false;         ///< The first process saves them.
     std::uint32_t stages = 1;      ///< Checkpoints::stages.
-    std::uint32_t first_stage = 0; ///< Where the job goes on; 0 to begin.
-    std::uint64_t candidates = 0;  ///< Of all processes in the stages before.
+    std::uint32_t first_stage = 0; ///< Stage where the job continues; 0 to begin.
+    std::uint64_t candidates = 0;  ///< Candidates of all processes in the stages before.
     std::uint64_t samples = 0;     ///< Likewise.
 
     CheckpointTerms() = default;

@@ -13,9 +13,9 @@
 
 namespace geodisk {
 
-/// What the stages were, the same on all processes but for own candidates.
+/// Report on the stages. It is the same on all processes, except for own candidates.
 struct StagesReport {
-    /// That this process decided, without those before the checkpoint that it went on from.
+    /// Candidates that this process decided, without those before the checkpoint it continued from.
     std::uint64_t own_candidates = 0;
     std::uint64_t before = 0;     ///< Candidates of all processes before those drawn last.
     std::uint64_t candidates = 0; ///< Candidates of all processes.

@@ -1,4 +1,4 @@
-// What surrounds some faces of a surface within a distance along it.
+// Surroundings of some faces of a surface, within a distance along it.
 #pragma once
 
 #include <cstdint>

@@ -20,7 +20,7 @@
 
 namespace geodisk {
 
-/// What a face is to a process.
+/// Role of a face for a process.
 enum class FaceRole : std::uint8_t {
     surface, ///< Paths cross it.
     near,    ///< Its samples, which another process decides, may reject those of own faces.
@@ -38,7 +38,7 @@ struct Neighbour {
 struct FacePlaces {
     std::vector<double> positions;        ///< Three coordinates per vertex.
     std::vector<std::uint32_t> triangles; ///< Three vertices per face.
-    VertexRadii radii;                    ///< Of vertices; empty where radii do not vary.
+    VertexRadii radii;                    ///< Radii at vertices; empty where radii do not vary.
     RadiusField of_whole;                 ///< Radii of the whole, without faces; likewise.
 };
 
@@ -46,11 +46,11 @@ struct FacePlaces {
 /// all that paths from those cross within the same distance. So disks are as on the whole. Faces
 /// and vertices are in the order of the whole.
 struct Part {
-    JobFrame frame;       ///< Frame of the whole.
-    double reach = 0;     ///< No samples farther away than this conflict.
-    PreparedMesh mesh;    ///< See MeshTurn.
-    FacePlaces places;    ///< What mesh and radii are made from; empty once held for good.
-    MeshStatistics whole; ///< Of the whole, likewise.
+    JobFrame frame;                   ///< Frame of the whole.
+    double reach = 0;                 ///< No samples farther away than this conflict.
+    PreparedMesh mesh;                ///< See MeshTurn.
+    FacePlaces places;                ///< Source of mesh and radii; empty once held for good.
+    MeshStatistics whole;             ///< Statistics of the whole, likewise.
     std::optional<RadiusField> radii; ///< With the mesh.
     std::vector<std::uint32_t> faces; ///< Number in the whole of each face.
     std::vector<FaceRole> roles;

@@ -71,8 +71,8 @@ class PartRun {
     Darts own_; ///< Own samples as they were decided last, among these near ones.
     Darts near_;
     std::vector<double> from_near_; ///< Lower bounds on the distance of vertices from near faces.
-    double border_reach_ = 0;       ///< How far samples may be to reject candidates in the border.
-    bool is_decided_ = false;       ///< The candidates of these stages.
+    double border_reach_ = 0; ///< Maximum distance of samples that reject candidates in the border.
+    bool is_decided_ = false; ///< The candidates of these stages.
     std::uint64_t own_count_ = 0;
     RunReport report_;
     std::uint32_t whole_runs_ = 0, border_runs_ = 0;

@@ -21,7 +21,7 @@
 namespace geodisk {
 namespace {
 
-/// What a process tells the first one in the end, before its samples.
+/// Final report of a process to the first one, before its samples.
 struct Summary {
     ProcessReport process;
     RunReport run;

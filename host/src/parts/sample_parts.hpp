@@ -33,7 +33,7 @@ struct WholeSurface {
     const Checkpoints* checkpoints = nullptr; ///< Null for a job without any.
 };
 
-/// What came of it, at the first process alone.
+/// Result, at the first process alone.
 struct PartsResult {
     SampleSet set; ///< As one process gives it. RunReport::seconds are those of the first process.
     std::vector<ProcessReport> processes;

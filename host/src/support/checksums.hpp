@@ -1,4 +1,4 @@
-// Whether readers compare checksums.
+// Switch that decides whether readers compare checksums.
 #pragma once
 
 namespace geodisk {

@@ -1,4 +1,5 @@
-// What the engine has anyway: a device with one queue, a block of memory of each kind, and frames.
+// Parts that the engine has anyway: a device with one queue, a block of memory of each kind, and
+// frames.
 #pragma once
 
 #include <cstddef>
@@ -41,7 +42,7 @@ class Gpu {
     const geodisk::DeviceReport& report() const { return report_; }
     /// The index of a memory type with these properties among those allowed.
     std::uint32_t memory_type(std::uint32_t allowed, VkMemoryPropertyFlags properties) const;
-    /// What geodisk borrows.
+    /// Returns what geodisk borrows.
     geodisk::DeviceRefs refs() const;
     /// Messages of the validation layer.
     std::uint32_t complaints() const { return complaints_; }
@@ -71,7 +72,7 @@ class Block {
 
     /// The next range; throws where there is no room.
     geodisk::BufferRange cut(VkDeviceSize bytes);
-    /// Of a mapped block.
+    /// Returns the bytes of a range of a mapped block.
     std::span<std::byte> bytes(const geodisk::BufferRange& range) const {
         return {mapped_ + range.offset, static_cast<std::size_t>(range.size)};
     }
@@ -97,7 +98,7 @@ class Frames {
 
     /// Waits until the device is done with the frame that had this turn before.
     VkCommandBuffer begin();
-    /// Which of the two.
+    /// Returns which of the two has its turn.
     std::uint32_t turn() const { return turn_; }
     void submit();
     void wait_for_all() const;

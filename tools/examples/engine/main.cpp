@@ -80,7 +80,7 @@ glm::mat4 camera(std::uint32_t frame) {
                                  glm::vec3(0), glm::vec3(0, 0, 1));
 }
 
-/// Whether the validation layer had nothing to say.
+/// Runs the example. Returns true if the validation layer had nothing to report.
 bool run(bool validate, const char* path) {
     Gpu gpu(validate);
     const Torus torus = make_torus(192, 64);

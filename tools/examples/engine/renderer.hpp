@@ -25,7 +25,7 @@ class Renderer {
     Renderer& operator=(const Renderer&) = delete;
     ~Renderer();
 
-    /// How many discs there are is known to the device alone.
+    /// Records the drawing. The number of discs is known to the device alone.
     void record(VkCommandBuffer commands, const SurfaceDraw& surface,
                 const geodisk::BufferRange& arguments, const glm::mat4& to_clip) const;
     /// The image as it is then, four bytes a pixel.

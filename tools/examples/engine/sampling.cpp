@@ -6,7 +6,7 @@ namespace engine {
 namespace {
 
 constexpr std::uint64_t kPoolBytes = std::uint64_t{8} << 20;
-// Of a frame.
+// Maximum of dispatches and rounds of a frame.
 constexpr std::uint32_t kDispatches = 16;
 constexpr std::uint32_t kRounds = 2;
 
@@ -71,8 +71,8 @@ void Sampling::record_upload(VkCommandBuffer commands) {
 }
 
 void Sampling::record(VkCommandBuffer commands, std::uint32_t turn) {
-    // What the frame before the last left. Where something was recorded since that it does not tell
-    // of, advance says so.
+    // Reads what the frame before the last left. If something was recorded since that it does not
+    // report, advance says so.
     geodisk::gpu::ControlRec control;
     const auto bytes = host_block_.bytes(controls_[turn]);
     std::memcpy(&control, bytes.data(), sizeof control);
@@ -103,7 +103,7 @@ void Sampling::record(VkCommandBuffer commands, std::uint32_t turn) {
         throw std::runtime_error("an engine would make larger buffers here, or a new job");
     }
     if (is_begun_ && !is_complete_) {
-        // What is decided so far is final, so it may be drawn in this very frame. Draws of the
+        // Samples decided so far are final, so they may be drawn in this very frame. Draws of the
         // frame before come first.
         sampler_.record_finish(commands, *job_);
         barrier(commands, kDraw,

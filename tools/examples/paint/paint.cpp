@@ -105,7 +105,7 @@ Mesh make_torus(std::uint32_t around, std::uint32_t across) {
     return mesh;
 }
 
-// What is painted: a factor of the radius per vertex, or whether faces take samples.
+// Canvas of what is painted: a factor of the radius per vertex, or whether faces take samples.
 class Canvas {
   public:
     Canvas(const Mesh& mesh, const geodisk::PreparedMesh& prepared, bool paints_radii)

@@ -231,7 +231,7 @@ int main(void) {
     barrier(commands);
     submit(&gpu, commands);
 
-    /* What comes next, until that is nothing. */
+    /* Go on with the next step until there is none. */
     const geodisk_buffer_range control = ranges[GEODISK_CONTROL_BUFFER];
     geodisk_buffer_need need = {sizeof need};
     geodisk_job_need(job, GEODISK_CONTROL_BUFFER, &need, &error);

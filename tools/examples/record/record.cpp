@@ -93,7 +93,7 @@ class Frames {
     std::uint32_t count_ = 0;
 };
 
-// What the buffer holds, by way of one that the host sees.
+// Returns what the buffer holds, by way of one that the host sees.
 std::vector<geodisk::gpu::PlacedRec> read(const geodisk::Context& context, Frames& frames,
                                           const geodisk::FrameSamples& samples) {
     const VkDevice device = context.device().device;

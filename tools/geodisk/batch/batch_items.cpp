@@ -24,7 +24,7 @@
 namespace geodisk::tools {
 namespace {
 
-/// Whether `path` stays in the folder that it is relative to, and names something there.
+/// Returns true if `path` stays in the folder that it is relative to, and names something there.
 bool stays_inside(const std::filesystem::path& path) {
     return path.is_relative() && path.has_filename() &&
            std::ranges::none_of(path, [](const auto& part) { return part == ".." || part == "."; });

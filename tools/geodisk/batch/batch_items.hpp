@@ -1,4 +1,4 @@
-// What a batch is to do: one job for each mesh.
+// Items of a batch: one job for each mesh.
 #pragma once
 
 #include <set>
@@ -12,7 +12,7 @@ namespace geodisk::tools {
 struct BatchItem {
     SampleJob job;       ///< With its output.
     std::string command; ///< As sample_command() gives it, from any folder.
-    std::string place;   ///< Where the user named it: a mesh file, or a line of the manifest.
+    std::string place;   ///< Source of the mesh: a mesh file, or a line of the manifest.
     std::string fault;   ///< Error of an item whose output is also that of another, or "".
 };
 

@@ -17,11 +17,11 @@ void check_no_log(const std::string& path);
 /// log, as where a program was killed while it wrote, are passed over.
 std::set<std::string> commands_done(const std::string& folder);
 
-/// What came of a mesh.
+/// Result of a mesh.
 struct BatchEntry {
     std::string mesh, output, command;
     int exit_code = 0; ///< As `geodisk sample` would have ended.
-    std::string error; ///< Of what failed.
+    std::string error; ///< Error of a job that failed.
     std::uint64_t samples = 0;
     double min_distance = 0; ///< In mesh units.
     double seconds = 0;      ///< From reading the mesh to its samples on the disk.

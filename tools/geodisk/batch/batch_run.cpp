@@ -66,7 +66,7 @@ void make_folder_of(const Path& file) {
     }
 }
 
-/// What the threads share.
+/// State that the threads share.
 class BatchRun {
   public:
     BatchRun(std::span<const BatchItem* const> items, DevicePool& pool, LineLog& log,
@@ -203,7 +203,7 @@ class BatchRun {
     LineLog& log_;
     ProgressLine& progress_;
     const Stopwatch watch_;
-    std::mutex mutex_; ///< Of all below, the log and the progress.
+    std::mutex mutex_; ///< Guards all below, the log and the progress.
     std::size_t next_ = 0;
     BatchTotals totals_;
     std::exception_ptr error_;

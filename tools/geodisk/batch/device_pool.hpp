@@ -13,8 +13,9 @@
 
 namespace geodisk::tools {
 
-/// What `--device` says: each device once, by its index. Without it all usable GPUs, or the best
-/// device where there are none; for "all" every usable device. Throws UserError(no_device).
+/// Returns the devices that `--device` names, each once, by its index. Without it, returns all
+/// usable GPUs, or the best device if there are none; for "all" every usable device. Throws
+/// UserError(no_device).
 std::vector<std::string> chosen_devices(const std::vector<std::string>& given);
 
 class DevicePool {

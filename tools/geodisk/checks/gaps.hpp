@@ -14,7 +14,7 @@
 
 namespace geodisk::tools {
 
-/// How far the points of a surface are from the nearest sample, as ratios to the minimum distance.
+/// Distances of the points of a surface from the nearest sample, as ratios to the minimum distance.
 struct GapCheck {
     ref::Coverage found;
     double allowed;  ///< Covered points have lower ratios: 1 and twice the guard.

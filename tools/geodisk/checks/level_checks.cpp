@@ -15,7 +15,7 @@
 namespace geodisk::tools {
 namespace {
 
-/// Of a level that is spaced, where some samples existed before.
+/// Verdict on a level that is spaced, where some samples existed before.
 constexpr const char* kButExisting = "all spaced, pairs of existing samples aside";
 
 /// Returns the number of samples up to the end of a level, where levels come in order.

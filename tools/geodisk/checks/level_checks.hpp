@@ -15,11 +15,11 @@
 
 namespace geodisk::tools {
 
-/// What a check of one level found.
+/// Result of checking one level.
 struct LevelSpacing {
     double min_distance;  ///< As the header has it.
     std::size_t samples;  ///< Up to its end.
-    SpacingResult result; ///< Of all pairs but those of existing samples.
+    SpacingResult result; ///< Result for all pairs but those of existing samples.
 };
 
 /// Checks the samples up to the end of each level whose distance the header has; none without such

@@ -71,7 +71,7 @@ void for_each_pair(const PairSearch& search, ProgressLine& progress, const Reach
     progress.clear();
 }
 
-/// What has been noted of pairs that count, or of existing samples.
+/// Notes about pairs that count, or about existing samples.
 class Notes {
   public:
     /// Returns true if a pair is to be noted.

@@ -17,13 +17,13 @@
 
 namespace geodisk::tools {
 
-/// Which pairs are looked for: those closer than they should be, and the closest of all.
+/// Search for pairs: those closer than they should be, and the closest of all.
 struct PairSearch {
     const PreparedMesh& mesh;    ///< The whole, or what surrounds the sources of a part.
-    ref::Frame frame;            ///< Of the whole; its unit is that of all lengths.
+    ref::Frame frame;            ///< Frame of the whole; its unit is that of all lengths.
     double longest = 0;          ///< Maximum length of a path on the whole, in mesh units.
     std::vector<Sample> samples; ///< By row, on faces of `mesh`.
-    /// How far samples must be apart; none to look for the closest pair by its distance alone.
+    /// Distances that samples must keep; none to look for the closest pair by its distance alone.
     std::optional<PairDistances> distances{};
     /// Pairs are found up to this part of the distance they must have, or up to this distance.
     double cut = 0;

@@ -1,4 +1,4 @@
-// What users should know about the samples of a job besides what they asked for.
+// Warnings about the samples of a job, besides what users asked for.
 #pragma once
 
 #include <vector>

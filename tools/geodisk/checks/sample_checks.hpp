@@ -1,4 +1,4 @@
-// Whether samples lie on a mesh, as their file says.
+// Checks that samples lie on a mesh, as their file says.
 #pragma once
 
 #include <cstdint>
@@ -79,7 +79,7 @@ SampleDisks disks_of(std::span<const SampleRow> rows, const ClassTable& table,
 void check_same_distance(const std::string& samples_path, double min_distance,
                          const std::string& first_path, double first_distance);
 
-/// How far `stray` is off, as the end of a sentence.
+/// Returns how far `stray` is off, as the end of a sentence.
 std::string offset_text(const StrayRow& stray);
 
 } // namespace geodisk::tools

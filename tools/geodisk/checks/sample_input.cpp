@@ -23,7 +23,7 @@ void put_on(SampleRow& row, const SurfacePoint& place, const MeshInput& mesh) {
     mesh.place(row);
 }
 
-/// How far points were moved.
+/// Distances that points were moved by.
 struct Moves {
     std::size_t count = 0;
     double farthest = 0, sum = 0;

@@ -17,7 +17,7 @@ struct SampleInput {
     std::vector<StrayRow> strays; ///< Not where they should be.
 };
 
-/// What a file of samples is read for.
+/// Purpose of reading a file of samples.
 struct ReadAs {
     std::string noun = "sample"; ///< Names a row in errors.
     std::string numbers;         ///< Column to read as well, see read_samples(), or "".

@@ -26,7 +26,7 @@ namespace geodisk::tools {
 struct ClosePair {
     std::uint32_t row_a, row_b;
     double distance;
-    double ratio; ///< Of the distance to what it should be at least; of find_closest() itself.
+    double ratio; ///< Distance over its minimum; by find_closest() the distance.
 
     /// Returns true if it is closer than it should be, by more than a billionth.
     bool is_violation() const;
@@ -38,7 +38,7 @@ inline constexpr std::size_t kMaxViolations = 1'000'000;
 /// beyond theirs, each has very many.
 inline constexpr std::size_t kMaxExistingPairs = 50'000;
 
-/// Whether the pair is closer, by ratio.
+/// Returns true if the pair is closer, by ratio.
 bool is_closer(const ClosePair& pair, const std::optional<ClosePair>& than);
 
 struct SpacingResult {
@@ -62,11 +62,11 @@ struct SpacingResult {
     std::string pairs_text() const;
 };
 
-/// How far rows must be apart: the sum of their radii, one to a row, or as their classes say.
+/// Distances that rows must keep: the sum of their radii, one to a row, or as their classes say.
 struct PairDistances {
     std::span<const double> radii;
     std::span<const std::uint32_t> classes{}; ///< One to a row, or none.
-    ClassTable table{};                       ///< Of the classes, if there are any.
+    ClassTable table{};                       ///< Table of the classes, if there are any.
     double min_distance = 0;                  ///< Largest distance in the table.
 
     /// Returns the distance for a pair.

@@ -12,7 +12,7 @@
 namespace geodisk::tools {
 namespace {
 
-/// Of two samples with the largest radius.
+/// Returns the distance of two samples with the largest radius.
 double distance_of(const VerifyOptions& options, const SampleFile& samples, const MeshInput& mesh) {
     const double given =
         options.min_distance.empty()

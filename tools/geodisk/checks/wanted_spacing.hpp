@@ -1,4 +1,4 @@
-// How far samples must be apart, as the options of `geodisk verify` and a sample file say.
+// Distances that samples must keep, as the options of `geodisk verify` and a sample file say.
 #pragma once
 
 #include <cstddef>
@@ -11,11 +11,11 @@
 
 namespace geodisk::tools {
 
-/// How far samples must be apart.
+/// Distances that samples must keep.
 struct WantedSpacing {
     bool is_known = true; ///< Else nothing says how far, and nothing follows.
     ClassTable classes;
-    double min_distance = 0; ///< Of all pairs, or of two with the largest radius; 0 if not known.
+    double min_distance = 0; ///< For all pairs, or two with the largest radius; 0 if not known.
     bool radii_vary = false;
     std::vector<double> radii; ///< By row.
     std::size_t wrong = 0;     ///< Rows whose own radius is another.

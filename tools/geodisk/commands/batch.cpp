@@ -52,7 +52,7 @@ constexpr int kJobsPerDevice = 4;
 /// which is for each run, there is one.
 constexpr std::size_t kRunsPerDevice = 2;
 
-/// What of the shard is not done yet.
+/// Returns the items of the shard that are not done yet.
 std::vector<const BatchItem*> items_to_do(const std::vector<BatchItem>& items, const Shard& shard,
                                           const std::set<std::string>& done, BatchResult& result) {
     std::vector<const BatchItem*> left;

@@ -60,7 +60,7 @@ void check_dual_dimension(const CellOptions& options, std::uint32_t dimension) {
     }
 }
 
-/// What the file said of its samples, and what their areas are.
+/// Returns the header of the samples in the file, with their areas.
 SampleHeader header_with_areas(const CellOptions& options, const SampleHeader& source,
                                const SurfaceCells& cells) {
     SampleHeader header = source;

@@ -34,7 +34,7 @@ struct UnnamedOutputs {
     bool may_lack_picture = false; ///< Leaves the picture out if the device cannot draw.
 };
 
-/// What `sample` does, by `sampler` if it is not null.
+/// Runs `sample`, by `sampler` if it is not null.
 void sample_to_files(const SampleOptions& options, const UnnamedOutputs& unnamed = {},
                      SurfaceSampler* sampler = nullptr);
 
@@ -49,8 +49,8 @@ void choose_command(Command app, std::vector<std::string>& arguments);
 /// are too close or off the mesh.
 void add_verify_command(Command app);
 
-/// What `verify` does with samples in a box, which their header describes; `min_distance` is that
-/// of the command line, or "".
+/// Runs `verify` on samples in a box, which their header describes. `min_distance` is that of the
+/// command line, or "".
 void verify_box(const std::string& samples, const std::string& min_distance,
                 const OutputOptions& out);
 
@@ -61,13 +61,13 @@ void add_analyze_command(Command app);
 /// device.
 void add_spectrum_command(Command app);
 
-/// What `spectrum` does with samples in boxes.
+/// Runs `spectrum` on samples in boxes.
 void spectrum_of_boxes(const SpectrumOptions& options);
 
 /// Draws samples on a mesh or in a box on a Vulkan device and writes the picture to a file.
 void add_render_command(Command app);
 
-/// What `render` does with samples in a box of two or three dimensions.
+/// Runs `render` on samples in a box of two or three dimensions.
 void render_box(const RenderOptions& options);
 
 /// Samples a mesh on a Vulkan device and writes a page that shows the samples and tells of them.
@@ -104,14 +104,14 @@ void add_completion_command(Command app);
 /// Writes the manual pages of the program and its commands to a folder. Hidden.
 void add_manual_command(Command app);
 
-/// Which kernels `info --kernels` is about.
+/// Kernels that `info --kernels` is about.
 struct KernelsOptions {
     std::string device;
     std::string reads; ///< "" for what suits the device.
 };
 
-/// What `info --kernels` does: prints what the device's driver tells of the kernels that it has
-/// compiled. UserError(no_device) if it tells nothing.
+/// Runs `info --kernels`: prints what the device's driver reports about the kernels that it has
+/// compiled. Throws UserError(no_device) if it reports nothing.
 void print_kernels(const KernelsOptions& options, const OutputOptions& out);
 
 } // namespace geodisk::tools

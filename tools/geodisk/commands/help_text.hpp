@@ -1,4 +1,4 @@
-// What the help of commands ends with.
+// Footers for the help of commands.
 #pragma once
 
 #include <span>

@@ -149,7 +149,7 @@ void check_no_outputs(const QuickOptions& options) {
     }
 }
 
-/// Whether nothing can go on after it.
+/// Returns true if nothing can go on after the error.
 bool ends_all(const UserError& error) {
     return error.code() == ExitCode::no_device || static_cast<int>(error.code()) > 128;
 }
@@ -219,7 +219,7 @@ void check_mesh(Command app, const std::string& word) {
     fail_usage(in_quotes(word) + ": no such command or mesh file" + did_you_mean(word, known));
 }
 
-/// What may stand where a mesh alone is sampled: options of `quick` and of the program.
+/// Returns what may be given if a mesh alone is sampled: options of `quick` and of the program.
 CommandFacts quick_facts(Command app) {
     CommandFacts facts = app.find_command("quick")->facts(true);
     const CommandFacts program = app.facts();

@@ -24,7 +24,7 @@ namespace {
 using picture::PictureParams;
 using picture::Style;
 
-/// Of points drawn in space, in radii.
+/// Radius of points drawn in space, as a part of the disk's radius.
 constexpr double kPointPart = 0.3;
 
 /// A single file must be one of samples in a box, which has nothing of a surface.

@@ -39,7 +39,7 @@ constexpr const char* kSpectrumExamples[] = {
 using analysis::PlacedSamples;
 using analysis::SurfaceSpectrum;
 
-/// Where the power of blue noise has gone up and down once.
+/// Frequency at which the power of blue noise has gone up and down once.
 constexpr double kWantedReach = 2;
 
 void check_surface_spectrum_path(const Path& path) {

@@ -55,7 +55,7 @@ struct TransferOptions {
     bool is_farthest() const { return order == "farthest"; }
 };
 
-/// What the command makes.
+/// Result of the command.
 struct Transfer {
     MeshInput from, to;
     SampleFile samples{};
@@ -132,7 +132,8 @@ void check_connectivity(const TransferOptions& options, const MeshFile& from, co
     }
 }
 
-/// What holds of the new samples, then what the header of the old ones said, as "source_KEY".
+/// Returns the header of the new samples: first what holds of them, then the header of the old
+/// ones, as "source_KEY".
 SampleHeader transferred_header(const TransferOptions& options, const Transfer& done) {
     SampleHeader header{
         {{"version", "geodisk " GEODISK_VERSION_STRING}, {"mesh", options.to.mesh}}};

@@ -1,4 +1,4 @@
-// What `geodisk verify` does, by one process or many.
+// Steps of `geodisk verify`, by one process or many.
 #pragma once
 
 #include "geodisk/checks/near_pairs.hpp"

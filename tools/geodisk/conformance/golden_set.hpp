@@ -25,12 +25,12 @@ std::vector<GoldenSet> golden_sets();
 /// Those of another file of its form. Throws UserError(bad_input).
 std::vector<GoldenSet> read_sets(const Path& path);
 
-/// What a device gives for a job.
+/// Result of a device for a job.
 struct FoundSet {
     std::string fingerprint;
     std::uint64_t samples = 0;
     std::uint32_t chunks = 0; ///< Parts in which the candidates were drawn.
-    double seconds = 0;       ///< Of the run on the device, without compiling.
+    double seconds = 0;       ///< Seconds of the run on the device, without compiling.
     std::string error;        ///< Why there is no set; "" if there is one.
 
     bool is(const GoldenSet& set) const {

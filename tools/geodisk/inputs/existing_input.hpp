@@ -16,7 +16,7 @@ namespace geodisk::tools {
 /// The samples of --existing and the points of --avoid, and what is odd about them.
 struct ExistingInput {
     std::vector<Sample> samples;
-    std::vector<std::uint8_t> classes; ///< Of the samples, if there are several.
+    std::vector<std::uint8_t> classes; ///< Classes of the samples, if there are several.
     std::vector<KeepOut> avoided;      ///< All but disks on parts that another one covers.
     std::size_t points_to_avoid = 0;   ///< With those.
     double lines_to_avoid = 0;         ///< Length of the lines.

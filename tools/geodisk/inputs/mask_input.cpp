@@ -21,7 +21,7 @@ using Mask = std::vector<std::uint8_t>;
 /// Numbers of what a part of the file belongs to.
 using Numbers = std::vector<std::uint32_t>;
 
-/// What --only names, and what files have it.
+/// Names for what --only selects, and for what files hold it.
 struct Naming {
     const char* plural;
     const char* source;
@@ -60,7 +60,7 @@ Numbers numbers_of(const MeshFile& mesh, const MeshPart& part, RuleKind kind) {
     return numbers;
 }
 
-/// Which parts of the file have what a rule of this kind may name.
+/// Index of the parts of the file that have what a rule of this kind may name.
 class PartIndex {
   public:
     PartIndex(const MeshFile& mesh, RuleKind kind) : mesh_(mesh), kind_(kind) {
@@ -131,7 +131,7 @@ class PartIndex {
 
     const MeshFile& mesh_;
     RuleKind kind_;
-    std::vector<Numbers> numbers_; ///< Of each part; none of a part without triangles.
+    std::vector<Numbers> numbers_; ///< Numbers of each part; none of a part without triangles.
     std::set<std::uint32_t> known_;
 };
 
@@ -208,7 +208,7 @@ RuleValues values_for(const MaskRule& rule, const MeshFile& mesh, const MeshProp
     return {property->values, property->of_faces ? nullptr : &mesh.corners_in_file()};
 }
 
-/// What a rule left out, and the values that it found.
+/// Parts that a rule left out, and the values that it found.
 class RuleEffect {
   public:
     /// Takes out of the mask what the rule does not hold for.

@@ -106,7 +106,7 @@ std::optional<SplitSurface> split_surface(const std::string& path, const MeshFil
     return SplitSurface{std::move(*faces), std::move(prepared)};
 }
 
-/// What the lifts, the density and the mask need of the mesh file.
+/// Returns what the lifts, the density and the mask need of the mesh file.
 MeshSources sources_of(const MeshOptions& options, std::span<const Lift> lifts,
                        const std::optional<DensitySource>& density,
                        const std::vector<MaskRule>& masks) {

@@ -34,13 +34,13 @@ inline Sample sample_of(const SampleRow& row) {
 /// The surface of a mesh whose faces are split for images.
 struct SplitSurface {
     SplitFaces faces;
-    PreparedMesh prepared; ///< Of the parts.
+    PreparedMesh prepared; ///< Mesh of the parts.
 };
 
 struct MeshInput {
     MeshFile file;
-    PreparedMesh prepared; ///< Of the lifted positions or the edge lengths, where these are given.
-    std::optional<RadiusField> radii; ///< Where the options say that radii vary, on sampled().
+    PreparedMesh prepared;            ///< Mesh of the lifted positions or edge lengths, if given.
+    std::optional<RadiusField> radii; ///< Radii on sampled(), if the options say that they vary.
     /// SampleParams::face_mask on sampled(), where options give one.
     std::vector<std::uint8_t> face_mask;
     /// Distances given and told, as a part of that of two samples with the largest radius: with
@@ -50,13 +50,13 @@ struct MeshInput {
     double load_seconds = 0;
     double prepare_seconds = 0;
     std::optional<Textures> textures = std::nullopt; ///< Whose colours samples get.
-    /// What is known of a mesh that no process holds whole, and that `prepared` stands for.
+    /// Facts about a mesh that no process holds whole, and that `prepared` stands for.
     struct Known {
         double area, borders; ///< As effective_area() and distance_for_count() take them.
         std::optional<std::uint64_t> triangles_for_samples; ///< With a mask.
     };
     std::optional<Known> known = std::nullopt;
-    std::optional<SplitSurface> split = std::nullopt; ///< Where images show more than corners.
+    std::optional<SplitSurface> split = std::nullopt; ///< Set if images show more than corners.
 
     /// Returns the mesh that samples are drawn on, and that radii and masks are of.
     const PreparedMesh& sampled() const { return split ? split->prepared : prepared; }
@@ -83,7 +83,7 @@ struct MeshInput {
     }
     /// The point of `face` with the given weights of its corners; zero beyond the dimension.
     std::array<double, 8> point(std::uint32_t face, const float (&weights)[3]) const;
-    /// Of a sample there, in mesh units, where radii vary; else 0.
+    /// Returns the radius of a sample there, in mesh units, if radii vary; else 0.
     double radius(std::uint32_t face, const float (&weights)[3], double min_distance) const {
         if (!radii) {
             return 0;
@@ -95,7 +95,8 @@ struct MeshInput {
     std::optional<std::uint32_t> polygon(std::uint32_t face) const {
         return file.polygons.empty() ? std::nullopt : std::optional(file.polygons[face]);
     }
-    /// Of unit length; zero for a face without area and for a mesh that is not in space.
+    /// Returns the normal of unit length; zero for a face without area and for a mesh that is not
+    /// in space.
     Vec3 normal(std::uint32_t face) const;
     /// Returns geodisk::effective_area() for parameters of with_fields().
     double effective_area(const SampleParams& params) const {

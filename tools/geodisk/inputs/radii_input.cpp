@@ -63,8 +63,8 @@ std::optional<MeshWarning> raise_small(Values& factors, const PreparedMesh& mesh
                        factors.source};
 }
 
-/// What to give instead, where values are no factors of a radius: many a mask or density is tried
-/// as one.
+/// Returns what to give instead, if values are no factors of a radius. Many a mask or density is
+/// tried as one.
 std::string density_hint(const DensitySource& of) {
     return "; for a density, where 0 means no samples, give --density " + of.text();
 }

@@ -134,7 +134,7 @@ class ImagePart {
     mutable std::array<double, 3> greys_{};
 };
 
-/// How far apart an image was read on faces that do not show all of it.
+/// Distance between readings of an image on faces that do not show all of it.
 struct Coarse {
     std::uint64_t faces = 0;
     double pixels = 0;

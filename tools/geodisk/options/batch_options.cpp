@@ -40,7 +40,7 @@ void drop_replaced(SampleOptions& common, const SampleOptions& line) {
     const bool throws_darts = names_darts(method);
     const bool has_length =
         !line.min_distance.empty() || !line.radius.empty() || has_distances(line.classes);
-    // Where darts stop at a count, it goes with a length.
+    // If darts stop at a count, the count goes with a length.
     if (has_length || (!line.count.empty() && !throws_darts)) {
         common.min_distance.clear();
         common.radius.clear();

@@ -40,11 +40,11 @@ struct BatchOptions {
 /// Adds all options of the command; `options` must outlive the parsing.
 void add_batch_options(Command command, BatchOptions& options);
 
-/// What a line of a manifest says.
+/// Line of a manifest.
 struct LineOptions {
     SampleOptions sample; ///< Without an output.
     std::string mesh;     ///< As the line gives it.
-    std::string name;     ///< Of the output; "" for that of the mesh.
+    std::string name;     ///< Name of the output; "" for that of the mesh.
 };
 
 /// The job that `words`, the mesh and its options, ask for: they replace options of the same kind

@@ -24,7 +24,7 @@ struct BoxOptions {
 /// parsing.
 void add_box_options(Command command, BoxOptions& options);
 
-/// What is asked for.
+/// Job that the options ask for.
 struct BoxJob {
     OutputOptions out;
     RunOptions run;

@@ -23,13 +23,13 @@ struct AvoidOption {
     Kind kind = Kind::file;
     std::string points; ///< File.
     std::optional<Length> radius;
-    std::string column; ///< Of radii, where there is no `radius`.
+    std::string column; ///< Column of radii, if there is no `radius`.
 };
 
 /// As given on the command line.
 struct ConstraintOptions {
     std::string existing;           ///< File of samples to keep, or "".
-    std::vector<std::string> avoid; ///< What to avoid, with radii.
+    std::vector<std::string> avoid; ///< Points and lines to avoid, with radii.
     std::string tolerance;          ///< For points without faces, or "".
 
     bool is_given() const { return !existing.empty() || !avoid.empty(); }

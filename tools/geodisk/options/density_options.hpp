@@ -14,7 +14,7 @@
 
 namespace geodisk::tools {
 
-/// Where the values at the vertices come from, and what they are.
+/// Source of the values at the vertices, and their meaning.
 struct DensitySource {
     enum class Kind { attribute, file, map, curvature };
 
@@ -35,10 +35,11 @@ struct DensityOptions {
     std::string attribute, file, map, floor;
     bool curvature = false;
 
-    /// Whether radii vary at all. Throws UserError(usage) for options that contradict each other.
+    /// Returns true if radii vary at all. Throws UserError(usage) for options that contradict each
+    /// other.
     bool is_given() const { return source().has_value(); }
     std::optional<DensitySource> source() const;
-    /// Whether distances are those at the largest density.
+    /// Returns true if distances are those at the largest density.
     bool is_density() const { return !density.empty(); }
     /// Tells what took the place of an option of before, or nothing; of the mesh `path`.
     std::optional<MeshWarning> warning() const;

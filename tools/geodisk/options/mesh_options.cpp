@@ -14,7 +14,7 @@ constexpr const char* kSurfaceGroup = "Surface";
 
 constexpr const char* kMeshFormats = ":\n*.gltf, *.glb, *.obj, *.off, *.ply, *.stl or builtin:NAME";
 
-/// What a flag without a value gets, and the name for it.
+/// Value that a flag without one gets, and the name for it.
 constexpr const char* kBareFlag = "true";
 constexpr const char* kExact = "exact";
 

@@ -16,7 +16,7 @@ namespace geodisk::tools {
 /// As given on the command line.
 struct MeshOptions {
     std::string mesh, coordinates, edge_lengths;
-    std::string format; ///< Of the mesh; "" for that of its extension.
+    std::string format; ///< Format of the mesh; "" for that of its extension.
     std::vector<std::string> lifts;
     std::string weld; ///< A length, or what a flag without a value gets; "" for not at all.
     bool keep_seams = false;

@@ -16,7 +16,7 @@ namespace {
 /// Darts for each sample there is room for, after which a count counts as out of reach.
 constexpr double kDartsPerSample = 1000;
 
-/// Of --dense.
+/// Pool ratio of --dense.
 constexpr double kDensePoolRatio = 100;
 
 constexpr const char* kMethodGroup = "Method";

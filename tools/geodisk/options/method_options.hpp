@@ -1,4 +1,4 @@
-// How many candidates a run has and when it stops: options of the commands that sample.
+// Number of candidates of a run and its end: options of the commands that sample.
 #pragma once
 
 #include <cstdint>
@@ -41,10 +41,10 @@ struct Method {
     bool is_dense = false, is_maximal = false;
     double pool_ratio = kDefaultPoolRatio;
     std::uint32_t darts = 0;      ///< 0 if not given.
-    std::uint32_t stop_count = 0; ///< Of --count, where darts stop at it; else 0.
+    std::uint32_t stop_count = 0; ///< Value of --count, if darts stop at it; else 0.
     bool has_levels = false;      ///< --order progressive.
     bool is_farthest = false;     ///< --order farthest.
-    std::uint32_t keep = 0;       ///< Of --keep; 0 for all.
+    std::uint32_t keep = 0;       ///< Value of --keep; 0 for all.
     Levels levels{0};             ///< Their factor, and their number if that was given; else 0.
 
     /// Darts to throw where there is room for so many samples: where a count alone is to stop them,
@@ -77,7 +77,7 @@ Method parse_method(const MethodOptions& options, const std::string& count);
 
 /// A number of samples that chooses the distance.
 struct WantedCount {
-    double samples = 0; ///< Of --count; 0 if the distance is given.
+    double samples = 0; ///< Value of --count; 0 if the distance is given.
     bool is_exact = false;
 };
 

@@ -12,7 +12,7 @@ namespace geodisk::tools {
 
 class Command;
 
-/// Where the normals of samples come from.
+/// Source of the normals of samples.
 enum class NormalKind : std::uint8_t { face, file, smooth };
 
 /// As given on the command line.
@@ -30,7 +30,7 @@ struct RecordOptions {
     WantedFields fields() const;
     /// Throws UserError(usage) if the format holds no such columns.
     void check(const SampleTarget& target) const;
-    /// What a header says of them; nothing of those that were not given.
+    /// Returns what a header says of them; nothing of those that were not given.
     HeaderEntries entries() const;
 };
 

@@ -15,7 +15,7 @@ struct ReportOptions {
     SampleOptions sample; ///< Its output is the page.
     std::string probes, view = "auto";
     UpOption up;
-    std::string harmonics; ///< Of the spectrum; "" for none.
+    std::string harmonics; ///< Harmonics of the spectrum; "" for none.
 
     /// The views to choose the first one from. Throws UserError(usage).
     std::vector<picture::View> first_views() const;

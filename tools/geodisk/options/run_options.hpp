@@ -14,11 +14,11 @@ namespace geodisk::tools {
 
 class Command;
 
-/// What a command leaves behind, as given on the command line.
+/// Outputs of a command, as given on the command line.
 struct OutputOptions {
     std::string output;  ///< The samples.
     std::string json;    ///< The report for programs; "-" is standard output. Or "".
-    std::string format;  ///< Of the samples; "" for that of their extension.
+    std::string format;  ///< Format of the samples; "" for that of their extension.
     std::string columns; ///< Names of part_columns() with commas, or "".
     std::string up;      ///< Axis that points up in a scene: "x", "y", "z", or "" to guess it.
     std::string units;   ///< Unit of lengths in a scene, or "".
@@ -26,14 +26,14 @@ struct OutputOptions {
     bool ascii = false, quiet = false, is_dry_run = false;
     bool no_header = false; ///< Write samples without comments.
 
-    /// Where and how to write the samples, with the unit of a scene, but not with the axis that
-    /// points up. Throws UserError(usage).
+    /// Returns where and how to write the samples, with the unit of a scene, but not with the axis
+    /// that points up. Throws UserError(usage).
     SampleTarget target() const;
     /// Throws UserError(usage) for --up and --units where nothing has them: samples in other
     /// formats without a picture.
     void check_scene(bool has_picture) const;
 
-    /// Whether to print the results for people.
+    /// Returns true if the results are printed for people.
     bool has_summary() const { return !quiet && !is_standard_output(json); }
 };
 
@@ -69,7 +69,7 @@ void add_scene_options(Command command, OutputOptions& options);
 /// Adds --json, --format, --up, --units, --ascii, --no-header and --quiet.
 void add_output_options(Command command, OutputOptions& options);
 
-/// Which device to work on, as given on the command line.
+/// Device to work on, as given on the command line.
 struct DeviceOptions {
     std::string device;
     bool validate = false;
@@ -85,7 +85,7 @@ void add_verbose_option(Command command, DeviceOptions& options);
 /// Adds --device and --validate.
 void add_device_options(Command command, DeviceOptions& options);
 
-/// How to sample on a device, as given on the command line.
+/// Options for sampling on a device, as given on the command line.
 struct RunOptions {
     DeviceOptions device;
     std::string seed = "0", memory, stall_timeout;

@@ -47,7 +47,7 @@ void add_subject_options(Command command, SampleOptions& options);
 /// Adds those that say what is sampled and how, all but what is written of it.
 void add_job_options(Command command, SampleOptions& options);
 
-/// What is asked for, checked as far as that is possible without the mesh.
+/// Job that is asked for, checked as far as that is possible without the mesh.
 struct SampleJob {
     MeshOptions mesh;
     DensityOptions density;
@@ -58,7 +58,7 @@ struct SampleJob {
     std::optional<double> features;   ///< Degrees from which on edges are features.
     std::vector<float> class_factors; ///< SampleParams::class_factors.
     OutputOptions out;
-    std::vector<std::string> columns; ///< Of the samples, besides those that all have.
+    std::vector<std::string> columns; ///< Columns of the samples, besides those that all have.
     RunOptions run;
     std::optional<Metric> metric; ///< Through space; without it, distances are geodesic.
     Method method;
@@ -73,7 +73,7 @@ struct SampleJob {
 
     bool is_geodesic() const { return !metric; }
 
-    /// What shapes the surface and its radii besides the mesh file, as the header names it.
+    /// Returns what shapes the surface and its radii besides the mesh file, as the header names it.
     HeaderEntries additions() const;
 };
 

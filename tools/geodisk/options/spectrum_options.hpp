@@ -17,7 +17,7 @@ struct SpectrumOptions {
     std::vector<std::string> samples;
     DistanceOptions distance;
     std::string tolerance;
-    std::string reach, harmonics; ///< Of boxes, of surfaces; or "".
+    std::string reach, harmonics; ///< Reach for boxes, harmonics for surfaces; or "".
     OutputOptions out;            ///< A picture or a table.
 };
 

@@ -1,4 +1,4 @@
-// How far points of other programs may lie off a mesh.
+// Distance that points of other programs may lie off a mesh.
 #pragma once
 
 #include <string>

@@ -22,7 +22,7 @@ struct VerifyOptions {
     bool is_maximal = false; ///< Look for gaps as well.
     OutputOptions out;       ///< No samples.
 
-    /// What makes the surface and the radii on it, as the header of a sample file names it.
+    /// Returns what makes the surface and the radii on it, as the header of a sample file names it.
     HeaderEntries additions() const;
     /// Returns the files that are read, the samples first.
     std::vector<NamedFile> files_read() const;

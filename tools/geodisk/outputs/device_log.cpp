@@ -17,7 +17,7 @@ void print_line(const char* label, const std::string& text) {
     std::cerr << padded(label, kLabelWidth) << text << '\n';
 }
 
-/// Of the parts of a run that took time.
+/// Returns the seconds of the parts of a run that took time.
 std::string stages_text(const StageSeconds& stages) {
     std::string text;
     for (std::size_t i = 0; i < kStages; ++i) {

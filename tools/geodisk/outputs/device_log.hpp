@@ -1,4 +1,4 @@
-// What --verbose tells of the device and of runs on it.
+// Messages that --verbose prints about the device and runs on it.
 #pragma once
 
 #include <chrono>

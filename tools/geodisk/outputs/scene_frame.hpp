@@ -1,4 +1,4 @@
-// How scenes that samples are written to are turned, and their unit.
+// Orientation and unit of the scenes that samples are written to.
 #pragma once
 
 #include <optional>

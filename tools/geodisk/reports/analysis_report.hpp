@@ -1,4 +1,4 @@
-// What `geodisk analyze` tells: to people and to programs.
+// Report of `geodisk analyze`: to people and to programs.
 #pragma once
 
 #include <cstddef>
@@ -15,32 +15,33 @@
 
 namespace geodisk::tools {
 
-/// What one file holds.
+/// Content of one file.
 struct SetAnalysis {
     std::string path;
     std::size_t samples = 0;
     double min_distance = 0;   ///< Twice the largest radius, or the largest distance of classes.
-    std::optional<double> rho; ///< Where radii do not vary.
+    std::optional<double> rho; ///< Packing density, if radii do not vary.
     std::uint64_t bare_components = 0;
     analysis::SurfaceStatistics found;
     /// Each class alone, but for its room, which other classes take too. Without classes: none.
     std::vector<SetAnalysis> classes{};
 };
 
-/// Whether all sets have about the same minimum distance, so that means over them say something.
+/// Returns true if all sets have about the same minimum distance, so that means over them say
+/// something.
 bool are_alike(const std::vector<SetAnalysis>& sets);
 
 /// All sets, on one mesh; what is borrowed must outlive it.
 struct Analysis {
     const MeshOptions& mesh_options;
-    const HeaderEntries& additions; ///< What makes the surface, and where samples may lie.
+    const HeaderEntries& additions; ///< Settings that make the surface, and where samples may lie.
     const MeshInput& mesh;
     const std::vector<MeshWarning>& warnings;
     const std::vector<SetAnalysis>& sets;
-    std::optional<analysis::Evenness> evenness; ///< Of several sets that are alike.
+    std::optional<analysis::Evenness> evenness; ///< Evenness of several sets that are alike.
 };
 
-/// What was found of one set.
+/// Returns what was found of one set.
 Json set_json(const SetAnalysis& set);
 
 std::string report_text(const Analysis& analysis);

@@ -1,4 +1,4 @@
-// What `geodisk batch` tells at its end: to people and to programs.
+// Report of `geodisk batch` at its end: to people and to programs.
 #pragma once
 
 #include <cstddef>
@@ -11,8 +11,8 @@
 namespace geodisk::tools {
 
 struct BatchResult {
-    std::size_t meshes = 0;  ///< Of the shard.
-    std::size_t skipped = 0; ///< Of these, done before.
+    std::size_t meshes = 0;  ///< Number of meshes of the shard.
+    std::size_t skipped = 0; ///< Number of these that were done before.
     BatchTotals totals;
     std::vector<std::string> devices; ///< None where nothing was left to do.
     std::string log;

@@ -1,4 +1,4 @@
-// What `geodisk box` tells about a run: to people, to programs, and in the sample file.
+// Report of `geodisk box` about a run: to people, to programs, and in the sample file.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@ namespace geodisk::tools {
 /// The sides of a box, and whether they are open or periodic: "1 x 0.5, open".
 std::string box_text(const BoxParams& box);
 
-/// What --dry-run tells of a job.
+/// Returns the report of --dry-run about a job.
 std::string dry_box_json(const BoxJob& job, const DryRun& dry);
 std::string dry_box_text(const BoxJob& job, const DryRun& dry);
 

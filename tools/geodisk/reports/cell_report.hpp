@@ -1,4 +1,4 @@
-// What `cells` reports: to people and to programs.
+// Report of `cells`: to people and to programs.
 #pragma once
 
 #include <optional>
@@ -15,7 +15,7 @@ namespace geodisk::tools {
 struct CellReport {
     const MeshOptions& options;
     const MeshInput& mesh;
-    const std::vector<MeshWarning>& warnings; ///< Of mesh and samples.
+    const std::vector<MeshWarning>& warnings; ///< Warnings about mesh and samples.
     const CellResult& result;
     const std::string& output;
     const std::string& dual; ///< File of the dual graph, or "".

@@ -1,4 +1,4 @@
-// What `geodisk conformance` reports: to people, to programs, and as lines of golden_sets.txt.
+// Report of `geodisk conformance`: to people, to programs, and as lines of golden_sets.txt.
 #pragma once
 
 #include <cstddef>

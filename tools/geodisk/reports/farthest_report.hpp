@@ -1,4 +1,4 @@
-// What reports tell of samples in farthest-point order.
+// Reports on samples in farthest-point order.
 #pragma once
 
 #include <string>

@@ -24,7 +24,7 @@ Json json_of(const std::optional<Value>& value) {
     return value ? Json(*value) : Json(nullptr);
 }
 
-/// What was told of a mesh; `first` is null where there is no place.
+/// Returns the warnings about a mesh; `first` is null where there is no place.
 inline Json warnings_json(std::span<const MeshWarning> warnings) {
     Json list = Json::array();
     for (const MeshWarning& warning : warnings) {

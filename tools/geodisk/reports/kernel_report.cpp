@@ -31,7 +31,7 @@ std::string value_text(const KernelStatistic& statistic) {
         statistic.value);
 }
 
-/// Of all reports, in the order of the driver.
+/// Returns the names in all reports, in the order of the driver.
 std::vector<std::string> statistic_names(const std::vector<KernelReport>& reports) {
     std::vector<std::string> names;
     for (const KernelReport& report : reports) {

@@ -1,4 +1,4 @@
-// What a driver tells of the kernels it has compiled, as text and JSON.
+// Report of a driver on the kernels it has compiled, as text and JSON.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// What `bake` reports: to people and to programs.
+// Report of `bake`: to people and to programs.
 #pragma once
 
 #include <string>
@@ -13,7 +13,7 @@ namespace geodisk::tools {
 struct MapReport {
     const MeshOptions& options;
     const MeshInput& mesh;
-    const std::vector<MeshWarning>& warnings; ///< Of mesh and samples.
+    const std::vector<MeshWarning>& warnings; ///< Warnings about mesh and samples.
     const MapResult& result;
     std::size_t samples;
     const std::string& output;

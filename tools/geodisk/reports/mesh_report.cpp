@@ -35,7 +35,7 @@ std::string size_text(const MeshInput& input, std::uint64_t components_without_s
     return text + ", area " + rounded(mesh.area, 6);
 }
 
-/// How many triangles the mask leaves; nothing without one.
+/// Returns how many triangles the mask leaves; nothing without one.
 std::optional<std::uint64_t> triangles_for_samples(const MeshInput& input) {
     if (input.known) {
         return input.known->triangles_for_samples;

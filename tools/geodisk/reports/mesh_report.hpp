@@ -1,4 +1,4 @@
-// What the commands tell of a mesh they were given: to people and to programs.
+// Report of the commands on a mesh they were given: to people and to programs.
 #pragma once
 
 #include <cstdint>

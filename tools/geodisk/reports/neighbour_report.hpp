@@ -1,4 +1,4 @@
-// What `neighbours` tells of a search: to people and to programs.
+// Report of `neighbours` on a search: to people and to programs.
 #pragma once
 
 #include <string>
@@ -13,12 +13,12 @@ namespace geodisk::tools {
 struct NeighbourReport {
     const MeshOptions& options;
     const MeshInput& mesh;
-    const std::vector<MeshWarning>& warnings; ///< Of mesh and points.
+    const std::vector<MeshWarning>& warnings; ///< Warnings about mesh and points.
     const NeighbourJob& job;
     const NeighbourResult& result;
     const std::string& output;
     bool has_points;     ///< Sources are points, else vertices.
-    std::string targets; ///< What they are.
+    std::string targets; ///< Name of the targets.
 
     std::string json(double write_seconds) const;
     std::string summary(double write_seconds) const;

@@ -17,7 +17,7 @@ Json vector_json(const glm::dvec3& vector) {
     return {vector.x, vector.y, vector.z};
 }
 
-/// What the page needs to know to show its arrays.
+/// Returns what the page needs to know to show its arrays.
 Json view_json(const PageResult& result) {
     const PageContent& content = result.content;
     Json from = Json::array();
@@ -53,7 +53,7 @@ Json spectrum_json(const SpectrumRun& run, double min_distance) {
         power.push_back(ring.mean);
         anisotropy.push_back(analysis::decibels(ring.anisotropy));
     }
-    // Of one set, whose waves are real ones.
+    // Expected power of one set, whose waves are real ones.
     constexpr double kExpected = 2;
     return {{"unit", "waves per minimum distance"},
             {"harmonics", run.spectrum.frequencies.size()},

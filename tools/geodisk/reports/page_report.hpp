@@ -1,4 +1,4 @@
-// What `geodisk report` tells: in its page, to people and to programs.
+// Report of `geodisk report`: in its page, to people and to programs.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@
 
 namespace geodisk::tools {
 
-/// What a page was made of.
+/// Parts that a page was made of.
 struct PageResult {
     SetAnalysis set;
     PageContent content;
@@ -32,7 +32,7 @@ class PageReport {
     PageReport(const SampleReport& samples, const PageResult& result)
         : samples_(samples), result_(result) {}
 
-    /// What the page tells of: a JSON object.
+    /// Returns the facts on the page: a JSON object.
     std::string facts() const;
 
     /// Once the page is written; that took `write_seconds`.

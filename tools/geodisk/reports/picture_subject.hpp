@@ -7,7 +7,7 @@
 
 namespace geodisk::tools {
 
-/// What a picture is of, and how a report tells of it.
+/// Subject of a picture, and the words of a report for it.
 struct PictureSubject {
     std::string samples_file;
     std::string lines; ///< For people, but for the samples.

@@ -27,7 +27,7 @@ Json processes_json(const std::vector<ProcessReport>& processes) {
     return all;
 }
 
-/// What ended the run.
+/// Returns what ended the run.
 const char* stopped_by(const Drawn& drawn) {
     const bool has_all = drawn.samples == drawn.method.stop_count || drawn.done.cut > 0;
     return has_all                     ? "count"

@@ -1,4 +1,4 @@
-// What the reports of all commands that sample on a device tell alike.
+// Common parts of the reports of all commands that sample on a device.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@ Json tuning_json(const Tuning& tuning);
 /// Name, driver and type.
 Json device_json(const DeviceReport& device);
 
-/// What was asked for and what came of it.
+/// Request and its result.
 struct Drawn {
     const Method& method;
     const DeviceRun& done;
@@ -40,10 +40,10 @@ using SecondsByStage = std::vector<std::pair<const char*, double>>;
 SecondsByStage stage_seconds(SecondsByStage before, const DeviceRun& done,
                              const SecondsByStage& after);
 
-/// What the JSON of a run ends with: guard, memory, seconds, tuning, device.
+/// Returns the end of the JSON of a run: guard, memory, seconds, tuning, device.
 Json run_json(const DeviceRun& done, const SecondsByStage& seconds);
 
-/// What the summary of a run ends with: time, also of the `work` itself, device, file.
+/// Returns the end of the summary of a run: time, also of the `work` itself, device, file.
 std::string run_text(const DeviceRun& done, const SecondsByStage& seconds,
                      const std::string& output, const std::string& work = "sampling");
 

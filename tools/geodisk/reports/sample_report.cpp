@@ -43,7 +43,7 @@ std::string distance_line(const SampleJob& job, const MeshInput& mesh, double la
            ") in mesh units" + (job.is_geodesic() ? "" : ", " + metric_text(job)) + '\n';
 }
 
-/// How a maximal set was completed; null of others.
+/// Returns how a maximal set was completed; null for others.
 Json maximal_json(const SampleJob& job, const MeshInput& mesh, const RunReport& run) {
     if (!job.method.is_maximal) {
         return nullptr;

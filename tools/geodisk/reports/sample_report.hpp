@@ -1,4 +1,4 @@
-// What `geodisk sample` tells about a run: to people, to programs, and in the sample file.
+// Report of `geodisk sample` about a run: to people, to programs, and in the sample file.
 #pragma once
 
 #include <cstdint>
@@ -24,41 +24,41 @@
 
 namespace geodisk::tools {
 
-/// What is told of rows that are divided among processes.
+/// Summary of rows that are divided among processes.
 struct AllRows {
     std::size_t count;
     std::uint64_t digest;
     RadiusRange radii;
 };
 
-/// What came of a job.
+/// Result of a job.
 struct SampleResult {
-    SampleParams params; ///< Of the job, on its mesh.
+    SampleParams params; ///< Parameters of the job, on its mesh.
     /// Frame of the run, if the mesh and the distance of the report may not say it.
     std::optional<JobFrame> frame;
     DeviceRun done;
     std::vector<SampleRow> rows;         ///< None where `all` is given.
-    std::optional<AllRows> all;          ///< Where rows are divided among processes.
+    std::optional<AllRows> all;          ///< Set if rows are divided among processes.
     std::size_t existing = 0;            ///< Number of rows that existed before: the first.
     SpacingResult among_existing;        ///< Their pairs.
     std::size_t avoided = 0;             ///< Number of points to avoid.
     double avoided_length = 0;           ///< Length of lines to avoid.
-    std::vector<std::uint32_t> classes;  ///< Of the rows; 0 if there are none.
+    std::vector<std::uint32_t> classes;  ///< Classes of the rows; 0 if there are none.
     std::vector<std::uint32_t> features; ///< FeatureKind of the rows.
     std::size_t feature_corners = 0;     ///< Corners that may have samples.
-    double feature_length = 0;           ///< Of the curves.
-    std::optional<FarthestRun> farthest; ///< Of --order farthest; `rows` are in its order.
-    std::optional<Levels> levels;        ///< Of --order progressive; they end at `done.ends`.
+    double feature_length = 0;           ///< Length of the curves.
+    std::optional<FarthestRun> farthest; ///< Run of --order farthest; `rows` are in its order.
+    std::optional<Levels> levels; ///< Levels of --order progressive; they end at `done.ends`.
     BareParts bare;
     std::vector<MeshWarning> warnings;
     std::optional<DrawnPicture> picture;
-    std::optional<SceneFrame> scene; ///< Of the samples, in formats that hold one.
+    std::optional<SceneFrame> scene; ///< Frame of the samples, in formats that hold one.
 
     std::size_t count() const { return all ? all->count : rows.size(); }
     std::string digest() const;
 };
 
-/// What --dry-run tells of a job.
+/// Returns the report of --dry-run about a job.
 std::string dry_sample_json(const SampleJob& job, const MeshInput& mesh, const DryRun& dry);
 std::string dry_sample_text(const SampleJob& job, const MeshInput& mesh, const DryRun& dry);
 
@@ -89,9 +89,10 @@ class SampleReport {
     const SampleJob& job_;
     const MeshInput& mesh_;
     const SampleResult& result_;
-    std::size_t samples_; ///< Of the run, before --keep.
-    double rho_;          ///< Where radii vary, of the samples on a surface of the effective area.
-    RadiusRange radii_;   ///< Of the samples.
+    std::size_t samples_; ///< Number of samples of the run, before --keep.
+    double rho_;        ///< Packing density; if radii vary, that of the samples on a surface of the
+                        ///< effective area.
+    RadiusRange radii_; ///< Radii of the samples.
 };
 
 } // namespace geodisk::tools

@@ -17,9 +17,9 @@ using analysis::SpectrumRing;
 
 /// Up to this part of a wave per minimum distance, blue noise has hardly any power.
 constexpr double kLow = 0.5;
-/// What people look for first.
+/// Findings that people look for first.
 struct Findings {
-    double peak = 0, peak_at = 0; ///< Of the radial mean, at a frequency in minimum distances.
+    double peak = 0, peak_at = 0; ///< Peak of the radial mean, at a frequency in minimum distances.
     double low = 0;               ///< The mean power at low frequencies.
     double anisotropy = 0;        ///< Mean over rings, in decibels.
 

@@ -1,4 +1,4 @@
-// What the commands tell of power spectra: to people, to programs and as a table.
+// Report of the commands on power spectra: to people, to programs and as a table.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// What `geodisk verify` reports: to people and to programs.
+// Report of `geodisk verify`: to people and to programs.
 #pragma once
 
 #include <cstddef>
@@ -19,7 +19,7 @@
 
 namespace geodisk::tools {
 
-/// What a check was given and what it found.
+/// Input of a check and its findings.
 struct SampleCheck {
     const VerifyOptions& options;
     const SampleFile& samples;
@@ -27,14 +27,14 @@ struct SampleCheck {
     std::vector<MeshWarning> warnings;
     WantedSpacing spacing;
     std::vector<StrayRow> strays;
-    SpacingResult result;              ///< Of all pairs but these:
-    SpacingResult among_existing;      ///< Of existing samples.
+    SpacingResult result;              ///< Result for all pairs but these:
+    SpacingResult among_existing;      ///< Result for existing samples.
     std::vector<std::uint32_t> masked; ///< Samples on faces that take none.
     std::size_t avoided = 0;           ///< Number of points to avoid.
     double avoided_length = 0;         ///< Length of lines to avoid.
     std::vector<Intrusion> intrusions;
     std::optional<GapCheck> gaps;
-    std::vector<LevelSpacing> levels;          ///< Of samples in progressive order.
+    std::vector<LevelSpacing> levels; ///< Spacing of the levels of samples in progressive order.
     std::vector<std::uint32_t> wrong_features; ///< Samples whose mark as feature is wrong.
 
     /// Number of existing samples.
@@ -45,7 +45,7 @@ struct SampleCheck {
     std::vector<std::size_t> class_counts() const;
     /// Returns true if there are points or lines to avoid.
     bool avoids() const { return avoided > 0 || avoided_length > 0; }
-    /// What the distance of a pair is a part of.
+    /// Returns the distance that the distance of a pair is a part of.
     std::string min_text() const;
 };
 

@@ -21,7 +21,7 @@ void main() {
     const BallRec ball = balls[ball_index];
     const vec3 center = vec3(ball.x, ball.y, ball.z);
     const vec3 eye = vec3(eye_x, eye_y, eye_z);
-    // What is seen of a ball lies within the circle in which lines from the eye touch it.
+    // The visible part of a ball lies within the circle in which lines from the eye touch it.
     const vec3 way = center - eye;
     const float distance = length(way);
     const vec3 axis = way / distance;

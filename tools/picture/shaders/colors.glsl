@@ -16,7 +16,7 @@ const vec3 kBlue = vec3(0.0, 0.168, 0.445);     // #0072b2
 const vec3 kSky = vec3(0.093, 0.456, 0.815);    // #56b4e9
 const vec3 kOverlap = vec3(0.665, 0.112, 0.0);  // #d55e00
 
-// Of samples of a kind above 0 (SampleRec).
+// Returns the colour of samples of a kind above 0 (SampleRec).
 vec3 class_color(uint kind) {
     const vec3 classes[8] = vec3[](
 #include "class_colors.h"

@@ -3,7 +3,7 @@
 // cell_start(), window_at(), radius_of(), kind_of() and is_shown(). Also for GLSL ES 3.00, where a `const` is one
 // at compile time.
 
-// Of a density estimate, in radii of the sample.
+// Reach of a density estimate, in radii of the sample.
 const float kKernel = 5.0;
 const float kPi = 3.14159265;
 

@@ -1,5 +1,5 @@
-// What the shaders of pictures read, the same in C++ and GLSL: four-byte scalars alone, so that
-// std430 offsets are 0, 4, 8, ... in both.
+// Records that the shaders of pictures read, the same in C++ and GLSL: four-byte scalars alone, so
+// that std430 offsets are 0, 4, 8, ... in both.
 #ifndef GEODISK_PICTURE_RECORDS_H
 #define GEODISK_PICTURE_RECORDS_H
 
@@ -12,14 +12,14 @@ using uint = std::uint32_t;
 #define GEODISK_PICTURE_CONSTANT const uint
 #endif
 
-// What a pipeline draws, its specialization constant 0.
+// Subjects that a pipeline draws, its specialization constant 0.
 GEODISK_PICTURE_CONSTANT kDrawDisks = 0u;
 GEODISK_PICTURE_CONSTANT kDrawPoints = 1u;
 GEODISK_PICTURE_CONSTANT kDrawVoronoi = 2u;
 GEODISK_PICTURE_CONSTANT kDrawDistance = 3u;
 GEODISK_PICTURE_CONSTANT kDrawDensity = 4u;
-// How much surface there is behind each pixel, in kMaxTilt-th parts of what a pixel shows of a
-// surface that faces it.
+// Amount of surface behind each pixel, in kMaxTilt-th parts of what a pixel shows of a surface that
+// faces it.
 GEODISK_PICTURE_CONSTANT kDrawArea = 5u;
 GEODISK_PICTURE_CONSTANT kMaxTilt = 5u;
 // The edges of a box, beside balls.
@@ -39,9 +39,10 @@ struct FaceRec {
     float cells_per_unit; uint columns; uint rows; uint first_cell;
 };
 
-// What a sample sees of a face: its place (x, y) unfolded into the frame of the face, or that of a
-// pseudo-source at a distance of sigma from it. It sees the points p with left . (p - source) and
-// right . (p - source) of at least 0; these are of length 1, or 0 where all of the face is seen.
+// View that a sample has of a face: its place (x, y) unfolded into the frame of the face, or that
+// of a pseudo-source at a distance of sigma from it. It sees the points p with left . (p - source)
+// and right . (p - source) of at least 0; these are of length 1, or 0 where all of the face is
+// seen.
 struct WindowRec {
     float x; float y; float sigma; uint sample_index;
     float left_x; float left_y; float right_x; float right_y;
@@ -58,7 +59,7 @@ struct BallRec {
     float x; float y; float z; float radius; uint color;
 };
 
-// What changes from draw to draw.
+// Values that change from draw to draw.
 struct PushRec {
     float to_clip[16];   // column by column
     float eye_x; float eye_y; float eye_z; // in the scene

@@ -34,7 +34,7 @@ uint kind_of(uint index) { return samples[index].kind; }
 bool is_shown(uint index) { return true; }
 #include "nearest.glsl"
 
-// What the surface itself is coloured, light apart.
+// Returns the colour of the surface itself, light apart.
 vec3 surface_color(Nearest nearest, float density) {
     const bool has_sample = nearest.sample_index != ~0u;
     const float q = nearest.first;
@@ -85,6 +85,6 @@ void main() {
     const Nearest nearest = look_up(face_index, in_face, density);
     const vec3 matte = surface_color(nearest, density);
     const vec3 lit = shade(matte, up, to_eye, vec3(light_x, light_y, light_z));
-    // Where a colour is an amount, light and shadow leave most of it.
+    // A colour that is an amount is left mostly as it is by light and shadow.
     color = vec4(mix(lit, matte, kDraw == kDrawDensity ? 0.6 : 0.0), 1);
 }

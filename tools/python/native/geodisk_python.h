@@ -1,5 +1,5 @@
-/* What the Python package needs besides geodisk/geodisk.h: meshes as the program reads them, and the
- * warnings that it prints. The conventions are those of geodisk.h.
+/* Functions that the Python package needs besides geodisk/geodisk.h: meshes as the program reads
+ * them, and the warnings that it prints. The conventions are those of geodisk.h.
  *
  * This is no public interface. The library that has it is part of the package and changes with it.
  */
@@ -15,7 +15,7 @@ extern "C" {
 /* A mesh file, or polygons of the caller, split into triangles. */
 typedef struct geodisk_source geodisk_source;
 
-/* What to read. Give `path`, or else the arrays of polygons. */
+/* Source to read. Give `path`, or else the arrays of polygons. */
 typedef struct geodisk_source_params {
     size_t struct_size;
     const char *path;          /* UTF-8, or builtin:NAME. */

@@ -1,4 +1,4 @@
-// What samples get of their mesh besides attributes: normals, colours of textures, frames.
+// Data that samples get from their mesh besides attributes: normals, colours of textures, frames.
 #include <algorithm>
 #include <span>
 #include <vector>

@@ -1,4 +1,4 @@
-// What the page carries: facts as JSON, arrays as base64 (tools/report/page_array.hpp).
+// Data that the page carries: facts as JSON, arrays as base64 (tools/report/page_array.hpp).
 
 const facts = JSON.parse(document.getElementById("facts").textContent);
 

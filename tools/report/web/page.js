@@ -2,7 +2,7 @@
 
 const byId = id => document.getElementById(id);
 
-// What there is to tell.
+// Facts to report.
 
 const analysis = facts.analysis, meshFacts = facts.mesh;
 /** What distances of samples are told in. */

@@ -109,7 +109,7 @@ void main() {
         color = vec4(vec3(min(1.0 / abs(tilt), float(kMaxTilt)) / float(kMaxTilt)), 1);
         return;
     }
-    // Of a pixel, in units.
+    // Width of a pixel, in units.
     float width = 0.5 * (length(dFdx(in_face)) + length(dFdy(in_face)));
     vec3 change = fwidth(weights);
     Nearest nearest = kNoNearest;

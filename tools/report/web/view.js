@@ -178,7 +178,7 @@ class View {
     return geometry;
   }
 
-  // What is shown.
+  // Layers, colours and marks that are shown.
 
   setShown(count) {
     this.uniforms.shown.value = count;
@@ -217,7 +217,7 @@ class View {
     }
   }
 
-  // Where it is looked at from.
+  // Point of view.
 
   reset() {
     this.controls.enableDamping = false;

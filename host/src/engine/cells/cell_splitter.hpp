@@ -34,13 +34,13 @@ struct KnotEnd {
     auto operator<=>(const KnotEnd&) const = default;
 };
 
-/// What is found in some faces.
+/// Findings in some faces.
 struct FoundCells {
     std::vector<CellShare> shares;
-    std::vector<std::array<std::uint32_t, 2>> pairs; ///< Of cells that touch: the lower first.
+    std::vector<std::array<std::uint32_t, 2>> pairs; ///< Touching cells, the lower first.
     std::uint32_t knots = 0;                         ///< Their number, of these faces.
     std::vector<Meeting> meetings;
-    std::vector<KnotEnd> ends; ///< Where they go on in other faces.
+    std::vector<KnotEnd> ends; ///< Points where knots continue in other faces.
     double unreached = 0;      ///< Area that no disk reaches.
 };
 

@@ -14,7 +14,7 @@ namespace geodisk {
 /// The distance of one light in a cell, and its function.
 struct CornerFunction {
     std::array<double, 3> distances; ///< At the corners.
-    CornerValues values;             ///< Of the function.
+    CornerValues values;             ///< Values of the function.
     double bend;                     ///< By how much that may be off from linear.
     std::uint32_t lit;               ///< Bit of each corner that is lit.
 

@@ -18,7 +18,7 @@ class FlatPieces {
   public:
     FlatPieces(const LitFaces& lit, const Closeness& closeness) : lit_(lit), tie_(closeness.tie) {}
 
-    /// How closely to look at distances.
+    /// Level of detail at which distances are compared.
     enum class Detail : std::uint8_t {
         computed, ///< As they were computed.
         known,    ///< Up to the bound on their error.

@@ -15,7 +15,7 @@
 
 namespace geodisk {
 
-/// Of several samples at a place, the first alone has a disk.
+/// Samples and their disks. If several samples are at one place, only the first has a disk.
 struct LitSamples {
     /// Checks samples and computes their disks. `mesh` must outlive the result.
     static Result<std::unique_ptr<LitSamples>> make(Runner& runner, const PreparedMesh& mesh,
@@ -27,7 +27,7 @@ struct LitSamples {
     double distance_error() const;
 
     std::size_t all = 0;                ///< Number of samples as the caller numbers them.
-    std::vector<std::uint32_t> numbers; ///< Of the samples with a disk, among all. Ascending.
+    std::vector<std::uint32_t> numbers; ///< Numbers of samples with a disk. Ascending.
     std::vector<Sample> samples;        ///< Those with a disk.
     CellParams params;
     ProgressCallback progress;

@@ -11,7 +11,7 @@
 
 namespace geodisk {
 
-/// How well distances are known, in units of the frame.
+/// Accuracy of distances, in units of the frame.
 struct Closeness {
     double error; ///< Distances of disks with the radius 1 are at most so far from exact ones.
     double tie;   ///< Distances that differ by less count as equal.
@@ -25,12 +25,12 @@ class NearLights {
         std::size_t first, end;
         bool empty() const { return first == end; }
     };
-    /// What the lights of a part tell of its centroid.
+    /// Information that the lights of a part give about its centroid.
     struct View {
         Range lights;          ///< Those that may be the nearest ones in the part.
         bool is_lit;           ///< The centroid is.
         std::uint32_t nearest; ///< Sample, if it is lit; of equally near ones the first.
-        double distance;       ///< Of that sample.
+        double distance;       ///< Distance of that sample.
         double error;          ///< Bound on the error of the distances of all these lights.
     };
 

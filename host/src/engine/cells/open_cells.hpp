@@ -1,4 +1,4 @@
-// Which cells may reach beyond the disks of their samples.
+// Cells that may reach beyond the disks of their samples.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// What a frame must hold to be used.
+// Checks that a frame can be used.
 #pragma once
 
 #include <geodisk/job_frame.hpp>

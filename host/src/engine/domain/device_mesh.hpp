@@ -18,7 +18,7 @@ namespace geodisk {
 
 /// The cells of faces, numbered through all of them.
 struct FaceCells {
-    std::uint32_t count = 0;           ///< Of all faces; 0 if each face has one.
+    std::uint32_t count = 0;           ///< Number of cells of all faces; 0 if each face has one.
     std::vector<std::uint32_t> firsts; ///< First cell of every kBlock-th face; empty likewise.
 };
 
@@ -29,7 +29,7 @@ Result<FaceCells> count_cells(PlacedSurfaces surfaces);
 struct FaceGrid {
     std::uint32_t first; ///< First cell, row by row.
     std::uint32_t columns, rows;
-    std::uint32_t corner; ///< Where the longest edge starts.
+    std::uint32_t corner; ///< Corner where the longest edge starts.
     double cell;          ///< Width of a cell, in mesh units.
 
     /// Returns the cell of the point with these weights of the second and third corner. A point on

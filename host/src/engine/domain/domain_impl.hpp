@@ -22,21 +22,21 @@
 
 namespace geodisk {
 
-/// What a maximal set is made from.
+/// Input of a maximal set.
 struct MaximalJob {
     const PreparedMesh* mesh;
-    SampleParams params; ///< Of the first samples, without the samples and points below.
+    SampleParams params; ///< Parameters of the first samples, without the samples and points below.
     JobFrame frame;
     std::vector<Sample> existing;
     std::vector<KeepOut> avoid;
 };
 
-/// What decides samples besides their surface, and how large disks are. Surfaces for which all of
-/// it is equal may share a job: no surface then gets other samples than alone, or waits for the
+/// Settings that decide the samples, besides their surface, and the size of disks. Surfaces with
+/// equal settings may share a job. No surface then gets other samples than alone, or waits for the
 /// disks of others.
 struct Sharing {
-    float limit, slack;                                          ///< Of the tolerances.
-    bool radii_vary, nearest_first, splits_once, straight_faces; ///< Of the frame.
+    float limit, slack; ///< Limit and slack of the tolerances.
+    bool radii_vary, nearest_first, splits_once, straight_faces; ///< Flags of the frame.
     int disk_size; ///< Logarithm of the faces of a disk, in steps of a factor of 4.
 
     friend bool operator==(const Sharing&, const Sharing&) = default;
@@ -55,7 +55,7 @@ struct Domain::Impl {
     std::uint64_t seed = 0;
     /// Points to avoid, then existing samples, to upload as the first samples.
     std::vector<gpu::SampleRec> settled;
-    std::uint32_t avoided = 0; ///< How many of them are points to avoid.
+    std::uint32_t avoided = 0; ///< Number of them that are points to avoid.
     std::uint32_t classes = 0; ///< Number of classes; 0 if samples have none.
     ErrorModel error;          ///< Bound on the error of distances.
     /// True if the host gives the candidates, and upload_parts() has them.

@@ -55,7 +55,7 @@ ListedCandidate point_on(std::uint32_t h, std::uint32_t steps) {
 
 struct Dart {
     std::uint32_t priority, more_priority; ///< Random words.
-    std::uint32_t key, corner, number;     ///< Of the edge, and on it.
+    std::uint32_t key, corner, number;     ///< Key and corner of the edge, and number on it.
     ListedCandidate point;
 
     auto order() const { return std::tie(priority, more_priority, key, corner, number); }

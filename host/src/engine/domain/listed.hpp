@@ -54,7 +54,7 @@ Sample to_sample(const ListedCandidate& candidate);
 Result<std::vector<std::size_t>> places_of(std::span<const Sample> samples,
                                            std::span<const ListedCandidate> list);
 
-/// What the device holds of listed candidates: the contents of these buffers.
+/// Listed candidates on the device: the contents of these buffers.
 struct ListedBuffers {
     std::vector<std::uint32_t> starts, cells, weights, orders;
     std::vector<std::uint32_t>

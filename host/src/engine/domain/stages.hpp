@@ -55,13 +55,13 @@ double border_part(double length, const RadiusField* radii, std::uint32_t h);
 double expected_in_face(const PreparedMesh& mesh, const SampleParams& params, std::uint32_t face,
                         double per_area);
 
-/// How many candidates share a face.
+/// Number of candidates that share a face.
 class FaceCrowding {
   public:
-    /// Those of a surface.
+    /// Adds the candidates of a surface.
     void add(const PreparedMesh& mesh, const SampleParams& params, const Stages& stages);
-    /// Whether faces hold so few that disks need not tell their cells apart: all then have one
-    /// cell. The rule bears on speed alone.
+    /// Returns true if faces hold so few candidates that disks need not distinguish their cells.
+    /// All faces then have one cell. The rule affects speed only.
     bool is_small() const noexcept;
 
   private:

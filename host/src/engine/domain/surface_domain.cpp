@@ -47,7 +47,7 @@ constexpr double kMaxBound = 1e30;
 // Faces of a disk up to which all disks are alike for a job of several surfaces.
 constexpr double kSmallDisk = 32;
 
-// Of several surfaces, as of one.
+// Limits for several surfaces together, as for one.
 constexpr std::uint64_t kMaxHalfEdges = std::uint64_t{1} << 30;
 constexpr std::uint64_t kMaxVertices = gpu::kVertexMask;
 

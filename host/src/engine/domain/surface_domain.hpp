@@ -69,7 +69,7 @@ class SurfaceDomain : public Domain::Impl {
     std::vector<PlacedSurface> surfaces_;
     double first_error_ = 0;
     FaceCells cells_;
-    std::uint64_t record_bytes_ = 0; ///< Of recording(): the head, weights and records.
+    std::uint64_t record_bytes_ = 0; ///< Bytes of recording(): the head, weights and records.
     std::vector<float> bounds_;      ///< In units of the frame, whole rows.
     ListedBuffers listed_;           ///< Empty unless the host gives the candidates.
     double full_ = 0;                ///< Samples that full surfaces hold, at least two each.

@@ -15,7 +15,7 @@ constexpr double kRadiiRounding = 0x1p-21;
 constexpr double kMinChain = 64;
 constexpr double kMaxChain = 1u << 16;
 constexpr double kMinGuard = 0x1p-13;
-// Where radii vary: what is added to a small radius matters more.
+// Minimum guard where radii vary: what is added to a small radius matters more.
 constexpr double kRadiiLeastGuard = 0x1p-15;
 
 double power_of_two_from(double x, double least) {

@@ -1,5 +1,5 @@
-// What makes float decisions safe: the unit in which the device measures, and the guard band
-// (host/docs/precision.md).
+// Tolerances that make float decisions safe: the unit in which the device measures, and the guard
+// band (host/docs/precision.md).
 #pragma once
 
 #include <cstdint>
@@ -27,11 +27,11 @@ struct Tolerances {
     float margin; ///< A window is dropped only when beaten by more than this.
     float slack;  ///< Intervals are widened by this for hits and apexes.
     double guard;
-    double error_bound; ///< That they are for.
+    double error_bound; ///< Error bound that they are for.
 };
 
-/// How far rounding takes a distance on a mesh: by at most 2^-22 of the distances met at each
-/// crossing of its window chain. The largest met is one disk plus the longest edge.
+/// Error that rounding causes in a distance on a mesh. It is at most 2^-22 of the distances met at
+/// each crossing of its window chain. The largest distance met is one disk plus the longest edge.
 class GEODISK_API ErrorModel {
   public:
     /// The same error whatever the chain: of straight lines.
@@ -42,8 +42,8 @@ class GEODISK_API ErrorModel {
     /// Makes it one that holds of another as well.
     void widen(const ErrorModel& other) noexcept;
 
-    /// Of chains of so many crossings. A disk that trims adds more where edges are long: see
-    /// crossing_error() of the shaders.
+    /// Returns the error of chains of so many crossings. A disk that trims adds more where edges
+    /// are long: see crossing_error() of the shaders.
     double error_of(std::uint32_t chain, bool trims = false) const noexcept;
     /// Returns a guard that is safe while errors keep to the bound: powers of two from 2^-13 on,
     /// and where radii vary from 2^-15 on, so that an edit somewhere does not decide anew about

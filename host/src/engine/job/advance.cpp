@@ -1,4 +1,4 @@
-// What comes next for a job, by what the device reports.
+// Next step of a job, chosen by what the device reports.
 #include <algorithm>
 #include <string>
 

@@ -55,7 +55,7 @@ std::size_t bound_as(SetRole role, std::uint32_t binding, bool has_cells) {
     return buffer;
 }
 
-/// Whether some kernel reads this buffer as texels, by whatever binding.
+/// Returns true if some kernel reads this buffer as texels, by any binding.
 bool read_as_texels(std::size_t buffer) {
     for (std::size_t k = 0; k < kKernels; ++k) {
         for (const KernelBinding& binding : interface_of(static_cast<Kernel>(k), true).bindings) {
@@ -112,8 +112,8 @@ void Job::Impl::apply_plan(const RunPlan& new_plan) {
     plan = new_plan;
     const bool by_groups = plan.disks_by == DisksBy::groups;
     push.slots = plan.slots;
-    // Where disks are so large that there are no more slots than those that share an order need,
-    // disks beyond the groups would be computed after the others, many of them in vain.
+    // Very large disks leave only the slots that disks of equal order need. Disks beyond the groups
+    // would then be computed after the others, many of them in vain.
     const bool is_min = by_groups && plan.slots == kMinSlots;
     push.batch = is_min ? std::min(plan.lanes, plan.slots) : plan.slots;
     push.window_capacity = plan.window_capacity;

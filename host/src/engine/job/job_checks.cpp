@@ -14,10 +14,10 @@
 namespace geodisk {
 namespace {
 
-// Of a minimum distance.
+// Maximum error, as a fraction of a minimum distance.
 constexpr double kMaxError = 0.5;
 
-/// Whether a buffer of a workspace will do, beside the first `others` buffers of it.
+/// Checks that a buffer of a workspace is usable beside the first `others` buffers of it.
 Result<Done> check_buffer(const Workspace& workspace, std::size_t role, VkDeviceSize needed,
                           std::size_t others, const auto& name, const Sampler::Impl& sampler) {
     if (auto checked = check_range(workspace[role], name(role), needed, sampler); !checked) {

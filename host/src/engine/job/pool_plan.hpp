@@ -1,4 +1,4 @@
-// How a plan divides its pool: slices of lanes and work groups for disks in progress, and lists of
+// Division of a plan's pool: slices of lanes and work groups for disks in progress, and lists of
 // conflicts.
 #pragma once
 
@@ -16,7 +16,7 @@ RunPlan fitted(RunPlan plan, std::uint64_t pool_bytes);
 /// Sets what work groups for large disks get beside lanes, which keep all disks if `lanes_keep`.
 void plan_large_disks(RunPlan& plan, bool lanes_keep);
 
-/// What a grown plan does with disks of work groups whose slices do not fit the pool.
+/// Fallback of a grown plan for disks of work groups whose slices do not fit the pool.
 enum class LastResort { none, lanes };
 
 /// Returns the plan to use after an overflow: the capacities named by `overflow` (gpu::kOverflow*

@@ -1,4 +1,5 @@
-// What a job records. Every step depends on the one before it, so one barrier serves them all.
+// Commands that a job records. Every step depends on the one before it, so one barrier serves them
+// all.
 #include <algorithm>
 #include <cstddef>
 #include <cstring>
@@ -17,7 +18,7 @@
 namespace geodisk {
 namespace {
 
-// Of memory that is cleared, to an item.
+// Bytes of cleared memory per item.
 constexpr VkDeviceSize kClearBytes = 64;
 
 /// Records dispatches, and clears of memory, one after the other. Sequences of them may be cut
@@ -118,7 +119,7 @@ class Recorder {
         fill(kAt + 4, end - kAt - 4, 0);
     }
     void copy(std::size_t from, std::size_t to) const { copy_word(BufferRole::control, from, to); }
-    /// That of a sample that is in order.
+    /// Copies the order of a sample that is in order.
     void copy_order(std::uint32_t sample, std::size_t to) const {
         copy_word(BufferRole::samples,
                   sample * sizeof(gpu::SampleRec) + offsetof(gpu::SampleRec, order), to);
@@ -129,13 +130,13 @@ class Recorder {
                                       sizeof job_.constants, &job_.constants);
     }
 
-    /// What is recorded from now on belongs to this stage.
+    /// Assigns everything recorded from now on to this stage.
     void stage(Stage stage) {
         mark();
         stage_ = stage;
     }
 
-    /// Whether the sequence was recorded to its end; the next one begins anew then.
+    /// Returns true if the sequence was recorded to its end. The next one then begins again.
     bool is_complete() {
         if (cursor_.step < step_) {
             return false;
@@ -240,7 +241,7 @@ class Recorder {
     Budget all_;
     Cursor& cursor_;
     Budget& budget_;
-    std::uint32_t step_ = 0; ///< Of the sequence, whether recorded or not.
+    std::uint32_t step_ = 0; ///< Step of the sequence, whether recorded or not.
     std::optional<Stage> stage_;
     bool has_unmarked_ = false;
     bool is_labelled_ = false;
@@ -278,7 +279,7 @@ bool record_begin(VkCommandBuffer commands, Job::Impl& job, Budget& budget) {
     recorder.stage(Stage::count);
     recorder.change([&] { recorder.write_constants(); });
     recorder.change([&] {
-        // What was accepted so far is settled, and in order.
+        // All samples accepted so far are settled and in order.
         constexpr std::size_t kAccepted = offsetof(gpu::ControlRec, accepted);
         constexpr std::size_t kSettled = offsetof(gpu::ControlRec, settled);
         constexpr std::size_t kOrdered = offsetof(gpu::ControlRec, ordered);

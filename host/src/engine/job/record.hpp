@@ -7,7 +7,7 @@
 
 namespace geodisk {
 
-/// What may still be recorded; counted down.
+/// Work that may still be recorded; counted down.
 struct Budget {
     std::uint32_t dispatches = kAllDispatches;
     /// Faces, candidates, samples or words that the dispatches go through.

@@ -1,4 +1,4 @@
-// What Sampler and Job hold; shared by the files that implement them.
+// Members of Sampler and Job; shared by the files that implement them.
 #pragma once
 
 #include <array>
@@ -28,7 +28,7 @@ struct Sampler::Impl {
     mutable Pipelines pipelines; ///< Compiled on first use.
     /// The device may be using the pipelines and what jobs hold for ever: destroy none.
     std::atomic<bool> abandoned = false;
-    /// Whether its arithmetic was found to be as decisions need.
+    /// True if its arithmetic was found to be as decisions need it.
     mutable std::atomic<bool> rounds_well = false;
 
     Impl(const DeviceRefs& refs, DeviceReport of_device, const DeviceTable& table,
@@ -43,9 +43,9 @@ struct Sampler::Impl {
     }
     /// Returns what SamplerOptions::ahead asks for.
     std::optional<KernelVariant> variant_ahead(Ahead ahead) const;
-    /// Of the kernels for a domain.
+    /// Returns the variant of the kernels for a domain.
     KernelVariant variant_for(const Domain& domain) const;
-    /// Of the two variants of the kernels, which.
+    /// Returns true if the kernels are those that read texels, of the two variants.
     bool reads_texels() const { return choices.tuning.reads == Reads::texels; }
 };
 
@@ -58,10 +58,10 @@ inline constexpr std::size_t kSetRoles = 4;
 
 class StageClock;
 
-/// Where a sequence of dispatches stands that is recorded in parts.
+/// Position in a sequence of dispatches that is recorded in parts.
 struct Cursor {
     std::uint32_t step = 0; ///< Passes recorded.
-    std::uint64_t done = 0; ///< Of the one at hand, work groups or bytes.
+    std::uint64_t done = 0; ///< Work groups or bytes recorded of the current pass.
     bool is_at_start() const { return step == 0 && done == 0; }
 };
 
@@ -71,18 +71,18 @@ std::uint32_t next_number() noexcept;
 
 struct Job::Impl {
     const Sampler::Impl* sampler = nullptr;
-    std::uint32_t number = 0;    ///< Of next_number(), another one with each domain.
-    StageClock* clock = nullptr; ///< Where recording marks the stages, if anywhere.
+    std::uint32_t number = 0;    ///< Value of next_number(); each domain gets a new one.
+    StageClock* clock = nullptr; ///< Clock on which recording marks the stages; null for none.
     VkDescriptorPool descriptor_pool = VK_NULL_HANDLE;
     std::array<std::array<VkDescriptorSet, kKernels>, kSetRoles> sets{};
     std::optional<DomainKind> sets_for; ///< Once they are allocated and bound.
     Workspace workspace{};
-    /// Of the workspace's buffers that some kernel reads as texels.
+    /// Views of the workspace's buffers that some kernel reads as texels.
     std::array<VkBufferView, kBufferRoles> views{};
     const KernelPipelines* own_pipelines = nullptr; ///< Besides those that all jobs have.
     KernelVariant variant;
-    std::uint32_t max_slots = 0; ///< What the slot and control buffers hold.
-    std::uint32_t max_lanes = 0; ///< Of the first plan.
+    std::uint32_t max_slots = 0; ///< Slots that the slot and control buffers hold.
+    std::uint32_t max_lanes = 0; ///< Lanes of the first plan.
     // As Domain::Impl has them.
     bool has_lane_per_slot = false;
     bool is_listed = false;
@@ -106,7 +106,7 @@ struct Job::Impl {
     std::uint32_t chunk_end = 0;
     bool awaits_cut = false;
     std::optional<OrderCut> cut;
-    std::uint64_t end_order = kAllOrders; ///< Of Job::set_end_order().
+    std::uint64_t end_order = kAllOrders; ///< Order given to Job::set_end_order().
     bool is_end_changed = false;          ///< Rounds recorded next go on to another push.end_order.
     bool is_count_due = false;            ///< record_count().
     bool is_stop_counted = false;         ///< It has counted up to the last sample.

@@ -1,4 +1,4 @@
-// What a compiled kernel asks of the host, read from its SPIR-V.
+// Requirements of a compiled kernel on the host, read from its SPIR-V.
 #pragma once
 
 #include <cstdint>

@@ -16,7 +16,7 @@ constexpr std::array<KernelInfo, kKernels> kTable{{
 #undef GEODISK_KERNEL
 }};
 
-/// Of every kernel, reading from storage buffers and from texel buffers.
+/// Interfaces of every kernel, reading from storage buffers and from texel buffers.
 using Interfaces = std::array<std::array<KernelInterface, 2>, kKernels>;
 
 Interfaces read_interfaces() {

@@ -30,12 +30,12 @@ inline constexpr Kernel kEachKernel[] = {
 #undef GEODISK_KERNEL
 inline constexpr std::size_t kKernels = std::size(kEachKernel);
 
-/// What is sampled, and by what distance: a bit each, so that a kernel may serve several.
+/// Kind of domain, and the distance it uses. Each has a bit, so that a kernel may serve several.
 enum class DomainKind : std::uint8_t {
     surface = 1,  ///< By geodesic distance.
     box = 2,      ///< By straight-line distance, as all that follow.
     space = 4,    ///< A surface in space.
-    in_space = 6, ///< Of kernels: both with a grid.
+    in_space = 6, ///< For kernels: both with a grid.
     any = 7,
     placement = 8, ///< No domain: of the kernel that places samples for a caller.
     lists = 16,    ///< No domain: of the kernels that put neighbours in lists.
@@ -63,18 +63,17 @@ constexpr std::size_t index_of(DomainKind kind) {
     X(lanes_apart, kSpecLanesApart) /* Pool blocks of one lane, whatever Tuning::pool_block is. */
 // clang-format on
 
-/// What disks are computed for. All but the first are of existing samples alone, by kernels of
-/// their own.
+/// Purpose of disks. All but the first are for existing samples alone, by kernels of their own.
 enum class Ending : std::uint8_t {
     conflicts, ///< Candidates in them are listed and decided.
-    light,     ///< How they light faces is recorded (gpu::LitRec).
-    reach,     ///< What they reach, and how far it is, is recorded (gpu::HitRec).
+    light,     ///< Records how they light faces (gpu::LitRec).
+    reach,     ///< Records what they reach, and how far it is (gpu::HitRec).
 };
 
-/// What the kernels of a job are specialized for, besides what all jobs of a device share.
+/// Specialization of the kernels of a job, besides what all jobs of a device share.
 struct KernelVariant {
     DomainKind domain = DomainKind::surface;
-    std::uint32_t dimension = 0; ///< Of a grid.
+    std::uint32_t dimension = 0; ///< Dimension of a grid.
     bool groups = false;         ///< Work groups compute disks, by a kernel of their own.
     Ending ending = Ending::conflicts;
 #define GEODISK_SWITCH(name, constant) bool name = false;

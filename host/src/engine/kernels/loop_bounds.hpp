@@ -1,4 +1,4 @@
-// How much of a disk one dispatch of detect may do.
+// Bounds on the part of a disk that one dispatch of detect may compute.
 #pragma once
 
 #include <cstdint>

@@ -22,11 +22,11 @@ namespace geodisk {
 /// Null where a job has no use for the kernel.
 using KernelPipelines = std::array<VkPipeline, kKernels>;
 
-/// What the kernels of all jobs are specialized for.
+/// Specialization of the kernels of all jobs.
 struct KernelChoices {
     Tuning tuning; ///< All chosen.
     bool native_rounding = false;
-    std::uint32_t counted_lanes = 0; ///< Of a subgroup, 0 unless trips are counted.
+    std::uint32_t counted_lanes = 0; ///< Lanes of a subgroup; 0 unless trips are counted.
 };
 
 /// Any number of threads may use it at a time.
@@ -76,7 +76,7 @@ class Pipelines {
     std::array<VkDescriptorSetLayout, kKernels> set_layouts_{};
     std::array<VkPipelineLayout, kKernels> layouts_{};
     KernelPipelines common_{};
-    std::mutex mutex_;                                                ///< Of what follows.
+    std::mutex mutex_;                                                ///< Guards the members below.
     std::map<std::pair<Kernel, KernelVariant>, VkPipeline> compiled_; ///< KernelVariant::of.
     std::map<KernelVariant, KernelPipelines> own_;                    ///< Out of those.
     std::atomic<bool> abandoned_ = false;

@@ -24,7 +24,7 @@ Offset offset_of(const gpu::LitRec& record, const LitFaces::Target& target) {
     return {x, y, std::sqrt(x * x + y * y) + double{record.sigma}};
 }
 
-/// How far the target is outside the borders of the lit part; 0 within.
+/// Returns how far the target is outside the borders of the lit part; 0 within.
 double aside(const gpu::LitRec& record, const Offset& offset, double slack) {
     if ((record.place & 1) != 0) {
         return 0;

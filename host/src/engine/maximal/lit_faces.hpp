@@ -16,7 +16,7 @@
 
 namespace geodisk {
 
-/// What a disk does to a cell, by one way in which it lights the face.
+/// Effect of a disk on a cell, by one way in which it lights the face.
 enum class Cover : std::uint8_t {
     all,  ///< No sample fits anywhere in the cell.
     some, ///< It may cover a part.
@@ -57,8 +57,7 @@ class LitFaces {
     /// where it is not lit.
     double excess(std::uint32_t light, const Target& target) const;
 
-    /// How far a target is from the sample of a light, and how far it is outside what is lit: 0
-    /// within.
+    /// Distances of a target from the sample of a light, and from the lit part: 0 within.
     struct Sight {
         double distance, outside;
     };
@@ -87,7 +86,7 @@ class LitFaces {
     /// Names the longest edge of a triangle by the corner across it.
     struct LongestEdge {
         std::size_t across;
-        double square; ///< Of its length, in units of the frame.
+        double square; ///< Square of its length, in units of the frame.
     };
     LongestEdge longest_edge(const FacePart& part) const;
     void place(std::uint32_t face, FaceWeights weights, Target& target) const;

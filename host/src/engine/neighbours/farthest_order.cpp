@@ -75,7 +75,7 @@ class FarthestSearch {
     std::span<const Sample> samples_;
     std::uint32_t count_;
     const ProgressCallback& progress_;
-    std::vector<float> distances_; ///< Of each sample to those chosen.
+    std::vector<float> distances_; ///< Distance from each sample to those chosen.
     std::vector<State> states_;
     std::vector<std::vector<Near>> disks_; ///< Samples that come nearer when this one is chosen.
     std::priority_queue<Candidate> queue_; ///< With those of all distances before.

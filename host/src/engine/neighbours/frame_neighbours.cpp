@@ -34,7 +34,7 @@ constexpr double kSparePairs = 1.25;
 constexpr double kMinPairs = 1024;
 // Sources that the first lists have room for, until the number of pairs is known better.
 constexpr double kFirstSources = 256;
-// Of the mantissa of a length in double precision.
+// Bits in the mantissa of a length in double precision.
 constexpr int kDoubleBits = 53;
 constexpr SyncScope kCopies{VK_PIPELINE_STAGE_TRANSFER_BIT,
                             VK_ACCESS_TRANSFER_READ_BIT | VK_ACCESS_TRANSFER_WRITE_BIT};
@@ -79,7 +79,7 @@ Result<std::vector<std::uint32_t>> names_of(std::span<const std::vector<std::uin
 } // namespace
 
 struct FrameNeighbours::Impl {
-    /// Where the part at hand is.
+    /// Phase of the current part.
     enum class Phase : std::uint8_t {
         search, ///< Its disks are computed.
         group,  ///< The number of its entries is awaited.

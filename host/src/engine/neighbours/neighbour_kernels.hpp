@@ -22,8 +22,8 @@ namespace geodisk {
 
 /// The buffers of the kernels, see shaders/shared/bindings.h. They may be ranges of one.
 struct NeighbourRanges {
-    BufferRange hits, names, limits, rows, entries, sorted, sums; ///< Of a part.
-    BufferRange offsets, targets, distances;                      ///< Of the caller.
+    BufferRange hits, names, limits, rows, entries, sorted, sums; ///< Buffers of a part.
+    BufferRange offsets, targets, distances;                      ///< Buffers of the caller.
 };
 
 /// Destroy it when no command that it recorded is pending. The sampler must outlive it.
@@ -48,7 +48,7 @@ class NeighbourKernels {
     void record_write(VkCommandBuffer commands, const gpu::NeighbourPush& push) const;
 
   private:
-    /// What a set has in place of the rows (for scans), and of entries and sorted.
+    /// Buffers that a set has in place of the rows (for scans), and of entries and sorted.
     enum class Role : std::uint32_t { forward, back, places };
 
     NeighbourKernels(const Sampler::Impl& sampler, const NeighbourRanges& ranges)
@@ -72,7 +72,7 @@ class NeighbourKernels {
     VkDescriptorPool pool_ = VK_NULL_HANDLE;
     std::map<std::tuple<Role, Kernel>, VkDescriptorSet> sets_;
     std::vector<std::pair<BufferRange, VkBufferView>>
-        views_; ///< Of ranges that are read as texels.
+        views_; ///< Views of ranges that are read as texels.
 };
 
 } // namespace geodisk

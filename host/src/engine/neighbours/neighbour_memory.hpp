@@ -20,20 +20,20 @@
 
 namespace geodisk {
 
-/// What the kernels read of all sources and targets.
+/// Input of the kernels for all sources and targets.
 struct NeighbourInputs {
     std::vector<gpu::SampleRec> sources; ///< As the device takes existing samples.
-    std::vector<float> limits;           ///< How far neighbours may be, a float per source.
+    std::vector<float> limits;           ///< Maximum distance of neighbours, a float per source.
     /// If targets have other numbers than their own: where those of each begin, and the end; then
     /// the numbers.
     std::vector<std::uint32_t> names;
 };
 
-/// What the host reads of the device.
+/// Values that the host reads from the device.
 struct NeighbourTold {
     gpu::ControlRec control;
-    std::array<std::uint32_t, 4> head; ///< Of the hits: their number, the room, the first row.
-    std::uint32_t entries;             ///< Of the part at hand.
+    std::array<std::uint32_t, 4> head; ///< Head of the hits: their number, the room, the first row.
+    std::uint32_t entries;             ///< Entries of the current part.
     std::uint32_t longest;             ///< Entries of a source of it, at most.
     std::uint32_t pairs;               ///< Up to the end of the part.
     std::uint32_t spare;

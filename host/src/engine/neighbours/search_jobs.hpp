@@ -17,7 +17,7 @@
 
 namespace geodisk {
 
-/// What the jobs of a search have in common. Mesh, query and bounds must outlive it.
+/// Data that the jobs of a search share. Mesh, query and bounds must outlive it.
 class SearchJobs {
   public:
     /// `bounds` as for search_within(), where all sources have one distance. Errors:
@@ -53,7 +53,7 @@ class SearchJobs {
 inline constexpr double kMinRecords = 4096;
 inline constexpr double kMaxRecords = 0x1p22;
 
-/// How many sources the next job takes, by the records of those before.
+/// Number of sources that the next job takes, by the records of those before.
 class PartSizes {
   public:
     /// `each`: the records to expect of a source, at first.

@@ -38,7 +38,7 @@ class Search {
     NeighbourLists lists_;
     RunReport report_;
     std::size_t done_ = 0;   ///< Sources.
-    std::uint32_t told_ = 0; ///< Of them, at most.
+    std::uint32_t told_ = 0; ///< Maximum number of sources reported so far.
 };
 
 Progress Search::so_far(const Progress& now) {

@@ -1,4 +1,4 @@
-// Which fields of a request exclude each other.
+// Fields of a request that exclude each other.
 #include <algorithm>
 #include <iterator>
 

@@ -325,14 +325,14 @@ struct RequestRun::Impl {
     StepAt step_at; ///< Without a surface.
     std::optional<RequestStep> step;
     std::vector<Sample> standing;         ///< Those that the step goes on from, existing ones too.
-    std::vector<SampleRange> on_features; ///< Of the try.
+    std::vector<SampleRange> on_features; ///< Samples of the try on features.
     Levels levels{0};                     ///< Those of the try; count 0 without any.
     std::optional<SampleSet> before;      ///< Report of the levels before.
     std::vector<std::size_t> ends;
     RunSeconds seconds;
     std::uint32_t starts = 0;
     RequestedSet best;
-    std::vector<SampleRange> best_on_features; ///< Of `best`.
+    std::vector<SampleRange> best_on_features; ///< Samples of `best` on features.
 };
 
 Result<Done> RequestRun::Impl::use(Result<RequestStep> made) {

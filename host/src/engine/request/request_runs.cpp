@@ -64,7 +64,7 @@ struct RequestRuns::Impl {
     std::vector<RequestRun> runs;
     std::deque<std::size_t> turn;   ///< Runs whose step of this turn is still to come.
     std::vector<std::size_t> job;   ///< Runs of the job in progress; empty if all is done.
-    std::optional<Domain> surfaces; ///< Of a job of several.
+    std::optional<Domain> surfaces; ///< Surfaces of a job that has several.
 };
 
 Result<Done> RequestRuns::Impl::begin_job() {

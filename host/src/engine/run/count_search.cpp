@@ -9,8 +9,8 @@ namespace {
 
 constexpr double kTolerance = 0.05;
 constexpr std::uint32_t kMaxTries = 7;
-/// Of an exact search: the part of a count that may be too much; tries, and tries while none has
-/// given enough.
+/// Limits of an exact search: the part of a count that may be too much; tries, and tries while none
+/// has given enough.
 constexpr double kMaxExcess = 0.01;
 constexpr std::uint32_t kExactTries = 6;
 constexpr std::uint32_t kMaxExactTries = 12;

@@ -1,4 +1,5 @@
-// What FrameSampler and FrameNeighbours share: jobs that outgrow their memory between frames.
+// Growth of jobs that outgrow their memory between frames, shared by FrameSampler and
+// FrameNeighbours.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +13,7 @@ namespace geodisk {
 /// Maximum of command buffers in flight.
 inline constexpr std::uint32_t kMaxFrames = 16;
 
-/// What a job has to do next.
+/// Next step of a job.
 struct FrameAdvice {
     Advice advice;
     /// Disks need a larger pool than the job has: advice.plan is for that. Make a job of it.

@@ -15,7 +15,7 @@
 namespace geodisk {
 namespace {
 
-// How far a cell of the first round reaches, in distances; and how much farther than in the next.
+// Reach of a cell of the first round, in distances; and the factor from each round to the next.
 constexpr double kFirstGoal = 0x1p-4;
 constexpr double kGoalFactor = 0.25;
 // Fewer cells are split in two steps, so that threads can share the work.

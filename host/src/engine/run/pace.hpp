@@ -59,7 +59,7 @@ class GEODISK_API Pace {
     std::uint32_t known_lanes_ = 1;
 };
 
-/// What is known of the work of one kind of kernels.
+/// Known paces of one kind of kernels.
 struct Paces {
     Pace passes, rounds;
 };

@@ -75,7 +75,7 @@ class Run {
     Runner::Impl::KeptJob& kept_;
     std::optional<Job>& job_;
     Submissions submissions_;
-    // What goes on in the submission that draws the candidates, or puts the samples in order.
+    // Work that follows in the submission that draws the candidates, or puts the samples in order.
     const Submissions::InOne after_begin_ = [this](VkCommandBuffer commands, Budget& budget) {
         return record_all(commands, budget);
     };
@@ -96,7 +96,7 @@ class Run {
     /// former.
     std::optional<RunPlan> for_avoided_, for_others_;
     bool is_for_avoided_ = false; ///< The plan in use is that for points to avoid.
-    DiskRecords* records_;        ///< Where to read what disks record, or null.
+    DiskRecords* records_;        ///< Destination of what disks record, or null.
     RunReport report_;
 };
 
@@ -302,7 +302,7 @@ Task<Result<Done>> Run::enlarge_samples(std::uint32_t capacity) {
 /// Samples until the run is complete, or `larger_samples` does not fit and it must start over.
 Task<Result<Advice>> Run::sample() {
     for (;;) {
-        // What is free is asked for only where it matters.
+        // Free memory is queried only where it matters.
         const bool grows = control().overflow != 0;
         const std::uint64_t most = grows ? pool_bytes(runner_.options.pool_bytes) : 0;
         auto advice = job().advance(control(), most, LastResort::none);
@@ -318,7 +318,8 @@ Task<Result<Advice>> Run::sample() {
     }
 }
 
-/// Whether there is room for the samples advised, or fewer that go on, beside the pool as it is.
+/// Returns true if the samples advised fit beside the pool as it is. If only the fewest that go on
+/// fit, lowers the advice to those and returns true.
 bool Run::fit_samples(Advice& advice) const {
     std::uint64_t others = memory_.bytes();
     for (const BufferRole role : {BufferRole::samples, BufferRole::accepted, BufferRole::buckets}) {

@@ -14,11 +14,11 @@ namespace geodisk {
 /// it. Where it is destroyed before its end, nothing must be running any more.
 Task<Result<SampleSet>> run(Runner::Impl& runner, const Domain& domain);
 
-/// What the disks of a domain record, by its Ending.
+/// Records of the disks of a domain, by its Ending.
 struct DiskRecords {
     std::vector<gpu::LitRec> lights;
     std::vector<gpu::HitRec> hits;
-    std::uint32_t wanted = 0; ///< How many there would be with room for all.
+    std::uint32_t wanted = 0; ///< Number of records there would be with room for all.
 };
 
 /// Runs a single job, also the first one of a maximal set. `records` is null if candidates are

@@ -18,7 +18,7 @@ void take_counts(const gpu::ControlRec& control, RunReport& report) {
 }
 
 void RunReport::add(const RunReport& other) noexcept {
-    // Of several runs together there may be more than fit.
+    // Several runs together may have more than fit.
     candidates += std::min(other.candidates, ~candidates);
     chunks += other.chunks;
     batches += other.batches;

@@ -30,7 +30,7 @@ namespace geodisk {
 /// Returns the progress of a run of several jobs, from that of the one at hand.
 using WholeProgress = std::function<Progress(const Progress&)>;
 
-/// What a runner has in progress.
+/// Work that a runner has in progress.
 struct Work {
     Work() = default;
     Work(const Work&) = delete;

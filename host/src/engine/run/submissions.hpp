@@ -27,7 +27,7 @@ class Submissions {
     void use(Job& job, const RunPlan& plan);
     /// The plan of the job but for dispatches that have to be shorter.
     RunPlan& plan() { return plan_; }
-    /// What the device reported last.
+    /// Returns the latest report of the device.
     const gpu::ControlRec& control() const { return control_; }
 
     using Passes = bool (*)(VkCommandBuffer, Job::Impl&, Budget&);
@@ -60,13 +60,13 @@ class Submissions {
     const Domain::Impl& of_;
     Job* job_ = nullptr;
     RunPlan plan_;
-    Paces* paces_ = nullptr;         ///< Of the job's kernels.
+    Paces* paces_ = nullptr;         ///< Paces of the job's kernels.
     std::uint64_t items_of_new_ = 0; ///< Maximum of items of a pass that begins.
     double submitted_ = 0;           ///< When.
     std::uint32_t idle_ = 0;         ///< Submissions of late that left no trace.
     gpu::ControlRec control_{};
-    double steps_ = 0;     ///< Of all rounds.
-    double all_steps_ = 0; ///< That are expected.
+    double steps_ = 0;     ///< Steps of all rounds so far.
+    double all_steps_ = 0; ///< Steps expected in all.
 };
 
 } // namespace geodisk

@@ -1,4 +1,4 @@
-// Which faces of a surface an edit has kept as they were.
+// Faces of a surface that an edit has kept as they were.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@ namespace geodisk {
 
 inline constexpr std::uint32_t kNoFace = ~std::uint32_t{0};
 
-/// How the faces of two surfaces correspond.
+/// Correspondence of the faces of two surfaces.
 struct FaceMatch {
     /// For each face before, its number after, or kNoFace if it has changed or is gone.
     std::vector<std::uint32_t> kept;

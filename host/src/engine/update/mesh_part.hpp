@@ -35,7 +35,7 @@ class MeshPart {
     SampleParams params() const;
 
   private:
-    SampleParams params_; ///< Of the whole.
+    SampleParams params_; ///< Parameters of the whole.
     std::vector<std::uint32_t> faces_;
     PreparedMesh mesh_;
     std::optional<RadiusField> radii_;

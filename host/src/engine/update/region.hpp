@@ -30,7 +30,7 @@ struct EditedSurface {
     const ProgressCallback& progress;
 };
 
-/// What an edit does to the samples, both in dart order.
+/// Samples that an edit removes and adds, both in dart order.
 struct Changes {
     Darts removed, added;
 };

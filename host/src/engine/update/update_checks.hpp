@@ -1,4 +1,4 @@
-// What can be updated, and errors for what cannot.
+// Checks for what can be updated, and errors for what cannot.
 #pragma once
 
 #include <array>

@@ -309,7 +309,7 @@ Result<UpdateReport> Updater::update(Runner& runner, const MeshView& given,
         for (std::size_t face = own.faces.face_count(); face < mesh.face_count(); ++face) {
             edited.push_back(static_cast<std::uint32_t>(face));
         }
-        // Where a seam opens or closes, faces on its other side have changed as well.
+        // A seam that opens or closes also changes the faces on its other side.
         const auto faces = static_cast<std::uint32_t>(mesh.face_count());
         for (std::uint32_t face = 0; !given.keep_seams && face < faces; ++face) {
             if (face < own.faces.face_count() &&

@@ -15,7 +15,7 @@ namespace {
 /// An edge of a face that takes samples, at the home of its lower vertex.
 struct TakenEdge {
     std::uint32_t low, high;
-    std::uint32_t half_edge; ///< Of the whole: three per face.
+    std::uint32_t half_edge; ///< Number in the whole: three per face.
 
     auto operator<=>(const TakenEdge&) const = default;
     bool joins_as(const TakenEdge& other) const { return low == other.low && high == other.high; }

@@ -10,7 +10,7 @@
 namespace geodisk {
 namespace {
 
-constexpr std::uint32_t kBits = 21; ///< Of each axis.
+constexpr std::uint32_t kBits = 21; ///< Bits of each axis.
 constexpr std::uint32_t kPlaceBits = 3 * kBits + 32;
 
 /// Returns the place of a cell along a Hilbert curve (Skilling 2004).
@@ -66,14 +66,14 @@ struct PlaceOnCurve {
 /// The faces of one process in order, and their work.
 struct Sorted {
     std::vector<PlaceOnCurve> places;
-    std::vector<std::uint64_t> work; ///< Of all faces before, one more than faces.
+    std::vector<std::uint64_t> work; ///< Work of all faces before; one entry more than faces.
 
     std::size_t before(const PlaceOnCurve& place) const {
         return static_cast<std::size_t>(std::ranges::lower_bound(places, place) - places.begin());
     }
 };
 
-/// What lies before a place, of all processes.
+/// Faces and work before a place, of all processes.
 struct Before {
     std::uint64_t faces = 0, work = 0;
 };

@@ -20,7 +20,7 @@ struct WholeFace {
 /// Components of a surface, of which each process knows pieces.
 struct Components {
     std::uint64_t count = 0;
-    std::uint64_t vertices = 0; ///< That faces use.
+    std::uint64_t vertices = 0; ///< Number of vertices that faces use.
     /// Number of pieces of each process. A piece is named by the process and a number.
     std::vector<std::uint32_t> pieces;
     /// Component of each piece, those of the first process first. At the first process alone.

@@ -29,7 +29,7 @@ std::array<std::uint32_t, 3> face_at(const MeshRange& range, std::size_t face) {
             range.triangles[3 * face + 2]};
 }
 
-/// What one process adds to the findings.
+/// Contribution of one process to the findings.
 struct VertexShare {
     double low[3] = {HUGE_VAL, HUGE_VAL, HUGE_VAL};
     double high[3] = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};

@@ -16,10 +16,10 @@ namespace geodisk {
 struct RangeFaces {
     VertexNumbers numbers;         ///< Vertices of the faces.
     std::vector<double> positions; ///< Three coordinates per vertex.
-    std::vector<double> areas;     ///< Of each face.
+    std::vector<double> areas;     ///< Area of each face.
 };
 
-/// What all ranges have together. Components are not known yet.
+/// Findings about all ranges together. Components are not known yet.
 struct RangeFindings {
     MeshStatistics statistics;      ///< As PreparedMesh::prepare() has them, to the bit.
     double low[3], high[3];         ///< Bounding box of the used vertices.

@@ -23,7 +23,7 @@ struct Blocks {
     }
 };
 
-/// What values at vertices say of radii.
+/// Meaning of the values at vertices for radii.
 enum class RadiusKind : std::uint8_t {
     same,    ///< Radii do not vary.
     factor,  ///< Values are radius factors: RadiusField::prepare().
@@ -32,7 +32,7 @@ enum class RadiusKind : std::uint8_t {
 
 /// The faces and the vertices of one process's blocks.
 struct MeshRange {
-    Blocks faces, vertices;               ///< Of the whole mesh.
+    Blocks faces, vertices;               ///< Blocks of the whole mesh.
     std::vector<std::uint32_t> triangles; ///< Three vertices of the whole per face.
     std::vector<double> positions;        ///< Three coordinates per vertex.
     RadiusKind radii = RadiusKind::same;

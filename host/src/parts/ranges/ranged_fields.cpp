@@ -142,7 +142,7 @@ std::vector<std::uint8_t> mask_for(Talk& talk, const MeshRange& range,
     return mask;
 }
 
-/// What one process adds to the fields of the whole.
+/// Contribution of one process to the fields of the whole.
 struct Share {
     double largest_area = 0;
     float largest_density = 0, min_factor = 1;

@@ -16,7 +16,8 @@
 
 namespace geodisk {
 
-/// What decides how many samples the faces of a surface take, at the homes of vertices and faces.
+/// Fields that decide how many samples the faces of a surface take. They are at the homes of
+/// vertices and faces.
 class RangedFields {
   public:
     /// Makes the fields of the ranges of all processes, which all call it. Replaces the areas of
@@ -25,7 +26,7 @@ class RangedFields {
     static RangedFields create(Talk& talk, const MeshRange& range, RangeFaces& faces,
                                const MeshStatistics& statistics);
 
-    // Of the whole, the same on all processes.
+    // Properties of the whole, the same on all processes.
 
     const Areas& areas() const { return areas_; }
     /// Returns the maximum over faces of the effective area, as candidates count it.
@@ -55,8 +56,8 @@ class RangedFields {
     RadiusKind kind_ = RadiusKind::same;
     std::optional<std::uint64_t> masked_faces_;
     std::uint64_t digest_ = 0;
-    std::vector<float> values_, packing_; ///< Of the block's vertices.
-    std::vector<std::uint8_t> mask_;      ///< Of the block's faces.
+    std::vector<float> values_, packing_; ///< Values and packing at the block's vertices.
+    std::vector<std::uint8_t> mask_;      ///< Mask of the block's faces.
 };
 
 } // namespace geodisk

@@ -424,7 +424,7 @@ class Halo {
     std::vector<WholeFace> rim_;            ///< Own faces at vertices that are shared.
     std::vector<Member> faces_;             ///< Ascending.
     VertexNumbers numbers_{{}};             ///< Vertices of the rim and the halo.
-    std::vector<double> lengths_;           ///< Of a way from own faces to each of them.
+    std::vector<double> lengths_;           ///< Length of a way from own faces to each of them.
     std::vector<std::uint8_t> is_complete_; ///< 1 if all faces at a vertex are known.
 };
 
@@ -459,7 +459,7 @@ FacePlaces places_and_radii_of(Talk& talk, const KnownSurface& known,
 }
 
 // Every path out of a piece leaves it at a vertex, or between two, whose faces are not all known.
-// Where the lower bounds there are beyond the reach, so is all that is outside.
+// If the lower bounds there are beyond the reach, so is all that is outside.
 std::vector<HaloFace> find_halo(Talk& talk, const KnownSurface& known, double reach) {
     Halo halo(talk, known, reach);
     while (halo.grow()) {

@@ -22,7 +22,7 @@ struct HaloFace {
     double distance; ///< Lower bound on its geodesic distance from own faces.
 };
 
-/// What a process knows of the surface.
+/// Surface as far as a process knows it.
 struct KnownSurface {
     const Blocks& vertices;
     std::span<const double> positions;

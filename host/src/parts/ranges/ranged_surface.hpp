@@ -26,7 +26,7 @@
 
 namespace geodisk {
 
-/// What ranges tell of a mesh.
+/// Statistics of a mesh, from its ranges.
 struct RangedStatistics {
     MeshStatistics mesh; ///< As those of PreparedMesh::prepare(), to the bit.
     std::uint64_t unused_vertices = 0;
@@ -86,7 +86,7 @@ class GEODISK_API RangedSurface {
     PreparedMesh outline_;
     RangedFields fields_;
     Blocks vertices_, face_blocks_;
-    std::vector<double> positions_; ///< Of the vertices that are at home here.
+    std::vector<double> positions_; ///< Positions of the vertices that are at home here.
     std::vector<WholeFace> faces_;
     Directory directory_;
 };
