@@ -310,3 +310,18 @@ def test_what_cannot_be_updated_is_refused(tmp_path):
     refused("face|mesh", SAMPLES, edited, vertices=other[0], faces=other[1])
     with pytest.raises(geodisk.Cancelled):
         geodisk.update(SAMPLES, edited, progress=lambda part, count: False)
+
+
+@pytest.mark.parametrize("made, told", [(20, 40), (40, 20), (40, 60)])
+def test_another_pool_ratio_than_that_of_the_samples_is_refused(made, told, tmp_path):
+    samples = geodisk.sample(VERTICES, FACES, min_distance=0.4, pool_ratio=made)
+    with pytest.raises(geodisk.InvalidArgument, match=f"made with the pool_ratio {made}, not {told}"):
+        geodisk.update(samples, VERTICES * 1.01, before={"pool_ratio": told})
+    if made == 20:
+        path = tmp_path / "samples.npz"
+        samples.save(path)
+        with pytest.raises(geodisk.InvalidArgument, match="made with the pool_ratio 20, not 40"):
+            geodisk.update(
+                geodisk.read(path), VERTICES * 1.01, vertices=VERTICES, faces=FACES,
+                before={"pool_ratio": told},
+            )

@@ -264,7 +264,16 @@ def _job_of(samples: Samples, before: Mapping[str, Any] | None) -> Job:
             raise TypeError(f"before is {before!r}, not a dict such as {{'pool_ratio': 10}}")
         if unknown := [name for name in before if name not in FOLLOWED]:
             raise TypeError(f"before has {unknown[0]!r}, none of {', '.join(FOLLOWED)}")
-        check_pool(None, before.get("pool_ratio", 20))
+        ratio = before.get("pool_ratio", 20)
+        check_pool(None, ratio)
+        if "pool_ratio" not in options and ratio != 20:
+            raise e.invalid(f"the samples were made with the pool_ratio 20, not {ratio}")
+        if samples._job is not None and ratio != samples._job.pool_ratio:
+            raise e.invalid(
+                f"the samples were made with the pool_ratio {samples._job.pool_ratio}, not {ratio}"
+            )
+        if "pool_ratio" in options and "pool_ratio" not in before:
+            raise e.invalid("before needs the pool_ratio that the samples were made with")
         return Job(**before)
     if samples._job is None and options:
         raise e.invalid(
