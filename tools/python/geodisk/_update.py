@@ -266,13 +266,11 @@ def _job_of(samples: Samples, before: Mapping[str, Any] | None) -> Job:
             raise TypeError(f"before has {unknown[0]!r}, none of {', '.join(FOLLOWED)}")
         ratio = before.get("pool_ratio", 20)
         check_pool(None, ratio)
-        if "pool_ratio" not in options and ratio != 20:
-            raise e.invalid(f"the samples were made with the pool_ratio 20, not {ratio}")
-        if samples._job is not None and ratio != samples._job.pool_ratio:
-            raise e.invalid(
-                f"the samples were made with the pool_ratio {samples._job.pool_ratio}, not {ratio}"
-            )
-        if "pool_ratio" in options and "pool_ratio" not in before:
+        if samples._job is not None or "pool_ratio" not in options:
+            made = (samples._job or Job()).pool_ratio
+            if ratio != made:
+                raise e.invalid(f"the samples were made with the pool_ratio {made}, not {ratio}")
+        elif "pool_ratio" not in before:
             raise e.invalid("before needs the pool_ratio that the samples were made with")
         return Job(**before)
     if samples._job is None and options:
