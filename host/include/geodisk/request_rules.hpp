@@ -12,7 +12,7 @@ namespace geodisk {
 struct SampleParams;
 struct SampleRequest;
 
-/// What a request may ask for, and who may serve it.
+/// Parts of a request, and those who serve it.
 enum class RequestField : std::uint8_t {
     min_distance,
     count,

@@ -179,9 +179,7 @@ geodisk_status geodisk_poll_neighbours(geodisk_sampler* sampler, uint32_t millis
         }
         const auto ended = std::exchange(state.searching, nullptr);
         GEODISK_TRY(polled);
-        if (const auto checked = state.device->check_validation(); !checked) {
-            return checked;
-        }
+        GEODISK_TRY(state.device->check_validation());
         *neighbours = handed_over(std::move(**polled), *ended);
         return Done{};
     });

@@ -123,9 +123,7 @@ geodisk_status geodisk_updater_create(const geodisk_mesh* mesh,
                                       const geodisk_surface_point* samples, size_t sample_count,
                                       geodisk_updater** updater, geodisk_error* error) {
     return answer(error, [&]() -> Result<Done> {
-        if (const auto checked = check_samples(samples, sample_count, updater); !checked) {
-            return checked;
-        }
+        GEODISK_TRY(check_samples(samples, sample_count, updater));
         const auto of = c::surface_of(mesh, params);
         GEODISK_TRY(of);
         const auto used = frame_for(frame, **of);
@@ -143,9 +141,7 @@ geodisk_updater_create_edited(const geodisk_mesh* mesh_before,
                               const geodisk_surface_point* samples, size_t sample_count,
                               geodisk_updater** updater, geodisk_error* error) {
     return answer(error, [&]() -> Result<Done> {
-        if (const auto checked = check_samples(samples, sample_count, updater); !checked) {
-            return checked;
-        }
+        GEODISK_TRY(check_samples(samples, sample_count, updater));
         const auto before = c::surface_of(mesh_before, params_before);
         GEODISK_TRY(before);
         const auto after = c::surface_of(mesh, params);
@@ -169,9 +165,7 @@ geodisk_status geodisk_update(geodisk_updater* updater, geodisk_sampler* sampler
                 return wrong("changed is NULL");
             }
             if (info != nullptr) { // Before the work.
-                if (auto given = give(info, "info", geodisk_update_info{}); !given) {
-                    return given;
-                }
+                GEODISK_TRY(give(info, "info", geodisk_update_info{}));
             }
             const auto of = c::surface_of(mesh, params);
             GEODISK_TRY(of);

@@ -10,6 +10,7 @@
 #include "mesh/connectivity.hpp"
 #include "support/invalid.hpp"
 #include "support/number_text.hpp"
+#include "support/try.hpp"
 
 namespace geodisk {
 namespace {
@@ -75,12 +76,8 @@ Result<Done> check_shape(const MeshView& mesh) {
         mesh.triangles.size() % 3 != 0) {
         return invalid("positions must hold whole vertices and triangles whole faces");
     }
-    if (auto layout = check_layout(mesh.positions, mesh.dimension); !layout) {
-        return layout;
-    }
-    if (auto layout = check_layout(mesh.triangles); !layout) {
-        return layout;
-    }
+    GEODISK_TRY(check_layout(mesh.positions, mesh.dimension));
+    GEODISK_TRY(check_layout(mesh.triangles));
     return check_counts(mesh.face_count(), mesh.vertex_count());
 }
 
@@ -138,9 +135,7 @@ Result<Done> check_elements(const MeshView& mesh) {
         if (v >= vertices) {
             return index_rejected(i, v, vertices);
         }
-        if (auto checked = check_vertex(mesh, v); !checked) {
-            return checked;
-        }
+        GEODISK_TRY(check_vertex(mesh, v));
     }
     return Done{};
 }
@@ -179,16 +174,12 @@ Result<Done> check_counts(std::uint64_t faces, std::uint64_t vertices) {
 }
 
 Result<Done> check_mesh(const MeshView& mesh) {
-    if (auto shape = check_shape(mesh); !shape) {
-        return shape;
-    }
+    GEODISK_TRY(check_shape(mesh));
     return check_elements(mesh);
 }
 
 Result<Done> check_faces(const MeshView& mesh, std::span<const std::uint32_t> faces) {
-    if (auto shape = check_shape(mesh); !shape) {
-        return shape;
-    }
+    GEODISK_TRY(check_shape(mesh));
     const std::uint64_t vertices = mesh.vertex_count();
     for (const std::uint32_t face : faces) {
         for (std::size_t i = std::size_t{3} * face; i < std::size_t{3} * face + 3; ++i) {
@@ -196,9 +187,7 @@ Result<Done> check_faces(const MeshView& mesh, std::span<const std::uint32_t> fa
             if (v >= vertices) {
                 return index_rejected(i, v, vertices);
             }
-            if (auto checked = check_vertex(mesh, v); !checked) {
-                return checked;
-            }
+            GEODISK_TRY(check_vertex(mesh, v));
         }
     }
     return Done{};
@@ -208,13 +197,9 @@ Result<Done> check_mesh(const LengthMeshView& mesh) {
     if (mesh.triangles.size() % 3 != 0 || mesh.lengths.size() != mesh.triangles.size()) {
         return invalid("triangles must hold whole faces and lengths three per face");
     }
-    if (auto layout = check_layout(mesh.triangles); !layout) {
-        return layout;
-    }
+    GEODISK_TRY(check_layout(mesh.triangles));
     const std::size_t faces = mesh.triangles.size() / 3;
-    if (auto counts = check_counts(faces, mesh.vertex_count); !counts) {
-        return counts;
-    }
+    GEODISK_TRY(check_counts(faces, mesh.vertex_count));
     for (std::size_t f = 0; f < faces; ++f) {
         const auto face = mesh.triangles.face(f);
         for (const std::uint32_t v : face) {
@@ -223,9 +208,7 @@ Result<Done> check_mesh(const LengthMeshView& mesh) {
             }
         }
         if (takes_part(face)) {
-            if (auto checked = check_face(f, mesh.lengths.subspan(3 * f, 3)); !checked) {
-                return checked;
-            }
+            GEODISK_TRY(check_face(f, mesh.lengths.subspan(3 * f, 3)));
         }
     }
     return Done{};

@@ -199,18 +199,12 @@ class Loader {
         corners.resize(header_.corners);
         saved_fans_.read(0, fans.size(), fans.data());
         saved_corners_.read(0, corners.size(), corners.data());
-        if (auto loaded = load_faces(half_edges, fans, statistics); !loaded) {
-            return loaded;
-        }
-        if (auto checked = check_edges(statistics); !checked) {
-            return checked;
-        }
+        GEODISK_TRY(load_faces(half_edges, fans, statistics));
+        GEODISK_TRY(check_edges(statistics));
         if (auto checked = check_agreement(half_edges); !checked) {
             return invalid(checked.error().message, checked.error().element);
         }
-        if (auto checked = check_fans(fans, corners, statistics); !checked) {
-            return checked;
-        }
+        GEODISK_TRY(check_fans(fans, corners, statistics));
         return check_statistics(statistics);
     }
 

@@ -26,7 +26,7 @@ struct CoincidingEdge {
 
 /// Returns the edges of a single face. A face and its copies count as one.
 std::vector<EdgeEnds> border_edges(const MeshView& mesh);
-/// The same from the half-edges of the mesh, which are connected already.
+/// Returns them for a mesh whose half-edges are connected already.
 std::vector<EdgeEnds> border_edges(const MeshView& mesh, std::span<const HalfEdge> half_edges);
 
 /// Returns those of `borders` that coincide with another one at both ends, sorted by place. Edges

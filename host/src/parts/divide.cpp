@@ -23,12 +23,6 @@ namespace {
 // Distances are tested against D * (1 + guard). Long paths widen the guard; hardly ever by so much.
 constexpr double kMinMargin = 0x1p-6;
 
-Result<Done> check_params(const SampleParams& params) {
-    RequestFields fields = fields_of(params);
-    fields.add(RequestField::processes);
-    return check_fields(fields);
-}
-
 double margin_of(const JobFrame& frame) {
     return std::max(kMinMargin, 2 * ErrorModel(frame).guard_for(frame.error_bound));
 }
@@ -175,7 +169,7 @@ Result<std::vector<Bytes>> divide(const PreparedMesh& mesh, const SampleParams& 
                                   std::span<const std::uint32_t> owners, std::uint32_t processes,
                                   double max_candidates, const Checkpoints* checkpoints) {
     return guarded([&]() -> Result<std::vector<Bytes>> {
-        GEODISK_TRY(check_params(params));
+        GEODISK_TRY(check_fields(params, RequestField::processes));
         const auto frame = frame_of(mesh, params);
         GEODISK_TRY(frame);
         Division division(mesh, params, *frame, owners, processes, max_candidates, checkpoints);

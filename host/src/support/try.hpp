@@ -5,17 +5,15 @@
 
 /// Returns the error of a Result from the function around it, if the result holds one. Not with a
 /// lambda as part of the argument.
-#define GEODISK_TRY(...)                                                                           \
-    do {                                                                                           \
-        if (auto&& tried = (__VA_ARGS__); !tried) {                                                \
-            return std::move(tried).error();                                                       \
-        }                                                                                          \
-    } while (false)
+#define GEODISK_TRY(...) GEODISK_TRY_BY(return, __VA_ARGS__)
 
-/// As GEODISK_TRY, in a coroutine.
-#define GEODISK_CO_TRY(...)                                                                        \
+/// Does the same in a coroutine.
+#define GEODISK_CO_TRY(...) GEODISK_TRY_BY(co_return, __VA_ARGS__)
+
+/// Leaves the function by `keyword`. For the two above.
+#define GEODISK_TRY_BY(keyword, ...)                                                               \
     do {                                                                                           \
         if (auto&& tried = (__VA_ARGS__); !tried) {                                                \
-            co_return std::move(tried).error();                                                    \
+            keyword std::move(tried).error();                                                      \
         }                                                                                          \
     } while (false)

@@ -150,9 +150,7 @@ Result<Done> LitCells::choose_radii() {
         const auto count = [&](std::span<const gpu::LitRec> lights) {
             all += static_cast<double>(lights.size()) / part;
         };
-        if (auto lit = all_disks(few, count); !lit) {
-            return lit;
-        }
+        GEODISK_TRY(all_disks(few, count));
         if (all <= static_cast<double>(cells_.max_records)) {
             return Done{};
         }
@@ -163,17 +161,13 @@ Result<Done> LitCells::choose_radii() {
 }
 
 Result<Done> LitCells::light() {
-    if (auto chosen = choose_radii(); !chosen) {
-        return chosen;
-    }
+    GEODISK_TRY(choose_radii());
     std::vector<std::uint32_t> samples(samples_.size());
     std::iota(samples.begin(), samples.end(), 0u);
     const double bound = 1.01 * distance_bound(mesh_) / frame_.unit;
     for (;;) {
         const auto add = [this](std::span<const gpu::LitRec> lights) { lit_.add(lights); };
-        if (auto lit = all_disks(samples, add); !lit) {
-            return lit;
-        }
+        GEODISK_TRY(all_disks(samples, add));
         const double start = impl_.now();
         lit_.sort_from(0);
         std::vector<std::uint8_t> marks =

@@ -79,9 +79,7 @@ bool fits(const JobFrame& frame, const MeshStatistics& statistics) {
 
 Result<Done> check_frame(const JobFrame& frame, const PreparedMesh& mesh,
                          const SampleParams& params) {
-    if (auto checked = check_job(frame, params); !checked) {
-        return checked;
-    }
+    GEODISK_TRY(check_job(frame, params));
     const MeshStatistics& statistics = mesh.statistics();
     if (statistics.longest_edge / frame.unit > frame.longest_edge) {
         return unlike("its mesh has no edge as long as the longest one of this mesh, " +

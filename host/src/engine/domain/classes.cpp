@@ -10,6 +10,7 @@
 #include "constants.h"
 #include "support/invalid.hpp"
 #include "support/number_text.hpp"
+#include "support/try.hpp"
 
 namespace geodisk {
 namespace {
@@ -113,9 +114,7 @@ Result<Done> check_classes(const SampleParams& params) {
                    ? Result<Done>(Done{})
                    : invalid("existing samples have classes, but there is no table of classes");
     }
-    if (auto checked = check_factors(params); !checked) {
-        return checked;
-    }
+    GEODISK_TRY(check_factors(params));
     if (!params.existing_classes.empty() &&
         params.existing_classes.size() != params.existing.size()) {
         return invalid("there are " + std::to_string(params.existing_classes.size()) +

@@ -99,9 +99,7 @@ Result<Done> check(const PreparedMesh& mesh, const SampleParams& params, const F
     if (params.darts != 0) {
         return invalid("samples on features come from no darts; leave out `darts`");
     }
-    RequestFields fields = fields_of(params);
-    fields.add(RequestField::features);
-    GEODISK_TRY(check_fields(fields));
+    GEODISK_TRY(check_fields(params, RequestField::features));
     if (!features.are_sampled(mesh, params)) {
         return invalid("no feature lies on a face that takes samples");
     }

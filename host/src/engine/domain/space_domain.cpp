@@ -124,9 +124,7 @@ Result<Domain> Domain::surface_in_space(const MeshView& view, const PreparedMesh
                                         const SampleParams& params, Metric metric) noexcept {
     return guarded([&]() -> Result<Domain> {
         GEODISK_TRY(pool_size(mesh, params));
-        RequestFields fields = fields_of(params);
-        fields.add(RequestField::metric);
-        GEODISK_TRY(check_fields(fields));
+        GEODISK_TRY(check_fields(params, RequestField::metric));
         GEODISK_TRY(check_view(view, mesh));
         SpaceFrame frame(view, mesh, params);
         if (!(frame.guard() <= kWidestGuard)) {

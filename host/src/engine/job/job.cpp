@@ -151,9 +151,7 @@ Result<Done> Job::set_plan(const RunPlan& plan) noexcept {
             !checked) {
             return checked;
         }
-        if (auto chosen = impl_->choose_kernels(impl_->variant, plan); !chosen) {
-            return chosen;
-        }
+        GEODISK_TRY(impl_->choose_kernels(impl_->variant, plan));
         impl_->apply_plan(plan);
         return Done{};
     });
@@ -168,15 +166,9 @@ Result<Done> Job::set_plan(const RunPlan& plan, const BufferRange& pool) noexcep
             !checked) {
             return checked;
         }
-        if (auto checked = check_plan(plan, *impl_, pool.size); !checked) {
-            return checked;
-        }
-        if (auto chosen = impl_->choose_kernels(impl_->variant, plan); !chosen) {
-            return chosen;
-        }
-        if (auto replaced = impl_->replace_buffer(gpu::kBindPool, pool); !replaced) {
-            return replaced;
-        }
+        GEODISK_TRY(check_plan(plan, *impl_, pool.size));
+        GEODISK_TRY(impl_->choose_kernels(impl_->variant, plan));
+        GEODISK_TRY(impl_->replace_buffer(gpu::kBindPool, pool));
         impl_->apply_plan(plan);
         return Done{};
     });
@@ -215,9 +207,7 @@ void Job::Impl::apply_end() {
 
 Result<Done> Job::set_existing(std::span<const gpu::SampleRec> samples) noexcept {
     return guarded([&]() -> Result<Done> {
-        if (auto checked = check_existing_records(samples, *impl_); !checked) {
-            return checked;
-        }
+        GEODISK_TRY(check_existing_records(samples, *impl_));
         impl_->existing = static_cast<std::uint32_t>(samples.size());
         if (impl_->constants.stop_count != kMaxCandidates) {
             impl_->constants.stop_count -= impl_->avoided;
@@ -260,9 +250,7 @@ Result<Done> Job::set_samples(std::uint32_t capacity, const BufferRange& samples
             }
         }
         for (const auto& [role, range] : ranges) {
-            if (auto replaced = impl_->replace_buffer(role, range); !replaced) {
-                return replaced;
-            }
+            GEODISK_TRY(impl_->replace_buffer(role, range));
         }
         impl_->plan.sample_capacity = capacity;
         impl_->push.sample_capacity = capacity;
@@ -301,9 +289,7 @@ void Job::Impl::set_seed(std::uint64_t seed) {
 
 Result<Done> Job::Impl::set_out(const Domain& of_domain, const RunPlan& new_plan,
                                 const Workspace& ranges) {
-    if (auto checked = check_plan(new_plan, sampler->choices.tuning); !checked) {
-        return checked;
-    }
+    GEODISK_TRY(check_plan(new_plan, sampler->choices.tuning));
     const auto needs = needs_of(of_domain, new_plan, sampler->report);
     GEODISK_TRY(needs);
     const Domain::Impl& of = Domain::Impl::of(of_domain);
@@ -311,12 +297,8 @@ Result<Done> Job::Impl::set_out(const Domain& of_domain, const RunPlan& new_plan
         return Error{Status::invalid_argument,
                      "a maximal set takes several jobs; sample it with Runner"};
     }
-    if (auto checked = check_workspace(ranges, *needs, of, *sampler); !checked) {
-        return checked;
-    }
-    if (auto chosen = choose_kernels(sampler->variant_for(of_domain), new_plan); !chosen) {
-        return chosen;
-    }
+    GEODISK_TRY(check_workspace(ranges, *needs, of, *sampler));
+    GEODISK_TRY(choose_kernels(sampler->variant_for(of_domain), new_plan));
     number = next_number();
     if (of.settled.size() > new_plan.sample_capacity) {
         return too_many_existing(of.settled.size(), new_plan);
@@ -352,13 +334,9 @@ Result<Done> Job::Impl::set_out(const Domain& of_domain, const RunPlan& new_plan
         sets_for.reset(); // Until all is bound.
     }
     if (!has_sets) {
-        if (auto allocated = allocate_sets(); !allocated) {
-            return allocated;
-        }
+        GEODISK_TRY(allocate_sets());
     }
-    if (auto bound = bind(ranges, !is_bound); !bound) {
-        return bound;
-    }
+    GEODISK_TRY(bind(ranges, !is_bound));
     sets_for = variant.domain;
     return Done{};
 }
@@ -375,9 +353,7 @@ std::span<const KernelBinding> Job::Impl::bindings_of(std::size_t kernel) const 
 Result<Done> Job::Impl::bind(const Workspace& ranges, bool all) {
     for (std::size_t i = 0; i < kBufferRoles; ++i) {
         if (ranges[i] != workspace[i]) {
-            if (auto replaced = replace_buffer(i, ranges[i]); !replaced) {
-                return replaced;
-            }
+            GEODISK_TRY(replace_buffer(i, ranges[i]));
         } else if (all && ranges[i].buffer != VK_NULL_HANDLE) {
             write_buffer(i);
         }

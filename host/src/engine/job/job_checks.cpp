@@ -10,6 +10,7 @@
 #include "engine/job/buffer_ranges.hpp"
 #include "records.h"
 #include "support/number_text.hpp"
+#include "support/try.hpp"
 
 namespace geodisk {
 namespace {
@@ -20,9 +21,7 @@ constexpr double kMaxError = 0.5;
 /// Checks that a buffer of a workspace is usable beside the first `others` buffers of it.
 Result<Done> check_buffer(const Workspace& workspace, std::size_t role, VkDeviceSize needed,
                           std::size_t others, const auto& name, const Sampler::Impl& sampler) {
-    if (auto checked = check_range(workspace[role], name(role), needed, sampler); !checked) {
-        return checked;
-    }
+    GEODISK_TRY(check_range(workspace[role], name(role), needed, sampler));
     for (std::size_t k = 0; k < others; ++k) {
         if (k != role && overlap(workspace[role], workspace[k])) {
             return overlap_error(name(role), name(k));
@@ -49,9 +48,7 @@ Result<Done> check_workspace(const Workspace& workspace, const WorkspaceNeeds& n
         if (needs.bytes[i] == 0) {
             continue;
         }
-        if (auto checked = check_buffer(workspace, i, needs.bytes[i], i, name, sampler); !checked) {
-            return checked;
-        }
+        GEODISK_TRY(check_buffer(workspace, i, needs.bytes[i], i, name, sampler));
     }
     return Done{};
 }
@@ -109,9 +106,7 @@ Result<Done> check_plan(const RunPlan& plan, const Tuning& tuning) {
 }
 
 Result<Done> check_plan(const RunPlan& plan, const Job::Impl& job, VkDeviceSize pool) {
-    if (auto checked = check_plan(plan, job.sampler->choices.tuning); !checked) {
-        return checked;
-    }
+    GEODISK_TRY(check_plan(plan, job.sampler->choices.tuning));
     if (plan.stages != job.plan.stages || plan.idle_capacity != job.plan.idle_capacity ||
         plan.sample_capacity != job.plan.sample_capacity ||
         plan.error_bound != job.plan.error_bound) {

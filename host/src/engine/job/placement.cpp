@@ -62,9 +62,7 @@ Result<Done> check_ranges(const CallersRanges& ranges, const Workspace& workspac
                           const Sampler::Impl& sampler) {
     for (std::size_t i = 0; i < ranges.size(); ++i) {
         const NamedRange& own = ranges[i];
-        if (auto checked = check_range(own.range, own.name, own.needed, sampler); !checked) {
-            return checked;
-        }
+        GEODISK_TRY(check_range(own.range, own.name, own.needed, sampler));
         const bool is_written =
             own.binding == gpu::kBindPlaced || own.binding == gpu::kBindArguments;
         if (!is_written) {

@@ -9,6 +9,7 @@
 #include "constants.h"
 #include "push.h"
 #include "support/blocks.hpp"
+#include "support/try.hpp"
 #include "vk/debug.hpp"
 #include "vk/result.hpp"
 
@@ -46,9 +47,7 @@ Pipelines::~Pipelines() {
 
 Result<Done> Pipelines::create(const std::optional<KernelVariant>& ahead) {
     for (std::size_t k = 0; k < kKernels; ++k) {
-        if (auto created = create_layout(k); !created) {
-            return created;
-        }
+        GEODISK_TRY(create_layout(k));
     }
     using Set = std::pair<KernelVariant, KernelPipelines*>;
     const Set common{{DomainKind::any}, &common_};

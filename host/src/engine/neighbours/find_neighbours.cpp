@@ -44,9 +44,7 @@ Result<Neighbours> find_neighbours(Runner& runner, const PreparedMesh& mesh,
 Result<Done> start_neighbours(Runner& runner, const PreparedMesh& mesh, const NeighbourQuery& query,
                               const ProgressCallback& progress) noexcept {
     return guarded([&]() -> Result<Done> {
-        if (auto checked = check_query(mesh, query); !checked) {
-            return checked;
-        }
+        GEODISK_TRY(check_query(mesh, query));
         Runner::Impl& impl = Runner::Impl::of(runner);
         return impl.begin(search(impl, mesh, with_joined(mesh, query)), count_of(query), progress);
     });

@@ -103,9 +103,7 @@ class SurfaceSteps {
 
 Result<Done> SurfaceSteps::prepare() {
     const std::size_t existing = request_.params.existing.size();
-    if (const auto checked = check_rules(request_); !checked) {
-        return checked;
-    }
+    GEODISK_TRY(check_rules(request_));
     if (request_.count != 0 && static_cast<double>(existing) >= request_.count) {
         return invalid("count is " + number_text(request_.count) + ", but " +
                        std::to_string(existing) + " existing samples count too");

@@ -128,9 +128,7 @@ Result<Done> FrameMemory::allocate(const Sampler& sampler, const Domain& domain,
 
 Result<Done> FrameMemory::stage(const Sampler& sampler, const Domain& domain,
                                 const FrameMesh& mesh) {
-    if (auto staged = uploads_.stage_domain(sampler, domain, plan_, layout_); !staged) {
-        return staged;
-    }
+    GEODISK_TRY(uploads_.stage_domain(sampler, domain, plan_, layout_));
     uploads_.stage(vertices_, bytes_of(mesh.positions));
     uploads_.stage(indices_, bytes_of(mesh.indices));
     std::memset(controls_.bytes().data(), 0, controls_.bytes().size());

@@ -134,9 +134,7 @@ Result<Done> FrameSampler::Impl::record_work(VkCommandBuffer commands, const Adv
         }
         break;
     case Next::larger_pool: // Within the same pool: fewer disks at a time, with more memory each.
-        if (auto set = job.set_plan(advice.plan); !set) {
-            return set;
-        }
+        GEODISK_TRY(job.set_plan(advice.plan));
         sampler->record_rewind(commands, job);
         break;
     default:

@@ -60,9 +60,7 @@ Result<SampleParams> params_of_level(const SampleParams& last, const Levels& lev
         return invalid("there is no level " + std::to_string(level) + " of " +
                        std::to_string(levels.count));
     }
-    RequestFields fields = fields_of(last);
-    fields.add(RequestField::progressive);
-    GEODISK_TRY(check_fields(fields));
+    GEODISK_TRY(check_fields(last, RequestField::progressive));
     SampleParams params = last;
     params.min_distance = last.min_distance * levels.scale(level);
     params.seed = seed_of_level(last.seed, level);

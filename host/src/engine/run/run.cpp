@@ -109,13 +109,9 @@ Result<Done> Run::prepare(const RunPlan& plan) {
     const auto needs = runner_.sampler.workspace_needs(domain_, plan);
     GEODISK_TRY(needs);
     const std::uint64_t uploaded = upload_bytes(runner_.sampler, domain_);
-    if (auto allocated = memory_.allocate(*needs, uploaded, max_bytes_); !allocated) {
-        return allocated;
-    }
+    GEODISK_TRY(memory_.allocate(*needs, uploaded, max_bytes_));
     if (job_ && kept_.made == memory_.made()) {
-        if (auto renewed = job_->renew(domain_, plan); !renewed) {
-            return renewed;
-        }
+        GEODISK_TRY(job_->renew(domain_, plan));
     } else {
         job_.reset();
         auto job = runner_.sampler.make_job(domain_, plan, memory_.workspace());
@@ -254,9 +250,7 @@ Task<Result<Done>> Run::end_piece() {
 
 Result<Done> Run::grow(const RunPlan& grown) {
     ++report_.regrown;
-    if (auto enlarged = memory_.enlarge_pool(grown.pool_bytes()); !enlarged) {
-        return enlarged;
-    }
+    GEODISK_TRY(memory_.enlarge_pool(grown.pool_bytes()));
     if (control().next_sample < of_.avoided) {
         for_others_ = for_others_.value_or(submissions_.plan());
         for_avoided_ = grown;

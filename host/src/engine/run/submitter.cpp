@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "support/number_text.hpp"
+#include "support/try.hpp"
 #include "vk/result.hpp"
 
 namespace geodisk {
@@ -81,17 +82,13 @@ Result<Done> Submitter::ready() const {
 }
 
 Result<Done> Submitter::run(const std::function<void(VkCommandBuffer)>& record) {
-    if (auto submitted = submit(record); !submitted) {
-        return submitted;
-    }
+    GEODISK_TRY(submit(record));
     wait();
     return std::move(end_);
 }
 
 Result<Done> Submitter::submit(const std::function<void(VkCommandBuffer)>& record) {
-    if (auto usable = ready(); !usable) {
-        return usable;
-    }
+    GEODISK_TRY(ready());
     VkResult status = vk_->vkResetCommandPool(device_->device, pool_, 0);
     if (status != VK_SUCCESS) {
         return failed("vkResetCommandPool", status);

@@ -9,18 +9,9 @@
 #include "mesh/checks.hpp"
 #include "support/invalid.hpp"
 #include "support/number_text.hpp"
+#include "support/try.hpp"
 
 namespace geodisk {
-namespace {
-
-/// Checks that a job is one whose samples can be updated.
-Result<Done> check_kind(const SampleParams& params) {
-    RequestFields fields = fields_of(params);
-    fields.add(RequestField::update);
-    return check_fields(fields);
-}
-
-} // namespace
 
 Result<Done> check_sizes(const MeshView& mesh, const SampleParams& params) {
     const std::size_t faces = mesh.face_count();
@@ -30,12 +21,8 @@ Result<Done> check_sizes(const MeshView& mesh, const SampleParams& params) {
                    : invalid(std::string("there are ") + what + " of " + std::to_string(count) +
                              " faces for a mesh of " + std::to_string(faces));
     };
-    if (auto checked = check("keys", params.face_keys.size()); !checked) {
-        return checked;
-    }
-    if (auto checked = check("mask bytes", params.face_mask.size()); !checked) {
-        return checked;
-    }
+    GEODISK_TRY(check("keys", params.face_keys.size()));
+    GEODISK_TRY(check("mask bytes", params.face_mask.size()));
     const std::size_t radii = params.radii != nullptr ? params.radii->face_count() : 0;
     return check("radii", radii);
 }
@@ -49,15 +36,11 @@ Result<Done> check_places(const LiveMesh& faces, const SampleParams& params) {
                              i);
     };
     for (std::size_t i = 0; i < params.existing.size(); ++i) {
-        if (auto checked = check("existing sample ", i, params.existing[i].face); !checked) {
-            return checked;
-        }
+        GEODISK_TRY(check("existing sample ", i, params.existing[i].face));
     }
     for (std::size_t i = 0; i < params.avoid.size(); ++i) {
         const auto& [center, radius] = params.avoid[i];
-        if (auto checked = check("point to avoid ", i, center.face); !checked) {
-            return checked;
-        }
+        GEODISK_TRY(check("point to avoid ", i, center.face));
         if (!(radius > 0) || !std::isfinite(radius)) {
             return invalid("point to avoid " + std::to_string(i) + " has the radius " +
                                number_text(radius) + ", not a positive number",
@@ -73,16 +56,12 @@ double density_of(const SampleParams& params) {
 
 Result<Done> check_same(const SampleParams& params, const JobFrame& frame, std::uint64_t seed,
                         bool has_keys, double min_density) {
-    if (auto checked = check_kind(params); !checked) {
-        return checked;
-    }
+    GEODISK_TRY(check_fields(params, RequestField::update));
     if (params.seed != seed) {
         return invalid("the samples have the seed " + std::to_string(seed) + ", not " +
                        std::to_string(params.seed));
     }
-    if (auto checked = check_job(frame, params); !checked) {
-        return checked;
-    }
+    GEODISK_TRY(check_job(frame, params));
     if (params.face_keys.empty() == has_keys) {
         return invalid(has_keys ? "the faces of the samples have keys, these have none"
                                 : "the faces of the samples have no keys, these have");
@@ -108,21 +87,11 @@ Error no_face(std::size_t sample, std::uint32_t face, std::size_t faces) {
 Result<Done> check_start(const SurfaceJob& job, const JobFrame& frame,
                          std::span<const Sample> samples, const ThreadOptions& threads) {
     const auto& [mesh, params] = job;
-    if (auto checked = check_threads(threads); !checked) {
-        return checked;
-    }
-    if (auto checked = check_mesh(mesh); !checked) {
-        return checked;
-    }
-    if (auto checked = check_kind(params); !checked) {
-        return checked;
-    }
-    if (auto checked = check_sizes(mesh, params); !checked) {
-        return checked;
-    }
-    if (auto checked = check_job(frame, params); !checked) {
-        return checked;
-    }
+    GEODISK_TRY(check_threads(threads));
+    GEODISK_TRY(check_mesh(mesh));
+    GEODISK_TRY(check_fields(params, RequestField::update));
+    GEODISK_TRY(check_sizes(mesh, params));
+    GEODISK_TRY(check_job(frame, params));
     if (frame.unit < frame.min_distance) {
         return invalid("the minimum distance exceeds the surface, so an edit may change all "
                        "samples; sample the surface again");
@@ -137,12 +106,8 @@ Result<Done> check_start(const SurfaceJob& job, const JobFrame& frame,
 }
 
 Result<Done> check_edit(const SurfaceJob& before, const SurfaceJob& after, const JobFrame& frame) {
-    if (auto checked = check_mesh(after.mesh); !checked) {
-        return checked;
-    }
-    if (auto checked = check_sizes(after.mesh, after.params); !checked) {
-        return checked;
-    }
+    GEODISK_TRY(check_mesh(after.mesh));
+    GEODISK_TRY(check_sizes(after.mesh, after.params));
     if (after.mesh.dimension != before.mesh.dimension) {
         return other_dimension(before.mesh.dimension, after.mesh.dimension);
     }

@@ -125,12 +125,8 @@ Result<std::unique_ptr<Updater::Impl>> Updater::Impl::make(const SurfaceJob& job
 
 Result<Done> Updater::Impl::check_same_job(const MeshView& mesh, const SampleParams& params,
                                            std::span<const std::uint32_t> changed) const {
-    if (auto checked = check_same(params, frame, seed, has_keys, min_density); !checked) {
-        return checked;
-    }
-    if (auto checked = check_sizes(mesh, params); !checked) {
-        return checked;
-    }
+    GEODISK_TRY(check_same(params, frame, seed, has_keys, min_density));
+    GEODISK_TRY(check_sizes(mesh, params));
     if (mesh.dimension != dimension) {
         return other_dimension(dimension, mesh.dimension);
     }
