@@ -102,7 +102,8 @@ struct ExistingSpacing {
     SpacingResult among_existing; ///< Pairs of existing samples, whose distance is the user's.
 };
 
-/// The same, where rows with `existing` other than 0 existed before; none did if that is empty.
+/// Checks rows of which those with `existing` other than 0 existed before. If it is empty, none
+/// did.
 ExistingSpacing check_spacing(const MeshInput& mesh, std::span<const SampleRow> rows,
                               const PairDistances& distances,
                               std::span<const std::uint32_t> existing, ProgressLine& progress);
