@@ -212,6 +212,45 @@ TEST_CASE("lines of a manifest have options of their own") {
                 "80", "--seed", "7"});
 }
 
+TEST_CASE("options of a line replace common ones that set the same thing in another way") {
+    const TemporaryFolder folder;
+    const std::string mesh = "builtin:cube:3";
+    struct Case {
+        Arguments common;
+        std::string line;
+        Arguments same;
+    };
+    const Case cases[] = {
+        {{"-n", "40", "--exact"}, "-d 0.4", {"-d", "0.4"}},
+        {{"-n", "40", "--exact"},
+         "--method darts -d 0.4",
+         {"-n", "40", "--method", "darts", "-d", "0.4"}},
+        {{"-d", "0.4", "--dense"}, "--pool-ratio 7", {"-d", "0.4", "--pool-ratio", "7"}},
+        {{"-d", "0.4", "--pool-ratio", "7"}, "--dense", {"-d", "0.4", "--dense"}},
+        {{"-d", "0.4", "--dense"}, "--maximal", {"-d", "0.4", "--maximal"}},
+        {{"-d", "0.4", "--maximal"}, "--dense", {"-d", "0.4", "--dense"}},
+        {{"-d", "0.4", "--maximal"},
+         "--method darts --darts 99",
+         {"-d", "0.4", "--method", "darts", "--darts", "99"}},
+        {{"-d", "0.4", "--order", "farthest", "--keep", "9"}, "--order dart", {"-d", "0.4"}},
+        {{"-d", "0.4", "--order", "progressive", "--levels", "2", "--level-factor", "3"},
+         "--order farthest",
+         {"-d", "0.4", "--order", "farthest"}},
+        {{"-d", "0.4", "--order", "progressive", "--levels", "2"},
+         "--order progressive --level-factor 3",
+         {"-d", "0.4", "--order", "progressive", "--levels", "2", "--level-factor", "3"}},
+    };
+    for (const Case& one : cases) {
+        CAPTURE(one.line);
+        folder.write("list.txt", mesh + " " + one.line + "\n");
+        const Outcome outcome = run(folder, joined({"batch", "list.txt", "-o", "out"}, one.common));
+        INFO(outcome.err);
+        REQUIRE(outcome.status == 0);
+        check_same(folder, "out/cube-3.ply", joined({mesh}, one.same));
+        std::filesystem::remove_all(folder / "out");
+    }
+}
+
 TEST_CASE("wrong lines of a manifest are told before any work") {
     const TemporaryFolder folder;
     const auto check = [&](const char* manifest, int status, const std::string& part,

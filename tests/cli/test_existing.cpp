@@ -331,7 +331,8 @@ TEST_CASE("existing samples that cannot be kept are refused") {
     fails(3, "none.ply", {"-d", "0.1", "--existing", "none.ply"});
     fails(2, "--tolerance is for points that are read; give --existing or --avoid",
           {"-d", "0.1", "--tolerance", "1"});
-    fails(2, "--existing goes by distances along the surface, so it takes no --metric euclidean",
+    fails(2,
+          "--metric euclidean and --existing exclude each other: existing samples keep distances",
           {"-d", "0.1", "--metric", "euclidean", "--existing", "a.ply"}, kExistingMesh);
     fails(2, "samples of --existing count too, so ask for more than",
           {"-n", "20", "--existing", "a.ply"}, kExistingMesh);

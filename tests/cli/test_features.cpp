@@ -91,13 +91,33 @@ TEST_CASE("marks that do not fit their places are found") {
     }
 }
 
+TEST_CASE(
+    "darts on features stop at a count among the samples on corners, on curves and on faces") {
+    const TemporaryFolder folder;
+    const auto sample = [&](const char* count) {
+        const Outcome done =
+            run(folder, {"sample", "builtin:cube:4", "-o", "a.csv", "-d", "5%", "--features", "30",
+                         "--method", "darts", "-n", count, "--no-header"});
+        INFO(done.err);
+        REQUIRE(done.status == 0);
+        return lines_of(bytes_of(folder / "a.csv"));
+    };
+    const std::vector<std::string> all = sample("500");
+    REQUIRE(all.size() == 501);
+    for (const std::size_t count : {1u, 8u, 20u, 300u}) {
+        CAPTURE(count);
+        const std::vector<std::string> some = sample(std::to_string(count).c_str());
+        REQUIRE(some.size() == count + 1); // With the names of the columns.
+        CHECK(std::equal(some.begin(), some.end(), all.begin()));
+    }
+}
+
 TEST_CASE("what takes no features ends in an error, without a file") {
     const TemporaryFolder folder;
     for (const auto& [options, message] : std::vector<std::pair<Arguments, const char*>>{
              {{"--features", "0"}, "is not a number of 1 to 180"},
              {{"--features", "181"}, "is not a number of 1 to 180"},
-             {{"--features", "sharp"}, "is not a number of 1 to 180"},
-             {{"--features", "30", "--method", "darts", "-n", "20"}, "on features count too"}}) {
+             {{"--features", "sharp"}, "is not a number of 1 to 180"}}) {
         const Outcome refused =
             run(folder, joined({"sample", "builtin:cube:4", "-o", "b.ply", "-d", "5%"}, options));
         INFO(refused.err);

@@ -255,7 +255,7 @@ TEST_CASE("updates of other samples, meshes and kinds are refused") {
     refused(3, "a.ply: has as its seed 0, not 9; give the options it was made with",
             joined(edit, {"-d", "3", "--seed", "9"}));
     refused(3, "a.ply: has as its minimum distance 3, not 2.9", joined(edit, {"-d", "2.9"}));
-    refused(3, "a.ply: has as its pool_ratio none, not 10",
+    refused(3, "a.ply: has as its pool_ratio 20, not 10",
             joined(edit, {"-d", "3", "--pool-ratio", "10"}));
     refused(3, "a.ply: has as its mask none, not x<9", joined(edit, {"-d", "3", "--mask", "x<9"}));
     for (const Arguments& kind :

@@ -115,14 +115,10 @@ def test_radii_and_pools(tmp_path):
     assert same(there, same_distance)
     sparse = whole(pool_ratio=5)
     assert same(geodisk.update(sparse, moved()), whole(moved(), pool_ratio=5))
-    # Files and pickles do not have the values.
     sparse.save(tmp_path / "sparse.csv")
     surface = {"vertices": VERTICES, "faces": FACES}
     for other in (geodisk.read(tmp_path / "sparse.csv"), pickle.loads(pickle.dumps(sparse))):
-        with pytest.raises(geodisk.InvalidArgument, match="give before={'pool_ratio': ...}"):
-            geodisk.update(other, moved(), **surface)
-        there = geodisk.update(other, moved(), before={"pool_ratio": 5}, **surface)
-        assert same(there, whole(moved(), pool_ratio=5))
+        assert same(geodisk.update(other, moved(), **surface), whole(moved(), pool_ratio=5))
 
 
 def test_keys_find_faces_that_are_elsewhere():
@@ -314,14 +310,24 @@ def test_what_cannot_be_updated_is_refused(tmp_path):
 
 @pytest.mark.parametrize("made, told", [(20, 40), (40, 20), (40, 60)])
 def test_another_pool_ratio_than_that_of_the_samples_is_refused(made, told, tmp_path):
-    samples = geodisk.sample(VERTICES, FACES, min_distance=0.4, pool_ratio=made)
-    with pytest.raises(geodisk.InvalidArgument, match=f"made with the pool_ratio {made}, not {told}"):
-        geodisk.update(samples, VERTICES * 1.01, before={"pool_ratio": told})
-    if made == 20:
-        path = tmp_path / "samples.npz"
-        samples.save(path)
-        with pytest.raises(geodisk.InvalidArgument, match="made with the pool_ratio 20, not 40"):
-            geodisk.update(
-                geodisk.read(path), VERTICES * 1.01, vertices=VERTICES, faces=FACES,
-                before={"pool_ratio": told},
-            )
+    edited, of_mesh = moved(), {"vertices": VERTICES, "faces": FACES}
+    samples = whole(pool_ratio=made)
+    samples.save(tmp_path / "samples.csv")
+    read = geodisk.read(tmp_path / "samples.csv")
+    for those, mesh in ((samples, {}), (read, of_mesh)):
+        with pytest.raises(geodisk.InvalidArgument, match=f"with the pool_ratio {made}, not {told}"):
+            geodisk.update(those, edited, before={"pool_ratio": told}, **mesh)
+    assert same(geodisk.update(read, edited, **of_mesh), whole(edited, pool_ratio=made))
+
+
+def test_samples_of_a_file_need_all_parameters_that_made_them(tmp_path):
+    density = 1 + (VERTICES[:, 0] > 0)
+    mask = VERTICES[FACES].mean(axis=1)[:, 2] > 0
+    whole(density=density, face_mask=mask).save(tmp_path / "samples.npz")
+    read = geodisk.read(tmp_path / "samples.npz")
+    of_mesh = {"vertices": VERTICES, "faces": FACES}
+    for before in (None, {"density": density}):
+        with pytest.raises(geodisk.InvalidArgument, match="made with .*face_mask, and do not know"):
+            geodisk.update(read, moved(), before=before, **of_mesh)
+    there = geodisk.update(read, moved(), before={"density": density, "face_mask": mask}, **of_mesh)
+    assert same(there, whole(moved(), density=density, face_mask=mask))

@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 
 #include <geodisk/fields.hpp>
@@ -16,7 +17,6 @@
 #include "geodisk/checks/sample_checks.hpp"
 #include "geodisk/checks/sample_input.hpp"
 #include "geodisk/outputs/outputs.hpp"
-#include "geodisk/reports/number_entries.hpp"
 #include "geodisk/sample_run.hpp"
 #include "program/exact_text.hpp"
 #include "program/failure.hpp"
@@ -134,6 +134,16 @@ void check_kind(const SampleFile& file, const std::string& path) {
     }
 }
 
+/// Says whether a header tells this number.
+template <class Number>
+bool tells(const std::string& text, Number number) {
+    if constexpr (std::is_floating_point_v<Number>) {
+        return parse_real(text) == number;
+    } else {
+        return text == exact_text(+number); // No bool.
+    }
+}
+
 /// Checks that the samples before are of this job, as far as their header tells.
 void check_job(const SampleFile& file, const SampleJob& job, double min_distance) {
     if (file.header.find("min_distance") == nullptr || file.header.find("seed") == nullptr) {
@@ -141,30 +151,35 @@ void check_job(const SampleFile& file, const SampleJob& job, double min_distance
                    "does not say its seed and minimum distance, so it may not be whole; "
                    "give a file as geodisk sample writes it");
     }
-    HeaderEntries wanted = with_entries(job.density.added_to({}), job.mask);
-    wanted.emplace_back("seed", exact_text(job.params.seed));
-    for (auto& entry : number_entries(job.params)) {
-        wanted.push_back(std::move(entry));
-    }
     const auto fail = [&](std::string_view key, const std::string& is, const std::string& should) {
         const auto told = [](const std::string& text) { return text.empty() ? "none" : text; };
         fail_input(job.update, "has as its " + std::string(key) + " " + told(is) + ", not " +
                                    told(should) + "; give the options it was made with");
     };
-    std::vector<std::string_view> keys{"density", "radius_factor", "radius_factor_floor", "mask",
-                                       "only"};
-    for_each_number(job.params, [&](std::string_view name, auto) {
-        if (name != "min_distance") { // It may be relative.
-            keys.push_back(name);
-        }
-    });
-    for (const std::string_view key : keys) {
+    const HeaderEntries wanted = with_entries(job.density.added_to({}), job.mask);
+    for (const char* const key :
+         {"density", "radius_factor", "radius_factor_floor", "mask", "only"}) {
         const std::string is = values_of(key, file.header.entries);
         const std::string should = values_of(key, wanted);
         if (is != should) {
             fail(key, is, should);
         }
     }
+    const SampleParams plain;
+    HeaderEntries defaults;
+    for_each_number(plain, [&](const char* name, auto value) {
+        defaults.emplace_back(name, exact_text(+value));
+    });
+    for_each_number(job.params, [&](const char* name, auto value) {
+        if (std::string_view(name) == "min_distance") { // It may be relative.
+            return;
+        }
+        const std::string* const told = file.header.find(name);
+        const std::string is = told != nullptr ? *told : values_of(name, defaults);
+        if (!tells(is, value)) {
+            fail(name, is, exact_text(+value));
+        }
+    });
     // Distances relative to the mesh may round in another way.
     const double of_file = header_distance(job.update, file.header);
     if (!(std::abs(of_file - min_distance) <= 1e-12 * min_distance)) {

@@ -18,17 +18,21 @@ std::string percent(double share) {
     return rounded(100 * share, 2) + " % of the area";
 }
 
-/// Returns what to say if darts ran out before there were as many samples as asked for; else "".
-std::string shortfall(std::uint64_t samples, std::uint32_t stop_count) {
-    return samples >= stop_count ? ""
-                                 : "only " + grouped(samples) + " of " + grouped(stop_count) +
-                                       " samples fit before the darts ran out; lower --count or "
-                                       "the distance, or raise --darts";
+/// Returns what to say if candidates ran out before there were as many samples as asked for; else
+/// "".
+std::string shortfall(const SampledSet& set) {
+    if (set.samples >= set.stop_count) {
+        return "";
+    }
+    return "only " + grouped(set.samples) + " of " + grouped(set.stop_count) +
+           " samples fit before the " + (set.has_darts ? "darts" : "pool") +
+           " ran out; ask for fewer samples, lower the distance, or raise " +
+           (set.has_darts ? "--darts" : "--pool-ratio");
 }
 
 /// Checks a count that chooses the distance, or stops the darts.
 void check_count(const SampledSet& set, std::vector<MeshWarning>& warnings) {
-    if (std::string text = shortfall(set.samples, set.stop_count); !text.empty()) {
+    if (std::string text = shortfall(set); !text.empty()) {
         warnings.push_back({"count_missed", set.stop_count - set.samples, "", std::move(text), ""});
     }
     const std::uint64_t found = set.samples + set.cut;
@@ -70,7 +74,8 @@ std::vector<MeshWarning> set_warnings(const SampledSet& set) {
                                 " degrees or is a border, so there are no features",
                             ""});
     }
-    if (set.samples == set.existing && (set.existing > 0 || set.avoids)) {
+    const bool has_all = set.stop_count > 0 && set.samples >= set.stop_count;
+    if (set.samples == set.existing && (set.existing > 0 || set.avoids) && !has_all) {
         warnings.push_back({"no_new_samples", 1, "", no_room_text(set), ""});
         return warnings;
     }

@@ -33,6 +33,28 @@ std::string seen_from(const Path& folder, const std::string& path) {
     return is_builtin(path) ? path : (folder / Path(path)).string();
 }
 
+/// Takes out of `common` what options on the number of candidates in `line` stand in for.
+void drop_replaced_method(MethodOptions& common, const MethodOptions& line) {
+    if (names_darts(line.method)) {
+        common.pool_ratio.clear();
+        common.exact = common.is_dense = common.is_maximal = false;
+    } else if (!line.method.empty()) {
+        common.darts.clear();
+    }
+    if (!line.pool_ratio.empty() || line.is_maximal) {
+        common.is_dense = false;
+    }
+    if (line.is_dense) {
+        common.pool_ratio.clear();
+        common.is_maximal = false;
+    }
+    if (!line.order.empty() && line.order != common.order) {
+        common.levels.clear();
+        common.level_factor.clear();
+        common.keep.clear();
+    }
+}
+
 /// Takes out of `common` what an option of another name in `line` stands in for.
 void drop_replaced(SampleOptions& common, const SampleOptions& line) {
     const std::string& method =
@@ -47,10 +69,9 @@ void drop_replaced(SampleOptions& common, const SampleOptions& line) {
     }
     if (has_length && !throws_darts) {
         common.count.clear();
+        common.method.exact = false;
     }
-    if (!line.method.method.empty()) {
-        (throws_darts ? common.method.pool_ratio : common.method.darts).clear();
-    }
+    drop_replaced_method(common.method, line.method);
     if (!line.density.given().empty()) {
         common.density = {};
     }
@@ -132,7 +153,8 @@ void add_batch_options(Command command, BatchOptions& options) {
 LineOptions parse_line(const SampleOptions& common, const std::vector<std::string>& words,
                        const Path& folder) {
     LineOptions alone;
-    alone.sample.method.method.clear(); // To see whether the line gives one.
+    alone.sample.method.method.clear(); // To see whether the line gives them.
+    alone.sample.method.order.clear();
     parse_words(words, alone);
     LineOptions line{common, alone.sample.mesh.mesh, {}};
     drop_replaced(line.sample, alone.sample);

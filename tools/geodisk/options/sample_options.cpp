@@ -35,10 +35,6 @@ void check_metric(const SampleOptions& options, const SampleJob& job) {
     if (job.is_geodesic()) {
         return;
     }
-    if (!options.constraints.existing.empty()) {
-        fail_usage("--existing goes by distances along the surface, so it takes no --metric " +
-                   options.metric);
-    }
     for (const auto& [name, value] : options.mesh.additions()) {
         const bool is_kept = name == "weld" || name == "keep_seams" || name == "mesh_format";
         if (!is_kept) {

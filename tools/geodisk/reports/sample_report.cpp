@@ -13,6 +13,7 @@
 #include "geodisk/reports/farthest_report.hpp"
 #include "geodisk/reports/json.hpp"
 #include "geodisk/reports/mesh_report.hpp"
+#include "geodisk/reports/number_entries.hpp"
 #include "program/exact_text.hpp"
 #include "program/human_text.hpp"
 

@@ -28,6 +28,29 @@ class Job:
     source: c.Handle | None = None  #: The file of the mesh, or what its faces were given as.
 
 
+#: Entries of headers that tell what samples were made with, and the argument of sample() of each.
+TOLD = {
+    "pool_ratio": "pool_ratio",
+    "darts": "darts",
+    "exact": "exact",
+    "density": "density",
+    "radius_factor": "radius_factor",
+    "mask": "face_mask",
+    "only": "face_mask",
+    "metric": "metric",
+    "classes": "classes",
+    "features": "features",
+    "level_distances": "order",
+    "kept_of": "order",
+    "maximal": "maximal",
+    "existing": "existing",
+    "avoid": "avoid",
+}
+
+#: Those of one value each, which samples keep and headers tell again.
+VALUES = ("pool_ratio", "darts", "exact", "metric", "features", "maximal", "kept_of")
+
+
 @dataclass(frozen=True)
 class JobFrame:
     """The distances, tolerances and rules that decided samples, as the library has them."""

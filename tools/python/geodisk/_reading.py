@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from . import _errors as e
 from . import _library as c
 from ._attributes import attributes_of_columns
-from ._job import JobFrame
+from ._job import TOLD, VALUES, JobFrame
 from ._record import Record
 from ._samples import Samples
 from ._values import path_of
@@ -71,26 +71,6 @@ def read(path: str | os.PathLike[str]) -> Samples:
             raise e.invalid(f"{path}: {error or type(error).__name__}") from error
 
 
-#: Arguments of sample() that entries of the program's header tell of.
-_OPTIONS = {
-    "pool_ratio": "pool_ratio",
-    "darts": "darts",
-    "exact": "exact",
-    "density": "density",
-    "radius_factor": "radius_factor",
-    "mask": "face_mask",
-    "only": "face_mask",
-    "metric": "metric",
-    "classes": "classes",
-    "features": "features",
-    "level_distances": "order",
-    "kept_of": "order",
-    "maximal": "maximal",
-    "existing": "existing",
-    "avoid": "avoid",
-}
-
-
 def _samples(header: Header, **arrays: Any) -> Samples:
     """Samples of those arrays, and of what the header tells."""
     if "box" in header:
@@ -105,7 +85,8 @@ def _samples(header: Header, **arrays: Any) -> Samples:
         arrays["level_distances"] = tuple(map(float, header["level_distances"].split()))
     arrays["_digest"] = header.get("digest")
     options = header.get("options", "").split()
-    options += [name for key, name in _OPTIONS.items() if key in header and name not in options]
+    options += [name for key, name in TOLD.items() if key in header and name not in options]
+    arrays["_told"] = {key: header[key] for key in VALUES if key in header}
     if header.get("sampling_version", str(c.sampling_version())) != str(c.sampling_version()):
         options.append(f"sampling_version={header['sampling_version']}")
     if options:

@@ -151,6 +151,7 @@ def transfer(
         report={"options": ["transfer"]},
         _surface=target,
         _job=None,
+        _told={},
         _frame=None,
     )
     assert moved.face_index is not None and moved.barycentric is not None

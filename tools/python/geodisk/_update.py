@@ -81,8 +81,8 @@ def update(
         pair as `existing` or as points of `avoid` removes those before. Needed for an edited mesh
         of other faces, or of another number of vertices, if the samples were made with them.
     before : mapping, optional
-        The same parameters on the mesh before, and `pool_ratio`, by name. Needed for samples that
-        were read from a file, if they were made with any.
+        The same parameters on the mesh before, by name. Needed for samples that were read from a file,
+        if they were made with any. `pool_ratio` may be there too; files tell it.
     attributes, texture, normals, frames
         As for :func:`sample`. By default what the samples have. Where only positions change,
         attributes and colours are those of the mesh before.
@@ -192,7 +192,10 @@ def update(
     }
     file = old.mesh._source if is_moved else mesh._source
     there = dataclasses.replace(
-        there, _job=dataclasses.replace(edited, source=file), _frame=frames_of_run[-1]
+        there,
+        _job=dataclasses.replace(edited, source=file),
+        _told=samples._told,
+        _frame=frames_of_run[-1],
     )
     there = recorded(there, mesh, record)
     if is_moved:
@@ -259,26 +262,33 @@ def _job_of(samples: Samples, before: Mapping[str, Any] | None) -> Job:
         raise e.invalid(
             f"samples made with {', '.join(others)} cannot be updated; sample the mesh again"
         )
-    if before is not None:
-        if not isinstance(before, Mapping):
-            raise TypeError(f"before is {before!r}, not a dict such as {{'pool_ratio': 10}}")
-        if unknown := [name for name in before if name not in FOLLOWED]:
-            raise TypeError(f"before has {unknown[0]!r}, none of {', '.join(FOLLOWED)}")
-        ratio = before.get("pool_ratio", 20)
-        check_pool(None, ratio)
-        if samples._job is not None or "pool_ratio" not in options:
-            made = (samples._job or Job()).pool_ratio
-            if ratio != made:
-                raise e.invalid(f"the samples were made with the pool_ratio {made}, not {ratio}")
-        elif "pool_ratio" not in before:
-            raise e.invalid("before needs the pool_ratio that the samples were made with")
-        return Job(**before)
-    if samples._job is None and options:
+    given = _parameters(before)
+    ratio = samples._told.get("pool_ratio")
+    job = samples._job or Job(pool_ratio=20 if ratio is None else float(ratio))
+    if given.get("pool_ratio", job.pool_ratio) != job.pool_ratio:
         raise e.invalid(
-            f"these samples were made with {', '.join(options)}, and do not know the values; give "
-            f"before={{{options[0]!r}: ...}}"
+            f"the samples were made with the pool_ratio {job.pool_ratio:g}, not {given['pool_ratio']}"
         )
-    return samples._job or Job()
+    known = {*given} if ratio is None else {*given, "pool_ratio"}
+    if samples._job is None and (unknown := [name for name in options if name not in known]):
+        raise e.invalid(
+            f"these samples were made with {', '.join(unknown)}, and do not know the values; give "
+            f"before={{{unknown[0]!r}: ...}}"
+        )
+    return dataclasses.replace(job, **given)
+
+
+def _parameters(before: Mapping[str, Any] | None) -> dict[str, Any]:
+    """Returns parameters of the run before, after a check of their names."""
+    if before is None:
+        return {}
+    if not isinstance(before, Mapping):
+        raise TypeError(f"before is {before!r}, not a dict such as {{'pool_ratio': 10}}")
+    if unknown := [name for name in before if name not in FOLLOWED]:
+        raise TypeError(f"before has {unknown[0]!r}, none of {', '.join(FOLLOWED)}")
+    if "pool_ratio" in before:
+        check_pool(None, before["pool_ratio"])
+    return dict(before)
 
 
 def _is_chosen(name: str, value: Any) -> bool:

@@ -26,6 +26,7 @@ from ._rules import check_fields
 from ._running import ProgressCallback
 from ._samples import Samples
 from ._values import check_exact, check_pool, choice, distance_of, flag, integer
+from ._writing import exact_text
 
 
 class Wanted:
@@ -160,6 +161,11 @@ class Wanted:
             "avoid": avoid is not None,
         }
         self._options = [name for name, is_chosen in chosen.items() if is_chosen]
+        self._told = {} if metric == "geodesic" else {"metric": metric}
+        if pool_ratio != 20:
+            self._told["pool_ratio"] = exact_text(pool_ratio)
+        if features is not None:
+            self._told["features"] = exact_text(degrees)
         self._job = Job(
             None,
             pool_ratio,
@@ -176,7 +182,14 @@ class Wanted:
         self, made: c.Handle, device: DeviceLike | None, progress: bool | ProgressCallback
     ) -> Samples:
         """Returns the samples that were made, in the order asked for."""
-        run_distance = report_of(made)["min_distance"]
+        report = report_of(made)
+        run_distance, told = report["min_distance"], dict(self._told)
+        if self._darts:
+            told["darts"] = str(report["candidates"])
+        if self._params.is_maximal:
+            told["maximal"] = "certified" if report["is_certified"] else "not certified"
+        if report["cut"]:
+            told["exact"] = str(report["samples"])
         samples = samples_of(
             made,
             self._seed,
@@ -185,6 +198,7 @@ class Wanted:
             distance_part=self._part,
             classes=self._classes,
             _job=dataclasses.replace(self._job, distance=run_distance),
+            _told=told,
             _frame=self._frame_at(run_distance),
         )
         samples.report["options"] = self._options

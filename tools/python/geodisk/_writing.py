@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from . import _errors as e
 from . import _library as c
 from ._attributes import columns_of_attributes, with_bytes
+from ._job import TOLD
 
 if TYPE_CHECKING:
     from ._samples import Samples
@@ -62,8 +63,6 @@ def header_of(samples: Samples) -> Header:
         header["digest"] = digest_of(samples.face_index, samples.barycentric)
         if not samples._is_whole() and SELECTION not in options:
             options.append(SELECTION)
-    if options:
-        header["options"] = " ".join(options)
     if samples._frame is not None:
         header["job_frame"] = samples._frame.digits
     if samples._record is not None and samples._record.normals != "face":
@@ -71,12 +70,24 @@ def header_of(samples: Samples) -> Header:
     if samples.level_distances is not None:
         header["order"] = "progressive"
         header["level_distances"] = " ".join(map(repr, samples.level_distances))
+        if samples.level is not None:
+            counts = np.bincount(samples.level, minlength=len(samples.level_distances))
+            header["level_samples"] = " ".join(map(str, np.cumsum(counts)))
     if samples.extents is not None:
         header["box"] = " x ".join(map(repr, samples.extents))
         header["sides"] = "periodic" if samples.periodic else "open"
     elif samples.points is not None and samples.points.shape[1] < 3:
         header["dimension"] = str(samples.points.shape[1])  # Since x y z are there in any case.
+    header.update(samples._told)
+    told = [TOLD[key] for key in header if key in TOLD]
+    if others := [name for name in options if name not in told]:
+        header["options"] = " ".join(others)
     return header
+
+
+def exact_text(number: float) -> str:
+    """Returns a number as the program writes it."""
+    return repr(float(number)).removesuffix(".0")
 
 
 def digest_of(faces: NDArray[np.uint32], weights: NDArray[np.float64]) -> str:

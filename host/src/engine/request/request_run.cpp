@@ -81,8 +81,6 @@ class SurfaceSteps {
     Result<RequestStep> on_faces(double distance, const Levels& levels, std::uint32_t level,
                                  std::span<const Sample> standing) const;
 
-    /// Fails if no room is left for samples on faces beside those on features.
-    Result<Done> check_stop_count(std::size_t settled) const;
     /// Adds what is known of the features, with the samples on them.
     void describe(RequestedSet& found, std::span<const SampleRange> on_features) const;
 
@@ -234,17 +232,6 @@ Result<Domain> SurfaceSteps::domain(const SampleParams& params) const {
     return frame ? Domain::surface(mesh_, params, *frame) : frame.error();
 }
 
-Result<Done> SurfaceSteps::check_stop_count(std::size_t settled) const {
-    const std::size_t existing = request_.params.existing.size();
-    const std::uint32_t stop_count = request_.params.stop_count;
-    if (request_.count == 0 && stop_count != 0 && settled > existing && settled >= stop_count) {
-        const std::size_t own = settled - existing;
-        return invalid("stop_count: " + std::to_string(own) + (own == 1 ? " sample" : " samples") +
-                       " on features count too, so ask for more than " + std::to_string(settled));
-    }
-    return Done{};
-}
-
 void SurfaceSteps::describe(RequestedSet& found, std::span<const SampleRange> on_features) const {
     if (!features_) {
         return;
@@ -369,12 +356,7 @@ Result<Done> RequestRun::Impl::begin_faces(std::uint32_t level) {
 Result<Done> RequestRun::Impl::take_features(SampleSet set) {
     const std::uint32_t level = step->level;
     add_seconds(seconds, set.report.seconds);
-    if (level == 0) {
-        if (const auto checked = surface->check_stop_count(set.samples.size()); !checked) {
-            step.reset();
-            return checked.error();
-        }
-    } else if (count == 0 && stop_count != 0) { // Levels before may have nearly as many.
+    if (count == 0 && stop_count != 0) {
         cut_to(set, 0, stop_count);
     }
     on_features.push_back({standing.size(), set.samples.size()});
