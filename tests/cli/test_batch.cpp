@@ -221,10 +221,10 @@ TEST_CASE("options of a line replace common ones that set the same thing in anot
         Arguments same;
     };
     const Case cases[] = {
-        {{"-n", "40", "--exact"}, "-d 0.4", {"-d", "0.4"}},
+        {{"-n", "20", "--exact"}, "-d 0.4", {"-d", "0.4"}},
         {{"-n", "40", "--exact"},
          "--method darts -d 0.4",
-         {"-n", "40", "--method", "darts", "-d", "0.4"}},
+         {"-n", "20", "--method", "darts", "-d", "0.4"}},
         {{"-d", "0.4", "--dense"}, "--pool-ratio 7", {"-d", "0.4", "--pool-ratio", "7"}},
         {{"-d", "0.4", "--pool-ratio", "7"}, "--dense", {"-d", "0.4", "--dense"}},
         {{"-d", "0.4", "--dense"}, "--maximal", {"-d", "0.4", "--maximal"}},
