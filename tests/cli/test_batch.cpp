@@ -222,7 +222,7 @@ TEST_CASE("options of a line replace common ones that set the same thing in anot
     };
     const Case cases[] = {
         {{"-n", "20", "--exact"}, "-d 0.4", {"-d", "0.4"}},
-        {{"-n", "40", "--exact"},
+        {{"-n", "20", "--exact"},
          "--method darts -d 0.4",
          {"-n", "20", "--method", "darts", "-d", "0.4"}},
         {{"-d", "0.4", "--dense"}, "--pool-ratio 7", {"-d", "0.4", "--pool-ratio", "7"}},
