@@ -9,7 +9,7 @@
 #include "browser/web_driver.hpp"
 #include "cli/command.hpp"
 #include "cli/png_image.hpp"
-#include "files/sample_file.hpp"
+#include "files/samples/sample_file.hpp"
 
 namespace geodisk::test {
 namespace {

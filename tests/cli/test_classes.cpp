@@ -12,8 +12,8 @@
 #include "cli/json_file.hpp"
 #include "cli/page_file.hpp"
 #include "cli/png_image.hpp"
-#include "files/output_file.hpp"
-#include "files/sample_file.hpp"
+#include "files/output/output_file.hpp"
+#include "files/samples/sample_file.hpp"
 
 namespace geodisk::test {
 namespace {

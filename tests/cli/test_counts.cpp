@@ -9,7 +9,7 @@
 
 #include "cli/command.hpp"
 #include "cli/json_file.hpp"
-#include "files/sample_file.hpp"
+#include "files/samples/sample_file.hpp"
 
 namespace geodisk::test {
 namespace {

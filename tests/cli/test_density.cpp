@@ -10,7 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/command.hpp"
-#include "files/sample_file.hpp"
+#include "files/samples/sample_file.hpp"
 #include "unit/png_bytes.hpp"
 
 namespace geodisk::test {

@@ -7,8 +7,8 @@
 
 #include "cli/command.hpp"
 #include "cli/json_file.hpp"
-#include "files/output_file.hpp"
-#include "files/sample_file.hpp"
+#include "files/output/output_file.hpp"
+#include "files/samples/sample_file.hpp"
 
 namespace geodisk::test {
 namespace {

@@ -9,8 +9,8 @@
 
 #include "cli/command.hpp"
 #include "cli/json_file.hpp"
-#include "files/output_file.hpp"
-#include "files/sample_file.hpp"
+#include "files/output/output_file.hpp"
+#include "files/samples/sample_file.hpp"
 #include "program/exact_text.hpp"
 
 namespace geodisk::test {

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "cli/command.hpp"
-#include "files/sample_file.hpp"
+#include "files/samples/sample_file.hpp"
 #include "unit/png_bytes.hpp"
 
 namespace geodisk::test {

@@ -13,7 +13,7 @@
 
 #include "cli/command.hpp"
 #include "cli/png_image.hpp"
-#include "files/sample_file.hpp"
+#include "files/samples/sample_file.hpp"
 
 namespace geodisk::test {
 namespace {

@@ -12,7 +12,7 @@
 
 #include "cli/command.hpp"
 #include "cli/page_file.hpp"
-#include "files/sample_file.hpp"
+#include "files/samples/sample_file.hpp"
 
 namespace geodisk::test {
 namespace {

@@ -10,7 +10,7 @@
 #include <geodisk/version.hpp>
 
 #include "cli/command.hpp"
-#include "files/sample_file.hpp"
+#include "files/samples/sample_file.hpp"
 
 namespace geodisk::test {
 namespace {

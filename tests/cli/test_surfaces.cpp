@@ -6,7 +6,7 @@
 #include <string>
 
 #include "cli/command.hpp"
-#include "files/sample_file.hpp"
+#include "files/samples/sample_file.hpp"
 
 namespace geodisk::test {
 namespace {

@@ -9,8 +9,8 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/command.hpp"
-#include "files/mesh_file.hpp"
-#include "files/sample_file.hpp"
+#include "files/meshes/mesh_file.hpp"
+#include "files/samples/sample_file.hpp"
 #include "support/data_file.hpp"
 #include "support/stand_in_meshes.hpp"
 

@@ -9,7 +9,7 @@
 #include "cli/command.hpp"
 #include "cli/json_file.hpp"
 #include "cli/page_file.hpp"
-#include "files/sample_file.hpp"
+#include "files/samples/sample_file.hpp"
 #include "program/exact_text.hpp"
 
 namespace geodisk::test {

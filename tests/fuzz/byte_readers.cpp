@@ -17,9 +17,9 @@
 #include <geodisk/radius_field.hpp>
 
 #include "files/byte_order.hpp"
-#include "files/job_frame_text.hpp"
-#include "files/line_log.hpp"
-#include "files/mesh_file.hpp"
+#include "files/meshes/mesh_file.hpp"
+#include "files/output/line_log.hpp"
+#include "files/samples/job_frame_text.hpp"
 #include "fuzz/reader.hpp"
 #include "geodisk/batch/batch_log.hpp"
 #include "geodisk/inputs/manifest.hpp"

@@ -8,7 +8,7 @@
 
 #include <doctest/doctest.h>
 
-#include "files/mesh_file.hpp"
+#include "files/meshes/mesh_file.hpp"
 #include "geometry/lift.hpp"
 #include "ref/dart_check.hpp"
 #include "ref/distance_check.hpp"

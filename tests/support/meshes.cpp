@@ -11,7 +11,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "files/mesh_file.hpp"
+#include "files/meshes/mesh_file.hpp"
 #include "kernels/pool.hpp"
 #include "shapes/builtin_shapes.hpp"
 #include "support/data_file.hpp"

@@ -13,7 +13,7 @@
 #include <exception>
 #include <vector>
 
-#include "files/mesh_file.hpp"
+#include "files/meshes/mesh_file.hpp"
 #include "support/meshes.hpp"
 #include "support/oracle_geodesic.hpp"
 

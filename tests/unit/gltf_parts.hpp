@@ -1,7 +1,7 @@
 // A small glTF file, in parts that tests change.
 #pragma once
 
-#include "files/mesh_file.hpp"
+#include "files/meshes/mesh_file.hpp"
 
 #include "test_files.hpp"
 

@@ -3,7 +3,7 @@
 
 #include <string_view>
 
-#include "files/mesh_file.hpp"
+#include "files/meshes/mesh_file.hpp"
 #include "test_files.hpp"
 
 namespace geodisk::tools {

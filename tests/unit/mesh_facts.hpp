@@ -1,7 +1,7 @@
 // Independent measurements of a triangle mesh, for checking readers and generators.
 #pragma once
 
-#include "files/mesh_file.hpp"
+#include "files/meshes/mesh_file.hpp"
 #include "geometry/vec.hpp"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-#include "files/block_writer.hpp"
-#include "files/checksum.hpp"
+#include "files/archives/checksum.hpp"
+#include "files/output/block_writer.hpp"
 #include "program/exact_text.hpp"
 #include "test_files.hpp"
 

@@ -1,5 +1,5 @@
 // Parts of a mesh that the disk of one point to avoid covers.
-#include "files/mesh_file.hpp"
+#include "files/meshes/mesh_file.hpp"
 #include "geometry/covered_parts.hpp"
 #include "test_files.hpp"
 

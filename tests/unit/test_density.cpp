@@ -1,9 +1,9 @@
 // Sources of radii that vary: images, texture coordinates, values of vertices and curvature; and
 // the radius of samples in files.
-#include "files/image.hpp"
-#include "files/mesh_file.hpp"
-#include "files/sample_file.hpp"
-#include "files/sidecar_files.hpp"
+#include "files/images/image.hpp"
+#include "files/meshes/mesh_file.hpp"
+#include "files/meshes/sidecar_files.hpp"
+#include "files/samples/sample_file.hpp"
 #include "geometry/mean_curvature.hpp"
 #include "jpeg_bytes.hpp"
 #include "png_bytes.hpp"

@@ -1,10 +1,10 @@
 // A mesh reads no file outside of its folder, whatever its format.
-#include "files/file_scope.hpp"
+#include "files/meshes/file_scope.hpp"
 
 #include <array>
 #include <string>
 
-#include "files/mesh_file.hpp"
+#include "files/meshes/mesh_file.hpp"
 
 #include "gltf_parts.hpp"
 #include "png_bytes.hpp"

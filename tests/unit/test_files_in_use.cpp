@@ -1,12 +1,12 @@
 // Files that a command reads are never written.
-#include "files/files_in_use.hpp"
+#include "files/output/files_in_use.hpp"
 
 #include <algorithm>
 #include <string>
 #include <vector>
 
 #include "files/file_identity.hpp"
-#include "files/named_files.hpp"
+#include "files/meshes/named_files.hpp"
 
 #include "test_files.hpp"
 

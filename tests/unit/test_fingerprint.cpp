@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "files/fingerprint.hpp"
+#include "files/samples/fingerprint.hpp"
 
 namespace geodisk::tools {
 namespace {

@@ -1,7 +1,7 @@
 // glTF files: what is read of them.
-#include "files/mesh_file.hpp"
-#include "files/part_columns.hpp"
-#include "files/sample_fields.hpp"
+#include "files/meshes/mesh_file.hpp"
+#include "files/meshes/part_columns.hpp"
+#include "files/samples/sample_fields.hpp"
 
 #include "gltf_parts.hpp"
 #include "mesh_facts.hpp"

@@ -1,5 +1,5 @@
 // Points and lines of glTF, as files to avoid have them.
-#include "files/line_file.hpp"
+#include "files/meshes/line_file.hpp"
 
 #include "gltf_parts.hpp"
 #include "test_files.hpp"

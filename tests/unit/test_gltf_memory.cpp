@@ -1,5 +1,5 @@
 // glTF files: the memory that reading them takes.
-#include "files/mesh_file.hpp"
+#include "files/meshes/mesh_file.hpp"
 
 #include "gltf_parts.hpp"
 #include "support/runtime_memory.hpp"

@@ -1,7 +1,7 @@
 // glTF files that are written, read back.
-#include "files/mesh_file.hpp"
-#include "files/output_file.hpp"
-#include "files/sample_fields.hpp"
+#include "files/meshes/mesh_file.hpp"
+#include "files/output/output_file.hpp"
+#include "files/samples/sample_fields.hpp"
 
 #include "test_files.hpp"
 

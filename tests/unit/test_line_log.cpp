@@ -1,4 +1,4 @@
-#include "files/line_log.hpp"
+#include "files/output/line_log.hpp"
 
 #include "test_files.hpp"
 

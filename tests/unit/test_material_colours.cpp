@@ -1,7 +1,7 @@
 // Colours of samples by the materials of glTF and OBJ files.
-#include "files/mesh_file.hpp"
-#include "files/sample_fields.hpp"
-#include "files/textures.hpp"
+#include "files/images/textures.hpp"
+#include "files/meshes/mesh_file.hpp"
+#include "files/samples/sample_fields.hpp"
 
 #include "jpeg_bytes.hpp"
 #include "png_bytes.hpp"

@@ -1,5 +1,5 @@
 // The odd and broken files, and the real meshes where they are.
-#include "files/mesh_file.hpp"
+#include "files/meshes/mesh_file.hpp"
 #include "geometry/surface_warnings.hpp"
 #include "program/exact_text.hpp"
 

@@ -1,9 +1,9 @@
 // Attributes of mesh files, from the readers to samples.
-#include "files/mesh_fields.hpp"
-#include "files/mesh_file.hpp"
-#include "files/output_file.hpp"
-#include "files/sample_fields.hpp"
-#include "files/textures.hpp"
+#include "files/images/textures.hpp"
+#include "files/meshes/mesh_fields.hpp"
+#include "files/meshes/mesh_file.hpp"
+#include "files/output/output_file.hpp"
+#include "files/samples/sample_fields.hpp"
 #include "geometry/frames.hpp"
 
 #include "png_bytes.hpp"

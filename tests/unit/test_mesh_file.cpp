@@ -1,4 +1,4 @@
-#include "files/mesh_file.hpp"
+#include "files/meshes/mesh_file.hpp"
 
 #include "mesh_bytes.hpp"
 #include "mesh_facts.hpp"

@@ -1,5 +1,5 @@
 // Particulars of each format of mesh files.
-#include "files/mesh_file.hpp"
+#include "files/meshes/mesh_file.hpp"
 
 #include "mesh_bytes.hpp"
 #include "mesh_facts.hpp"

@@ -1,5 +1,5 @@
 // Warnings about meshes whose faces hang together in odd ways.
-#include "files/mesh_file.hpp"
+#include "files/meshes/mesh_file.hpp"
 #include "geometry/surface_warnings.hpp"
 #include "test_files.hpp"
 

@@ -1,9 +1,9 @@
 // Samples and points in files of numpy.
-#include "files/sample_file.hpp"
+#include "files/samples/sample_file.hpp"
 
+#include "files/archives/zip_writer.hpp"
 #include "files/byte_order.hpp"
-#include "files/output_file.hpp"
-#include "files/zip_writer.hpp"
+#include "files/output/output_file.hpp"
 #include "support/data_file.hpp"
 #include "test_files.hpp"
 

@@ -1,5 +1,5 @@
 // OBJ files against tinyobjloader, where that reads all they hold.
-#include "files/mesh_file.hpp"
+#include "files/meshes/mesh_file.hpp"
 #include "program/failure.hpp"
 
 #include "mesh_bytes.hpp"

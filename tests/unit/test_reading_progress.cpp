@@ -1,5 +1,5 @@
 // Readers of large files tell how far they are, and end when asked to.
-#include "files/mesh_file.hpp"
+#include "files/meshes/mesh_file.hpp"
 
 #include "test_files.hpp"
 

@@ -6,7 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "files/sample_file.hpp"
+#include "files/samples/sample_file.hpp"
 #include "program/command_text.hpp"
 #include "program/human_text.hpp"
 #include "program/json_text.hpp"

@@ -1,8 +1,8 @@
-#include "files/sample_file.hpp"
+#include "files/samples/sample_file.hpp"
 
-#include "files/line_file.hpp"
-#include "files/mesh_file.hpp"
-#include "files/output_file.hpp"
+#include "files/meshes/line_file.hpp"
+#include "files/meshes/mesh_file.hpp"
+#include "files/output/output_file.hpp"
 #include "test_files.hpp"
 
 #include <cmath>

@@ -1,7 +1,7 @@
 // Sample files that geodisk writes for others, read back by means of their own.
-#include "files/sample_file.hpp"
+#include "files/samples/sample_file.hpp"
 
-#include "files/output_file.hpp"
+#include "files/output/output_file.hpp"
 #include "test_files.hpp"
 
 #ifdef GEODISK_GLTF

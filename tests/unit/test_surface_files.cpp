@@ -1,6 +1,6 @@
 // Meshes with more than three coordinates, sidecar files, lifts, and samples of such meshes.
-#include "files/mesh_file.hpp"
-#include "files/sample_file.hpp"
+#include "files/meshes/mesh_file.hpp"
+#include "files/samples/sample_file.hpp"
 #include "geometry/lift.hpp"
 #include "test_files.hpp"
 

@@ -1,5 +1,5 @@
 // Meshes read with vertices that lie in one place joined.
-#include "files/mesh_file.hpp"
+#include "files/meshes/mesh_file.hpp"
 #include "geometry/surface_warnings.hpp"
 #include "geometry/weld_mesh.hpp"
 #include "program/arguments.hpp"

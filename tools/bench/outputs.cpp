@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "bench/report.hpp"
-#include "files/files_in_use.hpp"
-#include "files/output_file.hpp"
+#include "files/output/files_in_use.hpp"
+#include "files/output/output_file.hpp"
 #include "program/failure.hpp"
 
 namespace geodisk::bench {

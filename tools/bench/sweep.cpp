@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "bench/subdivision.hpp"
-#include "files/mesh_file.hpp"
+#include "files/meshes/mesh_file.hpp"
 
 namespace geodisk::bench {
 namespace {

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "files/reading_progress.hpp"
+#include "files/meshes/reading_progress.hpp"
 #include "geometry/mesh_warning.hpp"
 #include "program/path.hpp"
 

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <utility>
 
-#include "files/reading_progress.hpp"
+#include "files/meshes/reading_progress.hpp"
 
 namespace geodisk::tools {
 

@@ -9,7 +9,7 @@
 #include <geodisk/detail/cache_folder.hpp>
 #include <geodisk/version.hpp>
 
-#include "files/output_file.hpp"
+#include "files/output/output_file.hpp"
 #include "files/text_file.hpp"
 #include "program/exact_text.hpp"
 #include "program/failure.hpp"

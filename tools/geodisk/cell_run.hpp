@@ -7,8 +7,8 @@
 
 #include <geodisk/cells.hpp>
 
-#include "files/dual_file.hpp"
-#include "files/sample_file.hpp"
+#include "files/samples/dual_file.hpp"
+#include "files/samples/sample_file.hpp"
 #include "geodisk/device_run.hpp"
 #include "geodisk/inputs/mesh_input.hpp"
 #include "geodisk/outputs/progress.hpp"

@@ -4,7 +4,7 @@
 #include <string>
 #include <utility>
 
-#include "files/sample_columns.hpp"
+#include "files/samples/sample_columns.hpp"
 #include "geodisk/opened_device.hpp"
 #include "geodisk/search_progress.hpp"
 #include "program/failure.hpp"

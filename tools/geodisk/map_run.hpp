@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "files/map_file.hpp"
-#include "files/sample_file.hpp"
+#include "files/samples/map_file.hpp"
+#include "files/samples/sample_file.hpp"
 #include "geodisk/device_run.hpp"
 #include "geodisk/inputs/mesh_input.hpp"
 #include "geodisk/opened_device.hpp"

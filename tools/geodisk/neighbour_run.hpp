@@ -8,7 +8,7 @@
 
 #include <geodisk/neighbours.hpp>
 
-#include "files/neighbour_file.hpp"
+#include "files/samples/neighbour_file.hpp"
 #include "geodisk/device_run.hpp"
 #include "geodisk/inputs/mesh_input.hpp"
 #include "geodisk/outputs/progress.hpp"

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <string>
 
-#include "files/sample_fields.hpp"
-#include "files/sample_records.hpp"
+#include "files/samples/sample_fields.hpp"
+#include "files/samples/sample_records.hpp"
 #include "program/failure.hpp"
 
 namespace geodisk::tools {

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "files/sample_file.hpp"
+#include "files/samples/sample_file.hpp"
 #include "geodisk/inputs/mesh_input.hpp"
 #include "geodisk/options/run_options.hpp"
 

@@ -8,9 +8,9 @@
 
 #include <geodisk/request.hpp>
 
-#include "files/block_writer.hpp"
-#include "files/part_columns.hpp"
-#include "files/sample_columns.hpp"
+#include "files/meshes/part_columns.hpp"
+#include "files/output/block_writer.hpp"
+#include "files/samples/sample_columns.hpp"
 #include "geodisk/checks/run_warnings.hpp"
 #include "geodisk/checks/spacing.hpp"
 #include "geodisk/inputs/existing_input.hpp"

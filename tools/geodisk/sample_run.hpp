@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "files/output_file.hpp"
+#include "files/output/output_file.hpp"
 #include "geodisk/device_run.hpp"
 #include "geodisk/dry_run.hpp"
 #include "geodisk/inputs/mesh_input.hpp"

@@ -12,8 +12,8 @@
 #include <geodisk/fields.hpp>
 #include <geodisk/update.hpp>
 
-#include "files/job_frame_text.hpp"
-#include "files/sample_columns.hpp"
+#include "files/samples/job_frame_text.hpp"
+#include "files/samples/sample_columns.hpp"
 #include "geodisk/checks/sample_checks.hpp"
 #include "geodisk/checks/sample_input.hpp"
 #include "geodisk/outputs/outputs.hpp"

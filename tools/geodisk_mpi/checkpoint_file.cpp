@@ -12,7 +12,7 @@
 #include <geodisk/version.hpp>
 
 #include "files/input_file.hpp"
-#include "files/output_file.hpp"
+#include "files/output/output_file.hpp"
 #include "parts/part_bytes.hpp"
 #include "program/failure.hpp"
 #include "support/checksums.hpp"

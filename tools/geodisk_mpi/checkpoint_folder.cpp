@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <iostream>
 
-#include "files/output_file.hpp"
+#include "files/output/output_file.hpp"
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
 

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "files/ply_fields.hpp"
+#include "files/meshes/ply_fields.hpp"
 #include "files/ply_file.hpp"
 #include "parts/ranges/talk.hpp"
 #include "program/failure.hpp"

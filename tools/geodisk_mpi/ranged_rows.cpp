@@ -7,8 +7,8 @@
 #include <system_error>
 #include <utility>
 
-#include "files/block_writer.hpp"
-#include "files/fingerprint.hpp"
+#include "files/output/block_writer.hpp"
+#include "files/samples/fingerprint.hpp"
 #include "geodisk/inputs/mesh_input.hpp"
 #include "parts/ranges/talk.hpp"
 #include "shared_file.hpp"

@@ -9,7 +9,7 @@
 #include <geodisk/sample.hpp>
 #include <geodisk/status.hpp>
 
-#include "files/row_format.hpp"
+#include "files/samples/row_format.hpp"
 #include "parts/exchange.hpp"
 #include "ranged_parts.hpp"
 

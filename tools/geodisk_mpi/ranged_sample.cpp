@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "files/input_file.hpp"
-#include "files/row_format.hpp"
+#include "files/samples/row_format.hpp"
 #include "geodisk/checks/run_warnings.hpp"
 #include "geodisk/inputs/mesh_input.hpp"
 #include "geodisk/outputs/outputs.hpp"

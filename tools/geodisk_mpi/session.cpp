@@ -10,7 +10,7 @@
 #include <geodisk/version.hpp>
 
 #include "cut_surface.hpp"
-#include "files/output_target.hpp"
+#include "files/output/output_target.hpp"
 #include "geodisk/sample_run.hpp"
 #include "mesh/mesh_digest.hpp"
 #include "parts/sample_parts.hpp"

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string_view>
 
-#include "files/sidecar_files.hpp"
+#include "files/meshes/sidecar_files.hpp"
 #include "geometry/vec.hpp"
 #include "geometry/vertex_normals.hpp"
 #include "geometry/weld_mesh.hpp"

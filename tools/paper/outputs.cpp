@@ -8,7 +8,7 @@
 
 #include <geodisk/version.hpp>
 
-#include "files/output_file.hpp"
+#include "files/output/output_file.hpp"
 #include "paper/commit.hpp"
 #include "picture/png.hpp"
 #include "program/failure.hpp"

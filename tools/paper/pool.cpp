@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "baselines/random.hpp"
-#include "files/mesh_file.hpp"
+#include "files/meshes/mesh_file.hpp"
 #include "kernels/pool.hpp"
 #include "lib/frame.hpp"
 #include "program/failure.hpp"

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "files/block_writer.hpp"
+#include "files/output/block_writer.hpp"
 #include "picture/srgb.hpp"
 
 namespace geodisk::tools::picture {

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <span>
 
-#include "files/map_file.hpp"
+#include "files/samples/map_file.hpp"
 #include "picture/picture.hpp"
 
 namespace geodisk::tools::picture {

@@ -1,7 +1,7 @@
 // PNG files.
 #pragma once
 
-#include "files/output_file.hpp"
+#include "files/output/output_file.hpp"
 #include "picture/picture.hpp"
 
 namespace geodisk::tools::picture {

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "files/srgb_encoding.hpp"
+#include "files/images/srgb_encoding.hpp"
 
 namespace geodisk::tools::picture {
 

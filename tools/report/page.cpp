@@ -2,7 +2,7 @@
 
 #include <stdexcept>
 
-#include "files/output_file.hpp"
+#include "files/output/output_file.hpp"
 #include "program/exact_text.hpp"
 #include "program/failure.hpp"
 #include "program/interrupt.hpp"

@@ -10,10 +10,10 @@
 #include <utility>
 
 #include "files/file_identity.hpp"
-#include "files/files_in_use.hpp"
 #include "files/input_file.hpp"
-#include "files/mesh_file.hpp"
-#include "files/sample_target.hpp"
+#include "files/meshes/mesh_file.hpp"
+#include "files/output/files_in_use.hpp"
+#include "files/samples/sample_target.hpp"
 #include "geodisk/inputs/manifest.hpp"
 #include "geodisk/inputs/mesh_folder.hpp"
 #include "geodisk/options/sample_command.hpp"

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "files/line_log.hpp"
+#include "files/output/line_log.hpp"
 
 namespace geodisk::tools {
 

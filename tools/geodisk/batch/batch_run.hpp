@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <span>
 
-#include "files/line_log.hpp"
+#include "files/output/line_log.hpp"
 #include "geodisk/batch/batch_items.hpp"
 #include "geodisk/batch/device_pool.hpp"
 #include "geodisk/outputs/progress.hpp"

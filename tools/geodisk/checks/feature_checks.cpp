@@ -6,7 +6,7 @@
 
 #include <geodisk/features.hpp>
 
-#include "files/sample_columns.hpp"
+#include "files/samples/sample_columns.hpp"
 #include "program/exact_text.hpp"
 #include "program/failure.hpp"
 #include "program/human_text.hpp"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "files/sample_file.hpp"
+#include "files/samples/sample_file.hpp"
 #include "geodisk/inputs/mesh_input.hpp"
 
 namespace geodisk::tools {

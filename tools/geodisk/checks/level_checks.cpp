@@ -6,7 +6,7 @@
 #include <optional>
 #include <string_view>
 
-#include "files/sample_columns.hpp"
+#include "files/samples/sample_columns.hpp"
 #include "geodisk/reports/json.hpp"
 #include "program/exact_text.hpp"
 #include "program/failure.hpp"

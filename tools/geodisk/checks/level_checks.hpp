@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "files/sample_file.hpp"
+#include "files/samples/sample_file.hpp"
 #include "geodisk/checks/near_pairs.hpp"
 #include "geodisk/checks/spacing.hpp"
 #include "geodisk/inputs/mesh_input.hpp"

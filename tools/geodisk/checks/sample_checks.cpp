@@ -8,8 +8,8 @@
 
 #include <geodisk/version.hpp>
 
-#include "files/fingerprint.hpp"
-#include "files/sample_columns.hpp"
+#include "files/samples/fingerprint.hpp"
+#include "files/samples/sample_columns.hpp"
 #include "geodisk/checks/run_warnings.hpp"
 #include "geodisk/checks/sample_classes.hpp"
 #include "geodisk/checks/spacing.hpp"

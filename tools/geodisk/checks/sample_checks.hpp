@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "files/sample_file.hpp"
+#include "files/samples/sample_file.hpp"
 #include "geodisk/inputs/mesh_input.hpp"
 #include "geodisk/options/class_options.hpp"
 #include "geodisk/outputs/progress.hpp"

@@ -2,7 +2,7 @@
 
 #include <cstddef>
 
-#include "files/sample_columns.hpp"
+#include "files/samples/sample_columns.hpp"
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
 

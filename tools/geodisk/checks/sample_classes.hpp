@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "files/sample_file.hpp"
+#include "files/samples/sample_file.hpp"
 #include "geodisk/options/class_options.hpp"
 
 namespace geodisk::tools {

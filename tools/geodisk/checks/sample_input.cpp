@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "files/line_file.hpp"
-#include "files/sample_columns.hpp"
+#include "files/meshes/line_file.hpp"
+#include "files/samples/sample_columns.hpp"
 #include "geodisk/options/tolerance_option.hpp"
 #include "geodisk/outputs/outputs.hpp"
 #include "geometry/nearest_face.hpp"

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "files/sample_file.hpp"
+#include "files/samples/sample_file.hpp"
 #include "geodisk/checks/sample_checks.hpp"
 #include "geodisk/inputs/mesh_input.hpp"
 #include "geodisk/outputs/progress.hpp"

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "files/sample_columns.hpp"
+#include "files/samples/sample_columns.hpp"
 #include "geodisk/checks/sample_checks.hpp"
 #include "geodisk/checks/sample_classes.hpp"
 #include "program/arguments.hpp"

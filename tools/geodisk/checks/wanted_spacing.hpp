@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "files/sample_file.hpp"
+#include "files/samples/sample_file.hpp"
 #include "geodisk/inputs/mesh_input.hpp"
 #include "geodisk/options/class_options.hpp"
 #include "geodisk/options/verify_options.hpp"

@@ -8,7 +8,7 @@
 
 #include "analysis/evenness.hpp"
 #include "analysis/surface_statistics.hpp"
-#include "files/sample_file.hpp"
+#include "files/samples/sample_file.hpp"
 #include "geodisk/checks/sample_checks.hpp"
 #include "geodisk/checks/sample_input.hpp"
 #include "geodisk/commands/commands.hpp"

@@ -3,7 +3,7 @@
 #include <string_view>
 #include <vector>
 
-#include "files/map_file.hpp"
+#include "files/samples/map_file.hpp"
 #include "geodisk/checks/run_warnings.hpp"
 #include "geodisk/checks/sample_input.hpp"
 #include "geodisk/commands/commands.hpp"

@@ -5,7 +5,7 @@
 
 #include <geodisk/version.hpp>
 
-#include "files/output_file.hpp"
+#include "files/output/output_file.hpp"
 #include "geodisk/commands/commands.hpp"
 
 namespace geodisk::tools {

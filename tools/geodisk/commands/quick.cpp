@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "files/mesh_file.hpp"
+#include "files/meshes/mesh_file.hpp"
 #include "geodisk/commands/commands.hpp"
 #include "geodisk/commands/help_text.hpp"
 #include "geodisk/options/sample_options.hpp"

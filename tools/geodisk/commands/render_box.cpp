@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "files/input_file.hpp"
-#include "files/sample_file.hpp"
+#include "files/samples/sample_file.hpp"
 #include "geodisk/commands/commands.hpp"
 #include "geodisk/inputs/box_input.hpp"
 #include "geodisk/options/box_options.hpp"

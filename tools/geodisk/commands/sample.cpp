@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "files/mesh_file.hpp"
+#include "files/meshes/mesh_file.hpp"
 #include "geodisk/checks/run_warnings.hpp"
 #include "geodisk/checks/sample_checks.hpp"
 #include "geodisk/commands/commands.hpp"

@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "files/mesh_file.hpp"
+#include "files/meshes/mesh_file.hpp"
 #include "geodisk/commands/commands.hpp"
 #include "geodisk/commands/help_text.hpp"
 #include "program/command.hpp"

@@ -12,7 +12,7 @@
 #include "analysis/surface_spectrum.hpp"
 #include "files/input_file.hpp"
 #include "files/ply_file.hpp"
-#include "files/sample_file.hpp"
+#include "files/samples/sample_file.hpp"
 #include "geodisk/checks/sample_checks.hpp"
 #include "geodisk/checks/sample_input.hpp"
 #include "geodisk/commands/commands.hpp"

@@ -8,7 +8,7 @@
 
 #include "analysis/power_spectrum.hpp"
 #include "files/input_file.hpp"
-#include "files/sample_file.hpp"
+#include "files/samples/sample_file.hpp"
 #include "geodisk/checks/sample_checks.hpp"
 #include "geodisk/commands/commands.hpp"
 #include "geodisk/inputs/box_input.hpp"

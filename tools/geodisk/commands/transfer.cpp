@@ -8,10 +8,10 @@
 
 #include <geodisk/version.hpp>
 
-#include "files/fingerprint.hpp"
-#include "files/output_file.hpp"
-#include "files/sample_columns.hpp"
-#include "files/sample_file.hpp"
+#include "files/output/output_file.hpp"
+#include "files/samples/fingerprint.hpp"
+#include "files/samples/sample_columns.hpp"
+#include "files/samples/sample_file.hpp"
 #include "geodisk/checks/sample_checks.hpp"
 #include "geodisk/checks/sample_input.hpp"
 #include "geodisk/checks/spacing.hpp"

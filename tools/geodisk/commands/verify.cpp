@@ -4,8 +4,8 @@
 #include <utility>
 #include <vector>
 
-#include "files/sample_columns.hpp"
-#include "files/sample_file.hpp"
+#include "files/samples/sample_columns.hpp"
+#include "files/samples/sample_file.hpp"
 #include "geodisk/checks/feature_checks.hpp"
 #include "geodisk/checks/gaps.hpp"
 #include "geodisk/checks/intrusions.hpp"

@@ -4,7 +4,7 @@
 #include <geodisk/box.hpp>
 #include <geodisk/version.hpp>
 
-#include "files/sample_file.hpp"
+#include "files/samples/sample_file.hpp"
 #include "geodisk/checks/spacing.hpp"
 #include "geodisk/commands/commands.hpp"
 #include "geodisk/inputs/box_input.hpp"

@@ -9,7 +9,7 @@
 
 #include <geodisk/domain.hpp>
 
-#include "files/fingerprint.hpp"
+#include "files/samples/fingerprint.hpp"
 #include "files/text_file.hpp"
 #include "geodisk/box_run.hpp"
 #include "geodisk/inputs/mesh_input.hpp"

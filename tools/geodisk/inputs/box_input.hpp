@@ -5,7 +5,7 @@
 
 #include <geodisk/box.hpp>
 
-#include "files/sample_file.hpp"
+#include "files/samples/sample_file.hpp"
 
 namespace geodisk::tools {
 

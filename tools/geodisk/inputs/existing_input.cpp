@@ -4,7 +4,7 @@
 #include <string>
 #include <utility>
 
-#include "files/sample_columns.hpp"
+#include "files/samples/sample_columns.hpp"
 #include "geodisk/checks/sample_input.hpp"
 #include "geometry/covered_parts.hpp"
 #include "program/exact_text.hpp"

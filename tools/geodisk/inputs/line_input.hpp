@@ -7,7 +7,7 @@
 
 #include <geodisk/sample.hpp>
 
-#include "files/sample_file.hpp"
+#include "files/samples/sample_file.hpp"
 #include "geodisk/inputs/mesh_input.hpp"
 #include "geodisk/options/constraint_options.hpp"
 

@@ -5,7 +5,7 @@
 #include <optional>
 #include <set>
 
-#include "files/image.hpp"
+#include "files/images/image.hpp"
 #include "geodisk/inputs/radii_input.hpp"
 #include "geometry/mesh_parts.hpp"
 #include "program/exact_text.hpp"

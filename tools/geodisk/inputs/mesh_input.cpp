@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "files/mesh_file.hpp"
+#include "files/meshes/mesh_file.hpp"
 #include "geodisk/inputs/mask_input.hpp"
 #include "geodisk/inputs/radii_input.hpp"
 #include "geodisk/outputs/outputs.hpp"

@@ -13,8 +13,8 @@
 #include <geodisk/radius_field.hpp>
 #include <geodisk/sample.hpp>
 
-#include "files/sample_file.hpp"
-#include "files/textures.hpp"
+#include "files/images/textures.hpp"
+#include "files/samples/sample_file.hpp"
 #include "geodisk/inputs/split_faces.hpp"
 #include "geodisk/options/density_options.hpp"
 #include "geodisk/options/mask_options.hpp"

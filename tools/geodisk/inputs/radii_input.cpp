@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "files/image.hpp"
-#include "files/sidecar_files.hpp"
+#include "files/images/image.hpp"
+#include "files/meshes/sidecar_files.hpp"
 #include "geometry/mean_curvature.hpp"
 #include "geometry/weld_mesh.hpp"
 #include "program/failure.hpp"

@@ -9,7 +9,7 @@
 #include <geodisk/mesh.hpp>
 #include <geodisk/radius_field.hpp>
 
-#include "files/image.hpp"
+#include "files/images/image.hpp"
 #include "geodisk/inputs/split_faces.hpp"
 #include "geodisk/options/density_options.hpp"
 #include "geometry/mesh.hpp"

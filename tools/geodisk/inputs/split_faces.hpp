@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "files/image.hpp"
+#include "files/images/image.hpp"
 #include "geometry/bisected_mesh.hpp"
 #include "geometry/mesh.hpp"
 

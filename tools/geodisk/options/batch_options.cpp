@@ -3,8 +3,8 @@
 #include <optional>
 #include <utility>
 
-#include "files/mesh_file.hpp"
-#include "files/sample_target.hpp"
+#include "files/meshes/mesh_file.hpp"
+#include "files/samples/sample_target.hpp"
 #include "program/command.hpp"
 #include "program/exact_text.hpp"
 #include "program/failure.hpp"

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "files/files_in_use.hpp"
+#include "files/output/files_in_use.hpp"
 #include "geodisk/options/option_use.hpp"
 #include "geometry/surface_disk.hpp"
 

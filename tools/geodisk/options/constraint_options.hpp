@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "files/files_in_use.hpp"
-#include "files/sample_file.hpp"
+#include "files/output/files_in_use.hpp"
+#include "files/samples/sample_file.hpp"
 #include "geodisk/options/option_use.hpp"
 #include "program/arguments.hpp"
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "files/sample_file.hpp"
+#include "files/samples/sample_file.hpp"
 #include "geodisk/options/option_use.hpp"
 #include "geodisk/options/run_options.hpp"
 #include "geometry/mesh.hpp"

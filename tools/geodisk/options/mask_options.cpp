@@ -7,7 +7,7 @@
 #include <string_view>
 #include <utility>
 
-#include "files/sample_columns.hpp"
+#include "files/samples/sample_columns.hpp"
 #include "program/arguments.hpp"
 #include "program/command.hpp"
 #include "program/exact_text.hpp"

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "files/mesh_file.hpp"
+#include "files/meshes/mesh_file.hpp"
 #include "program/command.hpp"
 #include "program/failure.hpp"
 #include "shapes/builtin_shapes.hpp"

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "files/mesh_fields.hpp"
-#include "files/sample_file.hpp"
+#include "files/meshes/mesh_fields.hpp"
+#include "files/samples/sample_file.hpp"
 #include "geodisk/options/run_options.hpp"
 #include "geometry/lift.hpp"
 #include "program/arguments.hpp"

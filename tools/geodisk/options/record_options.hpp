@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <string>
 
-#include "files/mesh_fields.hpp"
-#include "files/sample_file.hpp"
-#include "files/sample_target.hpp"
+#include "files/meshes/mesh_fields.hpp"
+#include "files/samples/sample_file.hpp"
+#include "files/samples/sample_target.hpp"
 
 namespace geodisk::tools {
 

@@ -1,6 +1,6 @@
 #include "geodisk/options/run_options.hpp"
 
-#include "files/sample_target.hpp"
+#include "files/samples/sample_target.hpp"
 #include "program/arguments.hpp"
 #include "program/command.hpp"
 #include "program/failure.hpp"

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "files/files_in_use.hpp"
-#include "files/sample_target.hpp"
+#include "files/output/files_in_use.hpp"
+#include "files/samples/sample_target.hpp"
 #include "files/stream_path.hpp"
 #include "geodisk/options/record_options.hpp"
 

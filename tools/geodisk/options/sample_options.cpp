@@ -3,7 +3,7 @@
 #include <utility>
 #include <vector>
 
-#include "files/part_columns.hpp"
+#include "files/meshes/part_columns.hpp"
 #include "program/command.hpp"
 #include "program/failure.hpp"
 #include "program/suggestion.hpp"

@@ -8,8 +8,8 @@
 #include <string_view>
 #include <vector>
 
-#include "files/output_file.hpp"
-#include "files/sample_file.hpp"
+#include "files/output/output_file.hpp"
+#include "files/samples/sample_file.hpp"
 #include "geodisk/options/run_options.hpp"
 #include "geodisk/outputs/progress.hpp"
 #include "program/stopwatch.hpp"

@@ -7,7 +7,7 @@
 
 #include <geodisk/version.hpp>
 
-#include "files/sample_columns.hpp"
+#include "files/samples/sample_columns.hpp"
 #include "geodisk/reports/json.hpp"
 #include "geodisk/reports/run_report.hpp"
 #include "program/exact_text.hpp"

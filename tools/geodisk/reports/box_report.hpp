@@ -6,7 +6,7 @@
 
 #include <geodisk/box.hpp>
 
-#include "files/sample_file.hpp"
+#include "files/samples/sample_file.hpp"
 #include "geodisk/device_run.hpp"
 #include "geodisk/dry_run.hpp"
 #include "geodisk/options/box_options.hpp"

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-#include "files/sample_file.hpp"
+#include "files/samples/sample_file.hpp"
 #include "geodisk/inputs/mesh_input.hpp"
 #include "geodisk/reports/json_type.hpp"
 

@@ -3,7 +3,7 @@
 
 #include <geodisk/params.hpp>
 
-#include "files/sample_file.hpp"
+#include "files/samples/sample_file.hpp"
 #include "geodisk/reports/json.hpp"
 
 namespace geodisk::tools {

@@ -6,10 +6,10 @@
 
 #include <geodisk/version.hpp>
 
-#include "files/fingerprint.hpp"
-#include "files/job_frame_text.hpp"
-#include "files/part_columns.hpp"
-#include "files/sample_columns.hpp"
+#include "files/meshes/part_columns.hpp"
+#include "files/samples/fingerprint.hpp"
+#include "files/samples/job_frame_text.hpp"
+#include "files/samples/sample_columns.hpp"
 #include "geodisk/reports/farthest_report.hpp"
 #include "geodisk/reports/json.hpp"
 #include "geodisk/reports/mesh_report.hpp"

@@ -9,7 +9,7 @@
 #include <geodisk/job_frame.hpp>
 #include <geodisk/levels.hpp>
 
-#include "files/sample_file.hpp"
+#include "files/samples/sample_file.hpp"
 #include "geodisk/checks/spacing.hpp"
 #include "geodisk/device_run.hpp"
 #include "geodisk/dry_run.hpp"

@@ -7,7 +7,7 @@
 #include <geodisk/params.hpp>
 #include <geodisk/version.hpp>
 
-#include "files/sample_columns.hpp"
+#include "files/samples/sample_columns.hpp"
 #include "geodisk/reports/json.hpp"
 #include "geodisk/reports/mesh_report.hpp"
 #include "program/human_text.hpp"

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "files/sample_file.hpp"
+#include "files/samples/sample_file.hpp"
 #include "geodisk/checks/gaps.hpp"
 #include "geodisk/checks/intrusions.hpp"
 #include "geodisk/checks/level_checks.hpp"

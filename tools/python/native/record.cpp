@@ -4,10 +4,10 @@
 #include <vector>
 
 #include "c/c_call.hpp"
-#include "files/mesh_fields.hpp"
-#include "files/sample_fields.hpp"
-#include "files/sample_records.hpp"
-#include "files/textures.hpp"
+#include "files/images/textures.hpp"
+#include "files/meshes/mesh_fields.hpp"
+#include "files/samples/sample_fields.hpp"
+#include "files/samples/sample_records.hpp"
 #include "program/failure.hpp"
 #include "source.hpp"
 

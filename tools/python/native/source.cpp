@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "c/c_call.hpp"
-#include "files/mesh_file.hpp"
-#include "files/part_columns.hpp"
-#include "files/polygon_mesh.hpp"
+#include "files/meshes/mesh_file.hpp"
+#include "files/meshes/part_columns.hpp"
+#include "files/meshes/polygon_mesh.hpp"
 #include "program/failure.hpp"
 
 using namespace geodisk;

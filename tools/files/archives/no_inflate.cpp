@@ -1,0 +1,13 @@
+// In place of the decompression, where geodisk is built without the libraries for images.
+#include "files/archives/inflate.hpp"
+#include "program/failure.hpp"
+
+namespace geodisk::tools {
+
+std::optional<std::string> inflated(const Path& path, std::string_view /*compressed*/,
+                                    std::size_t /*size*/) {
+    fail_input(path, "is compressed, and this geodisk was built without zlib; save it with "
+                     "numpy.savez instead of savez_compressed");
+}
+
+} // namespace geodisk::tools

@@ -1,0 +1,435 @@
+#include "files/meshes/mesh_fields.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <optional>
+#include <set>
+#include <span>
+#include <utility>
+
+#include "files/input_file.hpp"
+#include "files/meshes/material_fields.hpp"
+#include "files/meshes/part_columns.hpp"
+#include "files/meshes/polygon_mesh.hpp"
+#include "files/samples/sample_columns.hpp"
+#include "program/failure.hpp"
+#include "program/human_text.hpp"
+#include "program/suggestion.hpp"
+
+namespace geodisk::tools {
+namespace {
+
+using Of = MeshField::Of;
+
+constexpr std::string_view kAll = "all";
+
+/// Corners of the faces of a file, face after face.
+struct FaceCorners {
+    std::span<const std::uint32_t> vertices;
+    std::span<const std::size_t> ends; ///< Empty for triangles.
+
+    std::size_t face_of(std::size_t corner) const {
+        return ends.empty() ? corner / 3
+                            : static_cast<std::size_t>(std::ranges::upper_bound(ends, corner) -
+                                                       ends.begin());
+    }
+    std::pair<std::size_t, std::size_t> range_of(std::size_t face) const {
+        return ends.empty() ? std::pair{3 * face, 3 * face + 3}
+                            : std::pair{face == 0 ? 0 : ends[face - 1], ends[face]};
+    }
+};
+
+/// Puts a '_' for each character that some format does not allow in a name.
+std::string column_name(std::string name) {
+    std::ranges::replace_if(
+        name,
+        [](char c) {
+            const auto byte = static_cast<unsigned char>(c);
+            return byte >= 128 || (std::isalnum(byte) == 0 && c != '_' && c != '.' && c != '-');
+        },
+        '_');
+    return name;
+}
+
+/// The name that all formats tell apart, whatever the case and however glTF marks its own: USD has
+/// '_' for further characters.
+std::string bare_name(std::string name) {
+    name = lower_case(column_name(std::move(name)));
+    name.erase(0, std::min(name.find_first_not_of('_'), name.size()));
+    std::ranges::replace_if(
+        name, [](char c) { return c == '.' || c == '-'; }, '_');
+    return name;
+}
+
+std::set<std::string> names_taken() {
+    // Those of NPZ, glTF, PCD and USD, which differ from the columns below.
+    std::set<std::string> names{"points", "normals",      "barycentric",   "header",
+                                "frames", "position",     "min_distance",  "seed",
+                                "normal", "normal_x",     "normal_y",      "normal_z",
+                                "st",     "displaycolor", "displayopacity"};
+    names.insert(kSampleColumnNames.begin(), kSampleColumnNames.end());
+    names.insert(kNumberedColumnNames.begin(), kNumberedColumnNames.end());
+    names.insert(kFrameColumnNames.begin(), kFrameColumnNames.end());
+    for (const std::string_view name :
+         {kExistingColumn, kClassColumn, kLevelColumn, kFeatureColumn, kCoverColumn}) {
+        names.emplace(name);
+    }
+    for (const std::string& name : part_column_names()) {
+        names.insert(name);
+    }
+    return names;
+}
+
+/// The columns that samples have: of attributes no two may have one name.
+class Columns {
+  public:
+    /// Adds those of an attribute. Returns why it cannot have them; "" if it can.
+    std::string add(const MeshField& field) {
+        std::set<std::string> own{bare_name(field.name)};
+        for (const std::string& component : field.components) {
+            own.insert(bare_name(component));
+        }
+        for (const std::string& name : own) {
+            if (taken_.contains(name)) {
+                return "the attribute " + in_quotes(field.name) +
+                       " has the name of a column of samples";
+            }
+            if (of_attributes_.contains(name)) {
+                return "two attributes would have the column " + in_quotes(name);
+            }
+        }
+        of_attributes_.merge(own);
+        return "";
+    }
+
+  private:
+    std::set<std::string> taken_ = names_taken(), of_attributes_;
+};
+
+[[noreturn]] void fail_unknown(const Path& path, const std::string& name,
+                               const std::vector<MeshField>& fields) {
+    std::vector<std::string> names;
+    for (const MeshField& field : fields) {
+        names.push_back(field.name);
+    }
+    fail_input(path, "has no attribute " + in_quotes(name) +
+                         (names.empty() ? ", or any other, for --attributes"
+                                        : "; it has " + listed(names) + did_you_mean(name, names)));
+}
+
+/// Moves the values of attributes to those of the triangles that faces became.
+class FieldTaker {
+  public:
+    FieldTaker(const Path& path, const PolygonMesh& polygons, const MeshFile& mesh)
+        : path_(path), names_(polygons.names), mesh_(mesh) {
+        faces_ = mesh.polygons.empty() ? FaceCorners{mesh.triangles, {}}
+                                       : FaceCorners{polygons.corners, polygons.face_ends};
+    }
+
+    /// Returns where a corner first lacks a value; "" if none does.
+    std::string gap(const MeshField& field) const {
+        const auto found = std::ranges::find(field.corners, MeshField::kNone);
+        if (found == field.corners.end()) {
+            return "";
+        }
+        const auto corner = static_cast<std::size_t>(found - field.corners.begin());
+        return names_.of_face(faces_.face_of(corner)) + ": vertex " +
+               names_.vertex_number(faces_.vertices[corner]);
+    }
+
+    /// Corners may lack values if `may_have_gaps`.
+    void take(MeshField& field, bool may_have_gaps = false) const {
+        if (field.of == Of::corners && !mesh_.polygons.empty()) {
+            split_corners(field);
+        }
+        for (std::size_t t = 0; t < mesh_.triangle_count(); ++t) {
+            if (mesh_.takes_part(t)) {
+                check_triangle(field, t, may_have_gaps);
+            }
+        }
+    }
+
+  private:
+    std::size_t face_of(std::size_t triangle) const {
+        return mesh_.polygons.empty() ? triangle : mesh_.polygons[triangle];
+    }
+
+    /// From corners of polygons to those of triangles, which name the same vertices.
+    void split_corners(MeshField& field) const {
+        std::vector<std::uint32_t> corners;
+        corners.reserve(mesh_.triangles.size());
+        for (std::size_t i = 0; i < mesh_.triangles.size(); ++i) {
+            corners.push_back(corner_of(field, face_of(i / 3), mesh_.triangles[i]));
+        }
+        field.corners = std::move(corners);
+    }
+
+    std::uint32_t corner_of(const MeshField& field, std::size_t face, std::uint32_t vertex) const {
+        const auto [begin, end] = faces_.range_of(face);
+        std::uint32_t index = MeshField::kNone;
+        for (std::size_t i = begin; i < end; ++i) {
+            if (faces_.vertices[i] != vertex) {
+                continue;
+            }
+            if (index != MeshField::kNone && !are_equal(field, index, field.corners[i])) {
+                fail_input(path_, names_.of_face(face) + ": vertex " +
+                                      names_.vertex_number(vertex) + " has two values of " +
+                                      in_quotes(field.name) + " in it; split the face");
+            }
+            index = field.corners[i];
+        }
+        return index;
+    }
+
+    static bool are_equal(const MeshField& field, std::size_t a, std::size_t b) {
+        if (a == MeshField::kNone || b == MeshField::kNone) {
+            return a == b;
+        }
+        const std::size_t size = field.components.size();
+        return std::ranges::equal(std::span(field.values).subspan(a * size, size),
+                                  std::span(field.values).subspan(b * size, size));
+    }
+
+    void check_triangle(const MeshField& field, std::size_t t, bool may_have_gaps) const {
+        const std::size_t size = field.components.size();
+        for (std::size_t k = 3 * t; k < 3 * t + 3; ++k) {
+            const std::size_t index = field.of == Of::vertices  ? mesh_.triangles[k]
+                                      : field.of == Of::corners ? field.corners[k]
+                                                                : face_of(t);
+            if (may_have_gaps && index == MeshField::kNone) {
+                continue;
+            }
+            if ((index + 1) * size > field.values.size()) {
+                fail_input(path_, "has " + counted(field.values.size() / size, "value", "values") +
+                                      " of " + in_quotes(field.name) + ", but " +
+                                      names_.of_face(face_of(t)) + " names vertex " +
+                                      names_.vertex_number(mesh_.triangles[k]));
+            }
+            const auto values = std::span(field.values).subspan(index * size, size);
+            if (!std::ranges::all_of(values, [](double x) { return std::isfinite(x); })) {
+                fail_input(path_, (field.of == Of::vertices ? names_.of_vertex(index)
+                                                            : names_.of_face(face_of(t))) +
+                                      ": " + in_quotes(field.name) +
+                                      " is not finite; leave it out, or correct the file");
+            }
+        }
+    }
+
+    const Path& path_;
+    const ElementNames& names_;
+    const MeshFile& mesh_;
+    FaceCorners faces_;
+};
+
+/// Returns true if `wanted` is `name`, or "red" for colours, "u" for texture coordinates and so on.
+bool means(std::string_view wanted, std::string_view name) {
+    const std::vector<std::string> components = name == kColourField
+                                                    ? make_colours(Of::vertices, 4).components
+                                                : name == kUvField ? make_uvs().components
+                                                                   : std::vector<std::string>{};
+    return wanted == name || std::ranges::find(components, wanted) != components.end();
+}
+
+void check_known(const Path& path, const WantedFields& wanted,
+                 const std::vector<MeshField>& fields) {
+    for (const std::string& name : wanted.names) {
+        if (std::ranges::none_of(fields, [&](const MeshField& f) { return means(name, f.name); })) {
+            fail_unknown(path, name, fields);
+        }
+    }
+}
+
+/// Texture coordinates are where those of density images are.
+void move_uvs(PolygonMesh& polygons) {
+    for (MeshField& field : polygons.fields) {
+        if (field.name == kUvField && field.values.empty()) {
+            field.values = polygons.uvs;
+            field.corners = polygons.corner_uvs;
+        }
+    }
+}
+
+MeshField texture_uvs(const Path& path, const PolygonMesh& polygons, const FieldTaker& taker) {
+    const auto found = std::ranges::find(polygons.fields, kUvField, &MeshField::name);
+    if (found == polygons.fields.end() || found->components.size() != 2) {
+        fail_input(path, "has no texture coordinates, which a texture needs");
+    }
+    if (const std::string gap = taker.gap(*found); !gap.empty()) {
+        fail_input(path, gap + " has no texture coordinates, which a texture needs");
+    }
+    MeshField uvs = *found;
+    taker.take(uvs);
+    return uvs;
+}
+
+/// The texture coordinates of faces with materials; nothing if no face has any.
+std::optional<MeshField> material_uvs(PolygonMesh& polygons, const FieldTaker& taker) {
+    std::optional<MeshField> uvs = std::move(polygons.material_uvs);
+    const auto found = std::ranges::find(polygons.fields, kUvField, &MeshField::name);
+    if (!uvs && found != polygons.fields.end() && !found->corners.empty()) {
+        uvs = *found;
+    }
+    if (uvs) {
+        taker.take(*uvs, true);
+    }
+    return uvs;
+}
+
+void check_count(const Path& path, const MeshField& field, const MeshFile& mesh,
+                 std::size_t vertices) {
+    const std::size_t count = field.values.size() / field.components.size();
+    const std::size_t needed = field.of == Of::vertices ? vertices
+                               : mesh.polygons.empty()  ? mesh.triangle_count()
+                                                        : mesh.polygon_count;
+    if (field.of != Of::corners && needed > 0 && count != needed) {
+        fail_input(path, "has " + counted(count, "value", "values") + " of " +
+                             in_quotes(field.name) + " for " +
+                             (field.of == Of::vertices ? counted(needed, "vertex", "vertices")
+                                                       : counted(needed, "face", "faces")));
+    }
+}
+
+} // namespace
+
+bool WantedFields::has(std::string_view name) const {
+    return lists(name) || (uvs && name == kUvField);
+}
+
+bool WantedFields::lists(std::string_view name) const {
+    return all || place_of(name) < names.size();
+}
+
+std::size_t WantedFields::place_of(std::string_view name) const {
+    const auto found =
+        std::ranges::find_if(names, [&](const std::string& wanted) { return means(wanted, name); });
+    return static_cast<std::size_t>(found - names.begin());
+}
+
+WantedFields parse_fields(const std::string& text) {
+    WantedFields wanted;
+    wanted.all = text == kAll;
+    for (std::size_t begin = 0; !text.empty() && !wanted.all && begin <= text.size();) {
+        const std::size_t end = std::min(text.find(',', begin), text.size());
+        std::string name = text.substr(begin, end - begin);
+        if (name.empty() || name == kAll) {
+            fail_usage("--attributes: " + in_quotes(text) +
+                       " is neither all nor a list of names with commas between");
+        }
+        if (wanted.lists(name)) {
+            fail_usage("--attributes: " + name + " is given twice");
+        }
+        wanted.names.push_back(std::move(name));
+        begin = end + 1;
+    }
+    return wanted;
+}
+
+MeshField make_field(std::string_view name, Of of, std::size_t components) {
+    MeshField field;
+    field.name = name;
+    field.of = of;
+    for (std::size_t i = 0; i < components; ++i) {
+        field.components.push_back(components == 1 ? field.name
+                                                   : field.name + '_' + std::to_string(i));
+    }
+    return field;
+}
+
+MeshField make_colours(Of of, std::size_t components, const std::string& prefix) {
+    MeshField field = make_field(prefix + std::string(kColourField), of, 0);
+    field.is_colour = true;
+    for (const char* const name : {"red", "green", "blue", "alpha"}) {
+        if (field.components.size() < components) {
+            field.components.push_back(prefix + name);
+        }
+    }
+    return field;
+}
+
+MeshField make_uvs() {
+    MeshField field = make_field(kUvField, Of::corners, 0);
+    field.components = {"u", "v"};
+    return field;
+}
+
+void scale_colours(MeshField& colours) {
+    constexpr double kMaxByte = 255;
+    if (std::ranges::any_of(colours.values, [](double x) { return x > 1; })) {
+        for (double& value : colours.values) {
+            value /= kMaxByte;
+        }
+    }
+}
+
+void take_fields(const Path& path, const WantedFields& wanted, PolygonMesh& polygons,
+                 MeshFile& mesh) {
+    check_known(path, wanted, polygons.fields);
+    move_uvs(polygons);
+    const FieldTaker taker(path, polygons, mesh);
+    if (wanted.uvs) {
+        mesh.texture_uvs = texture_uvs(path, polygons, taker);
+    }
+    if (wanted.materials) {
+        mesh.texture_uvs = material_uvs(polygons, taker);
+        take_materials(path, polygons, mesh);
+    }
+    Columns columns;
+    for (MeshField& field : polygons.fields) {
+        if (!wanted.lists(field.name)) {
+            continue;
+        }
+        if (const std::string gap = taker.gap(field); !gap.empty()) {
+            const std::string text = gap + " has no value of " + in_quotes(field.name);
+            if (!wanted.all) {
+                fail_input(path, text);
+            }
+            mesh.warnings.push_back(
+                {"partial_attribute", 1, gap, text + ", so this attribute is left out", {}});
+            continue;
+        }
+        if (const std::string clash = columns.add(field); !clash.empty()) {
+            if (!wanted.all) {
+                fail_input(path,
+                           clash + "; rename it in the file, or leave it out of --attributes");
+            }
+            mesh.warnings.push_back({"attribute_name",
+                                     1,
+                                     "",
+                                     clash + ", so " + in_quotes(field.name) +
+                                         " is left out; rename it in the file to have it",
+                                     {}});
+            continue;
+        }
+        check_count(path, field, mesh, polygons.positions.size() / polygons.dimension);
+        taker.take(field);
+        mesh.fields.push_back(std::move(field));
+    }
+    if (!wanted.names.empty()) { // In the order of the names.
+        std::ranges::sort(mesh.fields, {},
+                          [&](const MeshField& field) { return wanted.place_of(field.name); });
+    }
+    for (MeshField& field : mesh.fields) {
+        field.name = column_name(field.name);
+        std::ranges::transform(field.components, field.components.begin(), column_name);
+    }
+    if (wanted.normals) {
+        if (!polygons.normals) {
+            fail_input(path, "has no normals, as --normals file requests; use smooth or face");
+        }
+        if (const std::string gap = taker.gap(*polygons.normals); !gap.empty()) {
+            fail_input(path,
+                       gap + " has no normal, as --normals file requests; use smooth or face");
+        }
+        taker.take(*polygons.normals);
+        mesh.normals = std::move(polygons.normals);
+    }
+}
+
+void check_no_fields(const Path& path, const WantedFields& wanted) {
+    PolygonMesh none;
+    MeshFile mesh;
+    take_fields(path, wanted, none, mesh);
+}
+
+} // namespace geodisk::tools

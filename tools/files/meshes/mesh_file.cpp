@@ -1,0 +1,482 @@
+#include "files/meshes/mesh_file.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <span>
+#include <utility>
+
+#include "files/input_file.hpp"
+#include "files/meshes/face_splitting.hpp"
+#include "files/meshes/file_scope.hpp"
+#include "files/meshes/polygon_mesh.hpp"
+#include "files/meshes/sidecar_files.hpp"
+#include "geometry/shape_warnings.hpp"
+#include "geometry/weld_mesh.hpp"
+#include "program/exact_text.hpp"
+#include "program/failure.hpp"
+#include "program/human_text.hpp"
+#include "shapes/builtin_shapes.hpp"
+
+namespace geodisk::tools {
+namespace {
+
+constexpr std::string_view kBuiltin = "builtin:";
+
+bool is_finite(const PolygonMesh& mesh, std::size_t vertex) {
+    const auto coordinates =
+        std::span(mesh.positions).subspan(vertex * mesh.dimension, mesh.dimension);
+    return std::all_of(coordinates.begin(), coordinates.end(),
+                       [](double x) { return std::isfinite(x); });
+}
+
+[[noreturn]] void fail_index(const Path& path, const PolygonMesh& mesh, std::size_t face,
+                             std::uint32_t vertex) {
+    fail_input(path, mesh.names.of_face(face) + ": vertex index " +
+                         mesh.names.vertex_number(vertex) + " is out of range, the file has " +
+                         std::to_string(mesh.vertex_count()) + " vertices");
+}
+
+[[noreturn]] void fail_not_finite(const Path& path, const PolygonMesh& mesh, std::size_t vertex) {
+    fail_input(path, mesh.names.of_vertex(vertex) + ": the coordinates are not finite");
+}
+
+/// A face may name any vertex then, so that their number has to be bounded.
+void check_bare_corners(const Path& path, const PolygonMesh& polygons) {
+    const std::uint64_t bound = polygons.corners.size();
+    for (const std::uint32_t vertex : polygons.corners) {
+        if (vertex >= bound) {
+            fail_input(path, "vertex index " + polygons.names.vertex_number(vertex) +
+                                 " is out of range: without coordinates, a mesh of " +
+                                 std::to_string(bound) + " corners has at most this many vertices");
+        }
+    }
+}
+
+/// Checks every face against the vertices; warns of unused vertices.
+void check_corners(const Path& path, const PolygonMesh& polygons, MeshFile& mesh) {
+    const std::size_t vertex_count = polygons.vertex_count();
+    if (vertex_count > std::numeric_limits<std::uint32_t>::max()) {
+        fail_input(path, "has more vertices than a face can refer to");
+    }
+    std::vector<bool> is_used(vertex_count, false);
+    std::size_t face = 0;
+    for (std::size_t i = 0; i < polygons.corners.size(); ++i) {
+        while (i >= polygons.face_ends[face]) {
+            ++face;
+        }
+        const std::uint32_t vertex = polygons.corners[i];
+        if (vertex >= vertex_count) {
+            fail_index(path, polygons, face, vertex);
+        }
+        if (!is_used[vertex] && !is_finite(polygons, vertex)) {
+            fail_not_finite(path, polygons, vertex);
+        }
+        is_used[vertex] = true;
+    }
+    Found unused, not_finite;
+    for (std::size_t vertex = 0; vertex < vertex_count; ++vertex) {
+        if (!is_used[vertex]) {
+            (is_finite(polygons, vertex) ? unused : not_finite).add(vertex);
+        }
+    }
+    const auto place = [&](const Found& found) {
+        return found.count == 0 ? "" : polygons.names.of_vertex(found.first);
+    };
+    add_warning(mesh.warnings, "unused_vertices", unused.count, place(unused),
+                "vertex is in no face", "vertices are in no face");
+    add_warning(mesh.warnings, "unused_not_finite", not_finite.count, place(not_finite),
+                "vertex that is in no face has coordinates that are not finite",
+                "vertices that are in no face have coordinates that are not finite");
+}
+
+/// Returns true if the triangle is more than a line or point, up to rounding, at any scale.
+bool has_area(const MeshFile& mesh, const std::uint32_t* corner) {
+    const auto coordinate = [&](int k, std::size_t axis) {
+        return mesh.positions[std::size_t{corner[k]} * mesh.dimension + axis];
+    };
+    double largest = 0;
+    for (std::size_t axis = 0; axis < mesh.dimension; ++axis) {
+        for (int k = 0; k < 3; ++k) {
+            largest = std::max(largest, std::abs(coordinate(k, axis)));
+        }
+    }
+    if (largest == 0) {
+        return false;
+    }
+    std::array<double, kMaxCoordinates> longer{}, shorter{}; // Two sides.
+    double longer2 = 0, shorter2 = 0, product = 0;
+    for (std::size_t axis = 0; axis < mesh.dimension; ++axis) {
+        const double a = 1 / largest * coordinate(0, axis);
+        longer[axis] = 1 / largest * coordinate(1, axis) - a;
+        shorter[axis] = 1 / largest * coordinate(2, axis) - a;
+        longer2 += longer[axis] * longer[axis];
+        shorter2 += shorter[axis] * shorter[axis];
+        product += longer[axis] * shorter[axis];
+    }
+    if (longer2 < shorter2) {
+        std::swap(longer, shorter);
+        std::swap(longer2, shorter2);
+    }
+    double height2 = 0; // Of the shorter side above the longer one.
+    for (std::size_t axis = 0; axis < mesh.dimension && longer2 > 0; ++axis) {
+        const double part = shorter[axis] - product / longer2 * longer[axis];
+        height2 += part * part;
+    }
+    constexpr double kFlat = 1e-15; // Less height is the rounding of coordinates, which are <= 1.
+    return height2 > kFlat * kFlat;
+}
+
+/// Refuses a mesh all of whose faces are flat.
+void check_areas(const Path& path, MeshFile& mesh) {
+    Found without_area, with_area;
+    for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
+        if (mesh.takes_part(t)) {
+            (has_area(mesh, &mesh.triangles[3 * t]) ? with_area : without_area).add(t);
+        }
+    }
+    if (with_area.count == 0) {
+        fail_input(path, "has no face with an area");
+    }
+    if (without_area.count > 0) {
+        add_warning(mesh.warnings, "zero_area_faces", without_area.count,
+                    mesh.name_of_triangle(without_area.first),
+                    "triangle without area kept: paths may lead through it",
+                    "triangles without area kept: paths may lead through them");
+    }
+}
+
+/// Polygons have sides but no diagonals.
+void check_triangles(const Path& path, const PolygonMesh& polygons) {
+    for (std::size_t face = 0; face < polygons.face_ends.size(); ++face) {
+        if (const std::size_t size = polygons.face(face).size(); size > 3) {
+            fail_input(path, polygons.names.of_face(face) + ": has " + std::to_string(size) +
+                                 " corners; with edge lengths all faces must be triangles");
+        }
+    }
+}
+
+void check_size(const Path& path, const PolygonMesh& polygons) {
+    const std::uint64_t triangles = triangles_of(polygons);
+    if (triangles == 0) {
+        fail_input(path, "has no faces of 3 or more corners");
+    }
+    constexpr std::uint32_t kMax = std::numeric_limits<std::uint32_t>::max();
+    if (triangles > kMax || polygons.face_ends.size() > kMax) {
+        fail_input(path, "has more faces than can be numbered");
+    }
+}
+
+void split_polygons(PolygonMesh& polygons, MeshFile& mesh) {
+    const auto [small, bent, polygon_count, repeating] = split_faces(polygons, mesh);
+    const auto place = [&](const Found& found) {
+        return found.count == 0 ? "" : polygons.names.of_face(found.first);
+    };
+    add_warning(mesh.warnings, "small_faces", small.count, place(small),
+                "face with fewer than 3 corners makes no triangle",
+                "faces with fewer than 3 corners make no triangle");
+    warn_of_repeated_vertices(mesh.warnings, repeating.count, place(repeating));
+    constexpr std::uint64_t kOneIn = 10; // A few are in many models, as at their poles.
+    if (bent.count * kOneIn >= polygon_count) {
+        add_warning(mesh.warnings, "bent_polygons", bent.count, place(bent),
+                    "polygon is not flat: its surface depends on how it is split into triangles",
+                    "polygons are not flat: their surface depends on how they are split into "
+                    "triangles");
+    }
+}
+
+/// Those of faces become those of triangles.
+void take_properties(PolygonMesh& polygons, MeshFile& mesh) {
+    mesh.properties = std::move(polygons.properties);
+    for (MeshProperty& property : mesh.properties) {
+        if (property.of_faces && !mesh.polygons.empty()) {
+            std::vector<double> of_triangles;
+            of_triangles.reserve(mesh.polygons.size());
+            for (const std::uint32_t polygon : mesh.polygons) {
+                of_triangles.push_back(property.values[polygon]);
+            }
+            property.values = std::move(of_triangles);
+        }
+    }
+}
+
+void take_parts(PolygonMesh& polygons, MeshFile& mesh) {
+    mesh.parts = std::move(polygons.parts);
+    mesh.part_names = std::move(polygons.part_names);
+    if (mesh.polygons.empty()) {
+        mesh.part_of_triangle = std::move(polygons.part_of_face);
+        return;
+    }
+    for (std::size_t t = 0; t < mesh.triangle_count() && !mesh.parts.empty(); ++t) {
+        mesh.part_of_triangle.push_back(polygons.part_of_face[mesh.polygons[t]]);
+    }
+}
+
+void drop_copied_triangles(MeshFile& mesh) {
+    if (const Found copies = drop_copies(mesh); copies.count > 0) {
+        add_warning(mesh.warnings, "duplicate_faces", copies.count,
+                    mesh.name_of_triangle(copies.first), "copy of an earlier triangle dropped",
+                    "copies of earlier triangles dropped");
+    }
+}
+
+void take_lengths(EdgeLengths& lengths, MeshFile& mesh) {
+    mesh.lengths.reserve(mesh.triangles.size());
+    for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
+        const std::uint32_t* const corner = &mesh.triangles[3 * t];
+        for (std::size_t k = 0; k < 3; ++k) {
+            mesh.lengths.push_back(
+                mesh.takes_part(t) ? lengths.between(corner[k], corner[(k + 1) % 3]) : 0);
+        }
+    }
+    add_warning(mesh.warnings, "unused_lengths", lengths.unused(), "",
+                "length of an edge that no face has ignored",
+                "lengths of edges that no face has ignored");
+}
+
+/// Replaces the coordinates of a mesh, of either kind.
+template <class Mesh>
+void take_coordinates(const MeshSources& sources, Mesh& mesh) {
+    Coordinates given = read_coordinates(sources.coordinates);
+    const std::size_t count = given.positions.size() / given.dimension;
+    const std::size_t vertices = mesh.positions.size() / mesh.dimension;
+    if (vertices != 0 && count != vertices) {
+        fail_input(sources.coordinates, "has the coordinates of " + std::to_string(count) +
+                                            " vertices, but " + sources.mesh + " has " +
+                                            std::to_string(vertices));
+    }
+    mesh.positions = std::move(given.positions);
+    mesh.dimension = given.dimension;
+}
+
+/// Every corner must have texture coordinates, finite ones.
+void take_uvs(const Path& path, const PolygonMesh& polygons, MeshFile& mesh) {
+    std::size_t face = 0;
+    for (std::size_t i = 0; i < polygons.corners.size(); ++i) {
+        while (i >= polygons.face_ends[face]) {
+            ++face;
+        }
+        const std::uint32_t vertex = polygons.corners[i];
+        const auto fail = [&](const std::string& message) {
+            fail_input(path, polygons.names.of_face(face) + ": vertex " +
+                                 polygons.names.vertex_number(vertex) + message);
+        };
+        const std::uint32_t uv = polygons.corner_uvs[i];
+        if (uv == PolygonMesh::kNoUv) {
+            fail(" has no texture coordinates");
+        }
+        const double u = polygons.uvs[std::size_t{2} * uv];
+        const double v = polygons.uvs[std::size_t{2} * uv + 1];
+        if (!std::isfinite(u) || !std::isfinite(v)) {
+            fail(" has texture coordinates that are not finite");
+        }
+        mesh.uvs.push_back({vertex, u, v});
+    }
+    std::sort(mesh.uvs.begin(), mesh.uvs.end());
+    mesh.uvs.erase(std::unique(mesh.uvs.begin(), mesh.uvs.end()), mesh.uvs.end());
+}
+
+/// Numbers vertices by their places, in the order of the corners.
+void number_places(const std::string& path, MeshFile& mesh) {
+    weld_mesh(path, mesh, {});
+    constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+    std::vector<std::uint32_t> numbers(mesh.positions.size() / 3, kNone);
+    std::vector<double> positions;
+    std::vector<std::uint32_t> lines;
+    for (std::uint32_t& vertex : mesh.triangles) {
+        std::uint32_t& number = numbers[vertex];
+        if (number == kNone) {
+            number = static_cast<std::uint32_t>(positions.size() / 3);
+            const double* const point = &mesh.positions[std::size_t{3} * vertex];
+            positions.insert(positions.end(), point, point + 3);
+            if (!mesh.names.vertex_lines.empty()) {
+                lines.push_back(mesh.names.vertex_lines[vertex]);
+            }
+        }
+        vertex = number;
+    }
+    mesh.names.vertex_lines = std::move(lines);
+    mesh.positions = std::move(positions);
+    mesh.joined = {};
+    mesh.file_triangles = {};
+}
+
+MeshFile to_triangles(const MeshSources& sources, PolygonMesh&& polygons,
+                      bool has_places_alone = false) {
+    const Path path = sources.mesh;
+    const bool has_lengths = !sources.edge_lengths.empty();
+    MeshFile mesh;
+    mesh.warnings = std::move(polygons.warnings);
+    if (polygons.face_ends.empty()) {
+        fail_input(path, "has no faces");
+    }
+    if (!sources.coordinates.empty() && !has_places_alone) {
+        take_coordinates(sources, polygons);
+    }
+    if (has_lengths) {
+        check_triangles(path, polygons);
+    }
+    if (has_lengths && polygons.positions.empty()) {
+        check_bare_corners(path, polygons);
+    } else {
+        check_corners(path, polygons, mesh);
+    }
+    if (sources.has_uvs) {
+        take_uvs(path, polygons, mesh);
+    }
+    check_size(path, polygons);
+    split_polygons(polygons, mesh);
+    take_parts(polygons, mesh);
+    take_fields(path, sources.fields, polygons, mesh);
+    take_properties(polygons, mesh);
+    mesh.positions = std::move(polygons.positions);
+    mesh.dimension = polygons.dimension;
+    mesh.attributes = std::move(polygons.attributes);
+    mesh.names = std::move(polygons.names);
+    if (has_places_alone) {
+        number_places(sources.mesh, mesh);
+        if (!sources.coordinates.empty()) {
+            take_coordinates(sources, mesh);
+        }
+    }
+    if (sources.weld) {
+        weld_mesh(sources.mesh, mesh, *sources.weld);
+    } else if (!has_lengths && !sources.keep_seams) {
+        join_mesh_seams(sources.mesh, mesh);
+    }
+    drop_copied_triangles(mesh);
+    if (has_lengths) {
+        EdgeLengths lengths(sources.edge_lengths, mesh.names.first_vertex);
+        take_lengths(lengths, mesh);
+    } else {
+        check_areas(path, mesh);
+        warn_of_slivers(mesh);
+        warn_of_far_origin(mesh);
+    }
+    return mesh;
+}
+
+/// `spec` is NAME or NAME:RESOLUTION.
+MeshFile read_builtin(std::string_view spec) {
+    const std::size_t colon = std::min(spec.find(':'), spec.size());
+    std::optional<int> resolution;
+    if (colon < spec.size()) {
+        resolution = parse_integer<int>(spec.substr(colon + 1));
+        if (!resolution) {
+            fail_usage("builtin:" + std::string(spec) + ": " + in_quotes(spec.substr(colon + 1)) +
+                       " is not a resolution");
+        }
+    }
+    return make_builtin(spec.substr(0, colon), resolution);
+}
+
+void check_no_attributes(const MeshSources& sources) {
+    if (!sources.attributes.empty()) {
+        fail_input(sources.mesh, "has no vertex properties, so no " +
+                                     in_quotes(sources.attributes.front()) + "; only PLY files do");
+    }
+    if (!sources.properties.empty()) {
+        fail_input(sources.mesh, "has no properties of faces or vertices, so no " +
+                                     in_quotes(sources.properties.front()) + "; only PLY files do");
+    }
+}
+
+void check_no_uvs(const MeshSources& sources) {
+    if (sources.has_uvs) {
+        fail_input(sources.mesh, "has no texture coordinates; OBJ and PLY files may");
+    }
+}
+
+/// Refuses options that need numbers of vertices, for a file that has places alone.
+void check_no_numbers(const MeshSources& sources) {
+    if (!sources.edge_lengths.empty()) {
+        fail_usage("--edge-lengths needs numbers of vertices, which " + sources.mesh + " has not");
+    }
+    if (sources.keep_seams) {
+        fail_usage("--keep-seams needs numbers of vertices, which " + sources.mesh + " has not");
+    }
+}
+
+} // namespace
+
+MeshFile split_into_triangles(const MeshSources& sources, PolygonMesh&& polygons) {
+    return to_triangles(sources, std::move(polygons));
+}
+
+bool is_builtin(const std::string& path) {
+    return path.starts_with(kBuiltin);
+}
+
+MeshFile read_mesh(const MeshSources& sources) {
+    const std::string& path = sources.mesh;
+    if (!sources.coordinates.empty() && !sources.edge_lengths.empty()) {
+        fail_usage("--coordinates and --edge-lengths contradict each other; give just one");
+    }
+    if (sources.weld && !sources.edge_lengths.empty()) {
+        fail_usage("--weld and --edge-lengths contradict each other: lengths leave no coordinates "
+                   "to join vertices by");
+    }
+    if (is_builtin(path)) {
+        if (!sources.coordinates.empty() || !sources.edge_lengths.empty()) {
+            fail_usage(path + " is complete; --coordinates and "
+                              "--edge-lengths are for mesh files");
+        }
+        check_no_attributes(sources);
+        check_no_uvs(sources);
+        check_no_fields(path, sources.fields);
+        MeshFile mesh = read_builtin(std::string_view(path).substr(kBuiltin.size()));
+        if (sources.weld) {
+            weld_mesh(path, mesh, *sources.weld);
+            drop_copied_triangles(mesh);
+        }
+        return mesh;
+    }
+    const FileScope scope(path, sources.allows_outside);
+    const std::string extension =
+        sources.format.empty() ? lower_extension(path) : '.' + sources.format;
+    if (extension == ".obj") {
+        check_no_attributes(sources);
+        return to_triangles(
+            sources, read_obj(path, sources.has_uvs, sources.fields, scope, sources.progress));
+    }
+    if (extension == ".ply") {
+        const bool has_other_source = !sources.coordinates.empty() || !sources.edge_lengths.empty();
+        const PlyWanted wanted{!has_other_source, sources.attributes, sources.properties,
+                               sources.has_uvs, sources.fields};
+        return to_triangles(sources, read_ply(path, wanted, sources.progress));
+    }
+    check_no_attributes(sources);
+    check_no_uvs(sources);
+    if (extension == ".off") {
+        return to_triangles(sources, read_off(path, sources.fields, sources.progress));
+    }
+    if (extension == ".stl") {
+        check_no_numbers(sources);
+        return to_triangles(sources, read_stl(path, sources.progress), true);
+    }
+    if (extension == ".gltf" || extension == ".glb") {
+        return to_triangles(sources, read_gltf(path, sources.fields, scope));
+    }
+    if (!sources.format.empty()) {
+        fail_usage("--mesh-format: " + in_quotes(sources.format) +
+                   " is none of gltf, glb, obj, off, "
+                   "ply and stl");
+    }
+    check_no_folder(path);
+    fail_input(path, "unknown mesh format; known are .gltf, .glb, .obj, .off, .ply, .stl and "
+                     "builtin:NAME, or give --mesh-format");
+}
+
+std::vector<std::string> mesh_formats() {
+    return {"gltf", "glb", "obj", "off", "ply", "stl"};
+}
+
+MeshFile read_mesh(const std::string& path) {
+    MeshSources sources;
+    sources.mesh = path;
+    return read_mesh(sources);
+}
+
+} // namespace geodisk::tools

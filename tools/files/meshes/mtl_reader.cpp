@@ -1,0 +1,213 @@
+#include "files/meshes/mtl_reader.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <set>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+#include "files/input_file.hpp"
+#include "files/meshes/mtl_records.hpp"
+#include "files/text_file.hpp"
+#include "program/exact_text.hpp"
+#include "program/failure.hpp"
+#include "program/human_text.hpp"
+
+namespace geodisk::tools {
+namespace {
+
+bool is_file(const Path& path) {
+    std::error_code ignored;
+    return std::filesystem::is_regular_file(path, ignored);
+}
+
+class MtlReader {
+  public:
+    MtlReader(const Path& obj, std::span<const std::optional<std::string>> names,
+              const FileScope& scope, std::vector<MeshWarning>& warnings)
+        : obj_(obj), scope_(scope), warnings_(warnings) {
+        result_.colours.resize(names.size());
+        for (std::size_t i = 0; i < names.size(); ++i) {
+            if (names[i]) {
+                wanted_.emplace(*names[i], i);
+            }
+        }
+    }
+
+    /// Reads the files behind `mtllib`: one whose name may hold blanks, or several.
+    void read_library(const std::string& text) {
+        const std::vector<std::string> names = library_names(text);
+        if (is_file(named_path(obj_, names[0]))) {
+            read(names[0]);
+            return;
+        }
+        for (const std::string& name : std::span(names).subspan(1)) {
+            read(name);
+        }
+    }
+
+    MaterialColours take() && {
+        add_warning(warnings_, "ignored_map_option", ignored_, ignored_place_,
+                    "option of map_Kd ignored", "options of map_Kd ignored");
+        return std::move(result_);
+    }
+
+  private:
+    [[noreturn]] void fail(const std::string& message) const {
+        fail_input(mtl_, "line " + std::to_string(line_) + ": " + message);
+    }
+
+    void read(const std::string& name) {
+        if (const std::string why = scope_.refusal(obj_, name); !why.empty()) {
+            fail_input(obj_, "its material file " + why);
+        }
+        const Path file = named_path(obj_, name);
+        if (!is_file(file)) {
+            fail_input(obj_, "its material file " + file.string() +
+                                 " is not there; correct mtllib, or add the file");
+        }
+        if (!known_files_.insert(file.string()).second) {
+            return;
+        }
+        mtl_ = file;
+        current_ = nullptr;
+        const std::string bytes = read_text(file);
+        MtlRecords records(bytes);
+        while (records.next(words_)) {
+            line_ = records.number();
+            take_record(lower_case(std::string(words_[0])), Words(words_).subspan(1));
+        }
+    }
+
+    void take_record(const std::string& key, Words words) {
+        if (key == "newmtl") {
+            name_ = joined_text(words);
+            const auto wanted = wanted_.find(name_);
+            const bool is_new = wanted != wanted_.end() && !result_.colours[wanted->second];
+            current_ = is_new ? &result_.colours[wanted->second].emplace() : nullptr;
+        } else if (current_ == nullptr) {
+            return; // Of a material that no face uses.
+        } else if (key == "kd") {
+            take_factor(words);
+        } else if (key == "map_kd") {
+            take_map(words);
+        }
+    }
+
+    double number(std::string_view word) const {
+        const std::optional<double> value = parse_real(word);
+        if (!value || !std::isfinite(*value)) {
+            fail(in_quotes(word) + " is not a finite number");
+        }
+        return *value;
+    }
+
+    void take_factor(Words words) {
+        if (words.size() != 1 && words.size() != 3) {
+            fail("Kd is read as three numbers, red, green and blue, or one for all");
+        }
+        for (std::size_t i = 0; i < 3; ++i) {
+            current_->factor[i] = number(words[words.size() == 1 ? 0 : i]);
+        }
+    }
+
+    void take_map(Words words) {
+        current_->transform = MaterialColour{}.transform;
+        current_->wrap_u = current_->wrap_v = ImageWrap::repeat;
+        current_->image.reset();
+        while (const std::size_t size = map_option_size(words)) {
+            take_option(words[0], words.subspan(1, size - 1));
+            words = words.subspan(size);
+        }
+        if (!words.empty()) {
+            current_->image = image_of(joined_text(words));
+        }
+    }
+
+    void take_option(std::string_view option, Words values) {
+        if (has_numbers(option)) {
+            if (values.empty()) {
+                fail(std::string(option) + " of map_Kd needs a number");
+            }
+            std::array<double, 2> given{option == "-s" ? 1.0 : 0.0, option == "-s" ? 1.0 : 0.0};
+            for (std::size_t i = 0; i < std::min(values.size(), given.size()); ++i) {
+                given[i] = number(values[i]);
+            }
+            move_map(option, given);
+        }
+        const bool is_on = values.size() == 1 && values[0] == "on";
+        if (option == "-clamp" && is_on) {
+            current_->wrap_u = current_->wrap_v = ImageWrap::clamp;
+        }
+        if (option == "-mm" || option == "-t" || option == "-imfchan" ||
+            (option == "-cc" && is_on)) {
+            ignored_place_ = ignored_++ == 0
+                                 ? "material " + in_quotes(name_) + ": " + std::string(option)
+                                 : ignored_place_;
+        }
+    }
+
+    void move_map(std::string_view option, const std::array<double, 2>& given) {
+        std::array<double, 6>& transform = current_->transform;
+        if (option == "-s") {
+            transform[0] = given[0];
+            transform[4] = given[1];
+        } else if (option == "-o") {
+            transform[2] = given[0];
+            transform[5] = given[1];
+        }
+    }
+
+    /// Returns the index of an image, which is read the first time that a material names it.
+    std::uint32_t image_of(const std::string& name) {
+        const Path path = named_path(mtl_, name);
+        const auto next = static_cast<std::uint32_t>(result_.images.size());
+        const auto [index, is_new] = images_.try_emplace(path.string(), next);
+        if (is_new) {
+            const std::string material = "material " + in_quotes(name_) + ": ";
+            if (const std::string why = scope_.refusal(mtl_, name); !why.empty()) {
+                fail(material + "its image " + why);
+            }
+            if (!is_file(path)) {
+                fail(material + "its image " + path.string() +
+                     " is not there; correct map_Kd, or add the file");
+            }
+            result_.images.push_back(
+                {mtl_.string() + ": " + material + path.string(), read_regular_file(path)});
+        }
+        return index->second;
+    }
+
+    const Path& obj_;
+    const FileScope& scope_;
+    std::vector<MeshWarning>& warnings_;
+    MaterialColours result_;
+    std::map<std::string, std::size_t> wanted_; ///< Numbers of materials by name.
+    std::map<std::string, std::uint32_t> images_;
+    std::set<std::string> known_files_;
+    Path mtl_;
+    std::uint32_t line_ = 0;
+    std::vector<std::string_view> words_;
+    std::string name_;                  ///< Name of the current material.
+    MaterialColour* current_ = nullptr; ///< Null for one that is not wanted.
+    std::uint64_t ignored_ = 0;         ///< Options.
+    std::string ignored_place_;
+};
+
+} // namespace
+
+MaterialColours read_mtl_files(const Path& obj, std::span<const std::string> libraries,
+                               std::span<const std::optional<std::string>> names,
+                               const FileScope& scope, std::vector<MeshWarning>& warnings) {
+    MtlReader reader(obj, names, scope, warnings);
+    for (const std::string& library : libraries) {
+        reader.read_library(library);
+    }
+    return std::move(reader).take();
+}
+
+} // namespace geodisk::tools

@@ -1,0 +1,57 @@
+#include "files/samples/neighbour_file.hpp"
+
+#include <algorithm>
+
+#include "files/archives/npz_arrays.hpp"
+#include "files/archives/zip_writer.hpp"
+#include "files/input_file.hpp"
+#include "files/output/block_writer.hpp"
+#include "program/exact_text.hpp"
+#include "program/failure.hpp"
+#include "program/human_text.hpp"
+
+namespace geodisk::tools {
+
+SampleTarget neighbour_target(const Path& path, const std::string& format) {
+    const std::string extension = lower_extension(path);
+    const std::string wanted =
+        !format.empty() ? format : extension.substr(std::min<std::size_t>(extension.size(), 1));
+    if (wanted != "npz" && wanted != "csv") {
+        fail_usage((format.empty() ? path.string() : "--format: " + in_quotes(format)) +
+                   ": neighbours are written as .npz or .csv" +
+                   (format.empty() && wanted.empty() ? "; give --format npz or csv" : ""));
+    }
+    return sample_target(path, wanted, false);
+}
+
+void write_neighbours(AtomicFile& file, const SampleTarget& target, const NeighbourTable& table) {
+    if (target.format == SampleFormat::npz) {
+        ZipWriter zip(file);
+        add_array<std::uint32_t>(zip, "sources", "<u4", table.sources);
+        add_array<std::uint64_t>(zip, "offsets", "<u8", table.offsets);
+        add_array<std::uint32_t>(zip, "targets", "<u4", table.targets);
+        add_array<float>(zip, "distances", "<f4", table.distances);
+        zip.finish();
+        return;
+    }
+    file.write("source,target,distance\n");
+    write_rows(
+        file, table.targets.size(), [&](std::string& bytes, std::size_t begin, std::size_t end) {
+            auto row = static_cast<std::size_t>(std::ranges::upper_bound(table.offsets, begin) -
+                                                table.offsets.begin()) -
+                       1;
+            for (std::size_t i = begin; i < end; ++i) {
+                while (table.offsets[row + 1] <= i) {
+                    ++row;
+                }
+                append_number(bytes, table.sources[row]);
+                bytes += ',';
+                append_number(bytes, table.targets[i]);
+                bytes += ',';
+                append_number(bytes, table.distances[i]);
+                bytes += '\n';
+            }
+        });
+}
+
+} // namespace geodisk::tools

@@ -1,0 +1,95 @@
+#include "files/samples/row_format.hpp"
+
+#include <span>
+#include <string_view>
+
+#include "files/samples/sample_writers.hpp"
+#include "program/exact_text.hpp"
+
+namespace geodisk::tools {
+namespace {
+
+const char* ply_type(std::uint32_t) {
+    return "int";
+}
+const char* ply_type(std::int32_t) {
+    return "int";
+}
+const char* ply_type(std::uint8_t) {
+    return "uchar";
+}
+const char* ply_type(float) {
+    return "float";
+}
+const char* ply_type(double) {
+    return "double";
+}
+
+std::string ply_head(const SampleHeader& header, std::uint64_t count, bool is_text,
+                     const SampleLayout& layout) {
+    std::string head =
+        is_text ? "ply\nformat ascii 1.0\n" : "ply\nformat binary_little_endian 1.0\n";
+    head += entry_lines(header, "comment ");
+    head += "element vertex " + std::to_string(count) + '\n';
+    visit_columns({}, 0, layout, [&](std::string_view name, auto value) {
+        head += std::string("property ") + ply_type(value) + ' ' + std::string(name) + '\n';
+    });
+    return head + "end_header\n";
+}
+
+std::string csv_head(const SampleHeader& header, std::uint64_t count, const SampleLayout& layout) {
+    std::string head = entry_lines(header, "# ");
+    if (!header.entries.empty()) {
+        head += "# " + std::string(kSampleCount) + ": " + std::to_string(count) + '\n';
+    }
+    const std::size_t first = head.size();
+    visit_columns({}, 0, layout, [&](std::string_view name, auto) {
+        head += head.size() == first ? "" : ",";
+        head += name;
+    });
+    return head + '\n';
+}
+
+void append_point(std::string& text, const SampleRow& row) {
+    for (const double coordinate : std::span(row.position).first(3)) {
+        append_number(text, coordinate);
+        text += ' ';
+    }
+    text.back() = '\n';
+}
+
+} // namespace
+
+bool RowFormat::is_one(SampleFormat format) {
+    return format == SampleFormat::ply || format == SampleFormat::csv ||
+           format == SampleFormat::xyz;
+}
+
+RowFormat::RowFormat(const SampleTarget& target, const SampleLayout& layout)
+    : target_(target), layout_(layout) {}
+
+std::string RowFormat::head(const SampleHeader& header, std::uint64_t count) const {
+    const SampleHeader told = target_.has_header ? header : SampleHeader{};
+    switch (target_.format) {
+    case SampleFormat::ply:
+        return ply_head(told, count, target_.is_text, layout_);
+    case SampleFormat::csv:
+        return csv_head(told, count, layout_);
+    default:
+        return "";
+    }
+}
+
+void RowFormat::append(std::string& bytes, const SampleRow& row, std::size_t index) const {
+    if (target_.format == SampleFormat::xyz) {
+        append_point(bytes, row);
+    } else if (target_.format == SampleFormat::csv) {
+        append_text_row(bytes, row, index, layout_, ',');
+    } else if (target_.is_text) {
+        append_text_row(bytes, row, index, layout_, ' ');
+    } else {
+        append_binary_row(bytes, row, index, layout_);
+    }
+}
+
+} // namespace geodisk::tools

@@ -1,0 +1,59 @@
+#include "files/samples/sample_instances.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <map>
+#include <string>
+#include <utility>
+
+#include "files/images/srgb_encoding.hpp"
+#include "files/meshes/mesh_fields.hpp"
+#include "program/exact_text.hpp"
+
+namespace geodisk::tools {
+namespace {
+
+struct vec3 {
+    constexpr vec3(double r, double g, double b) : red(r), green(g), blue(b) {}
+    double red, green, blue;
+};
+constexpr vec3 kColours[] = {
+#include "picture/shaders/class_colors.h"
+};
+
+} // namespace
+
+std::optional<double> common_radius(const SampleHeader& header, const SampleLayout& layout) {
+    if (layout.has_radius) {
+        return std::nullopt;
+    }
+    const std::string* const distance = header.find("min_distance");
+    return (distance != nullptr ? parse_real(*distance) : std::nullopt).value_or(2) / 2;
+}
+
+bool has_colours(const SampleLayout& layout) {
+    return std::ranges::any_of(layout.further.fields,
+                               [](const SampleField& field) { return field.name == kColourField; });
+}
+
+std::vector<SampleClass> sample_classes(std::span<const SampleRow> rows,
+                                        const SampleLayout& layout) {
+    const auto column = std::ranges::find(layout.further.numbers, kClassColumn, &ExtraColumn::name);
+    if (column == layout.further.numbers.end()) {
+        return {};
+    }
+    std::map<std::uint32_t, std::vector<std::uint32_t>> members;
+    for (std::uint32_t i = 0; i < rows.size(); ++i) {
+        members[column->values[i]].push_back(i);
+    }
+    std::vector<SampleClass> classes;
+    for (auto& [number, own] : members) {
+        const vec3& encoded = kColours[number % std::size(kColours)];
+        classes.push_back({"Class" + std::to_string(number),
+                           {light_of(encoded.red), light_of(encoded.green), light_of(encoded.blue)},
+                           std::move(own)});
+    }
+    return classes;
+}
+
+} // namespace geodisk::tools

@@ -1,0 +1,38 @@
+// The writers of single formats, for write_samples(), and what they share.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+
+#include "files/samples/sample_layout.hpp"
+
+namespace geodisk::tools {
+
+/// Appends the line of a row; `index` is its place in the further columns.
+void append_text_row(std::string& text, const SampleRow& row, std::size_t index,
+                     const SampleLayout& layout, char separator);
+
+/// Appends the record of a row, its columns side by side, little-endian.
+void append_binary_row(std::string& bytes, const SampleRow& row, std::size_t index,
+                       const SampleLayout& layout);
+
+void write_obj(AtomicFile& file, const SampleHeader& header, std::span<const SampleRow> rows,
+               const SampleLayout& layout);
+
+/// Throws UserError(usage), like write_gltf(), for coordinates that a float does not hold.
+void write_pcd(AtomicFile& file, const SampleHeader& header, std::span<const SampleRow> rows,
+               const SampleTarget& target, const SampleLayout& layout);
+
+/// Throws UserError(usage) for coordinates that a float does not hold.
+void write_usd(AtomicFile& file, const SampleHeader& header, std::span<const SampleRow> rows,
+               const SampleTarget& target, const SampleLayout& layout);
+
+void write_npz(AtomicFile& file, const SampleHeader& header, std::span<const SampleRow> rows,
+               const SampleLayout& layout);
+
+/// Throws UserError(usage) for faces whose numbers a float does not hold.
+void write_gltf(AtomicFile& file, const SampleHeader& header, std::span<const SampleRow> rows,
+                const SampleTarget& target, const SampleLayout& layout);
+
+} // namespace geodisk::tools
