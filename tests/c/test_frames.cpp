@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include <cstring>
+#include <string>
 #include <vector>
 
 #include <vulkan/vulkan_core.h>
@@ -86,6 +87,39 @@ TEST_CASE("frames in C: recorded, waited for, and begun again with another seed"
     });
     REQUIRE(geodisk_frame_sampler_wait(frames.get(), sampler.get(), nullptr) == GEODISK_OK);
     check_set(workshop, described(frames), knot(9).get());
+}
+
+TEST_CASE("frames in C sample what requests ask for, or name the field that they cannot") {
+    const auto device = borrowed(lent_device(shared_context().device(), shared_context().queue()));
+    const auto mesh = mesh_of(builtin("torus-knot", 8));
+    auto params = sized<geodisk_surface_params>();
+    params.seed = 1;
+    REQUIRE(geodisk_distance_for_count(mesh.get(), nullptr, nullptr, 200, &params.min_distance,
+                                       nullptr) == GEODISK_OK);
+    auto request = sized<geodisk_request>();
+    request.params = &params;
+    auto on_mesh = sized<geodisk_mesh_request>();
+    on_mesh.mesh = mesh.get();
+    on_mesh.request = &request;
+    const auto create = [&](geodisk_frame_sampler** made, geodisk_error* error) {
+        return geodisk_frame_sampler_create_requests(device.get(), &on_mesh, 1, nullptr, made,
+                                                     error);
+    };
+    const auto frames = owned<geodisk_frame_sampler>(create);
+    const auto sampler = owned<geodisk_sampler>([&](auto** made, geodisk_error* error) {
+        return geodisk_sampler_create(device.get(), nullptr, made, error);
+    });
+    REQUIRE(geodisk_frame_sampler_wait(frames.get(), sampler.get(), nullptr) == GEODISK_OK);
+    Workshop workshop(shared_context());
+    workshop.cut({});
+    check_set(workshop, described(frames), knot(1).get());
+
+    request.order = GEODISK_ORDER_PROGRESSIVE;
+    geodisk_frame_sampler* made = nullptr;
+    auto error = sized<geodisk_error>();
+    CHECK(create(&made, &error) == GEODISK_INVALID_ARGUMENT);
+    CHECK(std::string(error.message).starts_with("frames and progressive exclude each other"));
+    CHECK(made == nullptr);
 }
 
 TEST_CASE("frames in C refuse NULL, boxes and options that cannot be") {

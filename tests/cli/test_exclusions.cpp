@@ -58,6 +58,7 @@ std::optional<FieldOptions> options_for(RequestField field) {
     case RequestField::frame:
     case RequestField::split_from:
     case RequestField::processes: // See tests of geodisk_mpi.
+    case RequestField::frames:    // See tests of FrameSampler.
         break;
     }
     return std::nullopt;

@@ -23,6 +23,14 @@ namespace {
 
 constexpr std::uint32_t kMaxCalls = 20'000;
 
+/// Samples of a single mesh in frames.
+Result<FrameSampler> frames_of(const std::shared_ptr<const Sampler>& sampler,
+                               const PreparedMesh& mesh, const SampleRequest& request,
+                               const FrameSamplerOptions& options = {}) {
+    const MeshRequest on_mesh{&mesh, request};
+    return FrameSampler::create(sampler, {&on_mesh, 1}, options);
+}
+
 std::shared_ptr<const Sampler> shared_sampler(const Context& context) {
     return std::make_shared<const Sampler>(expect(Sampler::create(context.device())));
 }
@@ -42,6 +50,13 @@ struct SampledSubject {
           wanted(float_set(mesh, params,
                            expect(sampler.plan_run(domain, Workshop::kPoolBytes)).error_bound)) {}
 };
+
+Result<FrameSampler> frames_of(const std::shared_ptr<const Sampler>& sampler,
+                               const SampledSubject& subject,
+                               const FrameSamplerOptions& options = {}) {
+    const MeshView view = subject.shape.view();
+    return frames_of(sampler, subject.mesh, {.params = subject.params, .view = &view}, options);
+}
 
 /// A workshop whose frames hold other work of its own.
 struct SamplerBench : Workshop {
@@ -133,8 +148,7 @@ TEST_SUITE("frame sampler") {
                 float_set(knot.mesh, knot.params,
                           expect(sampler->plan_run(knot.domain, Workshop::kPoolBytes)).error_bound);
             SamplerBench workshop(context);
-            FrameSampler frames =
-                expect(FrameSampler::create(sampler, knot.domain, knot.shape.view(), {}));
+            FrameSampler frames = expect(frames_of(sampler, knot));
             record_all(workshop, frames);
             check_all(workshop, frames, knot);
         }
@@ -151,8 +165,7 @@ TEST_SUITE("frame sampler") {
                 FrameSamplerOptions options;
                 options.frames = in_flight;
                 options.vertices_each = 6;
-                FrameSampler frames =
-                    expect(FrameSampler::create(sampler, knot.domain, knot.shape.view(), options));
+                FrameSampler frames = expect(frames_of(sampler, knot, options));
                 CHECK(record_all(workshop, frames) > in_flight);
                 check_all(workshop, frames, knot);
                 CHECK(read(workshop, frames.samples()).draw.vertexCount == 6);
@@ -167,8 +180,7 @@ TEST_SUITE("frame sampler") {
             const auto sampler = shared_sampler(context);
             const SampledSubject knot(*sampler, 200);
             SamplerBench workshop(context);
-            FrameSampler frames =
-                expect(FrameSampler::create(sampler, knot.domain, knot.shape.view()));
+            FrameSampler frames = expect(frames_of(sampler, knot));
             std::size_t steps = 0, before = 0;
             for (bool is_complete = false; !is_complete;) {
                 workshop.frame(0, [&](VkCommandBuffer commands) {
@@ -195,8 +207,7 @@ TEST_SUITE("frame sampler") {
             const SampledSubject other(*sampler, 200, 2);
             SamplerBench workshop(context);
             Runner runner = expect(Runner::create(sampler, context.queue()));
-            FrameSampler frames =
-                expect(FrameSampler::create(sampler, knot.domain, knot.shape.view()));
+            FrameSampler frames = expect(frames_of(sampler, knot));
             const auto stopped =
                 frames.sample_and_wait(runner, [](const Progress&) { return false; });
             REQUIRE_FALSE(stopped);
@@ -226,8 +237,7 @@ TEST_SUITE("frame sampler") {
             for (options.pool_bytes = 1024; !sampler->plan_run(few.domain, options.pool_bytes);) {
                 options.pool_bytes *= 2;
             }
-            FrameSampler frames =
-                expect(FrameSampler::create(sampler, few.domain, few.shape.view(), options));
+            FrameSampler frames = expect(frames_of(sampler, few, options));
             const VkBuffer first = frames.samples().buffer;
             const std::uint64_t bytes = frames.device_bytes();
             record_all(workshop, frames);
@@ -263,6 +273,68 @@ TEST_SUITE("frame sampler") {
         check_silent(context);
     }
 
+    TEST_CASE("shares a run among requests, as RequestRuns does") {
+        const Context context = validated_context();
+        {
+            const auto sampler = shared_sampler(context);
+            const TestMesh shapes[] = {builtin("icosphere", 3), builtin("icosphere", 2)};
+            const PreparedMesh meshes[] = {prepared(shapes[0]), prepared(shapes[1])};
+            const MeshView views[] = {shapes[0].view(), shapes[1].view()};
+            std::vector<MeshRequest> requests;
+            for (std::size_t i = 0; i < 2; ++i) {
+                requests.push_back(
+                    {&meshes[i],
+                     {.params = params_for(meshes[i], i == 0 ? 400 : 100, 5), .view = &views[i]}});
+            }
+            Runner runner = expect(Runner::create(sampler, context.queue()));
+            const auto wanted = expect(sample(runner, requests));
+            FrameSampler frames = expect(FrameSampler::create(sampler, requests));
+            expect(frames.sample_and_wait(runner));
+            SamplerBench workshop(context);
+            std::vector<Points> found(2);
+            for (const gpu::PlacedRec& p : read(workshop, frames.samples()).records) {
+                found[p.part].push_back({p.face, p.weight1, p.weight2});
+            }
+            for (std::size_t i = 0; i < 2; ++i) {
+                CHECK(found[i] == points_of(wanted[i].set));
+            }
+            requests[1].request.params.darts = 50;
+            const auto refused = FrameSampler::create(sampler, requests);
+            REQUIRE_FALSE(refused);
+            CHECK(refused.error().message.starts_with("the requests share no run"));
+        }
+        check_silent(context);
+    }
+
+    TEST_CASE("names the field of a request that takes several runs") {
+        const Context context = validated_context();
+        {
+            const auto sampler = shared_sampler(context);
+            const SampledSubject knot(*sampler, 100);
+            const MeshView view = knot.shape.view();
+            const auto refused = [&](const char* words, auto&& change) {
+                CAPTURE(words);
+                SampleRequest request{.params = knot.params, .view = &view};
+                change(request);
+                const auto made = frames_of(sampler, knot.mesh, request);
+                REQUIRE_FALSE(made);
+                CHECK(made.error().status == Status::invalid_argument);
+                CHECK(made.error().message.find(words) != std::string::npos);
+            };
+            using Request = SampleRequest;
+            refused("frames and count", [](Request& r) { r.count = 50; });
+            refused("frames and maximal", [](Request& r) { r.params.maximal = true; });
+            refused("frames and features", [](Request& r) { r.features = 30; });
+            refused("frames and progressive",
+                    [](Request& r) { r.order = SampleOrder::progressive; });
+            refused("frames and farthest", [](Request& r) { r.order = SampleOrder::farthest; });
+            refused("frames and metric", [](Request& r) { r.metric = Metric::euclidean; });
+            refused("no view", [](Request& r) { r.view = nullptr; });
+            CHECK_FALSE(FrameSampler::create(sampler, std::span<const MeshRequest>()));
+        }
+        check_silent(context);
+    }
+
     TEST_CASE("takes its memory from the caller, in one buffer of the device") {
         AppDevice app;
         {
@@ -275,8 +347,7 @@ TEST_SUITE("frame sampler") {
             {
                 Runner runner = expect(Runner::create(sampler, app.queue()));
                 const std::size_t before = arena.alive.size();
-                FrameSampler frames =
-                    expect(FrameSampler::create(sampler, knot.domain, knot.shape.view()));
+                FrameSampler frames = expect(frames_of(sampler, knot));
                 // One for the device; staging and control records for the host.
                 CHECK(arena.alive.size() - before == 3);
                 expect(frames.sample_and_wait(runner));
@@ -324,8 +395,8 @@ TEST_SUITE("frame sampler") {
             BoxParams box{{1, 1}, true};
             box.min_distance = 0.1;
             CHECK(status(expect(Domain::box(box)), {}) == Status::invalid_argument);
-            CHECK_FALSE(FrameSampler::create(nullptr, knot.domain, view));
-            FrameSampler frames = expect(FrameSampler::create(sampler, knot.domain, view));
+            CHECK_FALSE(FrameSampler::create(nullptr, knot.domain, {&view, 1}));
+            FrameSampler frames = expect(frames_of(sampler, knot));
             CHECK_FALSE(frames.record(VK_NULL_HANDLE));
         }
         check_silent(context);

@@ -111,6 +111,7 @@ class PairRequest {
             break;
         case RequestField::update:
         case RequestField::processes:
+        case RequestField::frames:
             break; // Of no request for Runner.
         }
     }

@@ -29,8 +29,8 @@ PARAMETERS = {
     "farthest": ("order='farthest'", {"order": "farthest"}),
     "metric": ("metric='euclidean'", {"metric": "euclidean"}),
 }
-#: Of the update of samples, of other meshes and of several processes.
-ELSEWHERE = {"keep", "frame", "split_from", "update", "processes"}
+#: Of the update of samples, of other meshes, of several processes and of engines.
+ELSEWHERE = {"keep", "frame", "split_from", "update", "processes", "frames"}
 
 
 def test_all_fields_are_known():

@@ -16,6 +16,7 @@
 #include <geodisk/domain.hpp>
 #include <geodisk/export.hpp>
 #include <geodisk/mesh_view.hpp>
+#include <geodisk/request.hpp>
 #include <geodisk/runner.hpp>
 #include <geodisk/sampler.hpp>
 #include <geodisk/status.hpp>
@@ -72,19 +73,28 @@ class GEODISK_API FrameSampler {
   public:
     /// Allocates all memory, through DeviceRefs::memory_hooks if set, and records nothing.
     ///
+    /// The samples are those that the requests ask for, all in one run. Meshes and requests, with
+    /// what they refer to, must outlive the sampling. `view` of each request must have 2 or 3
+    /// coordinates per vertex. It is copied.
+    ///
+    /// Errors: `invalid_argument` for a request that takes several runs, naming the field; for
+    /// requests that cannot share a run; for a request without `view`, or options out of range;
+    /// `workspace_too_small` if pool_bytes holds no disk; those of RequestRuns,
+    /// Sampler::workspace_needs(), Sampler::prepare() and Vulkan.
+    static Result<FrameSampler> create(std::shared_ptr<const Sampler> sampler,
+                                       std::span<const MeshRequest> requests,
+                                       const FrameSamplerOptions& options = {}) noexcept;
+
+    /// Creates a FrameSampler for a domain made otherwise.
+    ///
     /// `domain` comes from Domain::surface() or surfaces() and must outlive the sampling. `meshes`
     /// has the mesh that each surface was prepared from, with 2 or 3 coordinates per vertex. It is
     /// copied. Positions on a surface with a scale are in units of its mesh.
     ///
     /// Errors: `invalid_argument` for other domains, meshes that do not match the domain, or
-    /// options out of range; `workspace_too_small` if pool_bytes holds no disk; those of
-    /// Sampler::workspace_needs(), Sampler::prepare() and Vulkan.
+    /// options out of range; the rest as above.
     static Result<FrameSampler> create(std::shared_ptr<const Sampler> sampler, const Domain& domain,
                                        std::span<const MeshView> meshes,
-                                       const FrameSamplerOptions& options = {}) noexcept;
-    /// Creates a FrameSampler for the mesh of one surface.
-    static Result<FrameSampler> create(std::shared_ptr<const Sampler> sampler, const Domain& domain,
-                                       const MeshView& mesh,
                                        const FrameSamplerOptions& options = {}) noexcept;
     FrameSampler(FrameSampler&&) noexcept;
     FrameSampler& operator=(FrameSampler&&) noexcept;

@@ -1202,8 +1202,15 @@ typedef struct geodisk_frame_options {
     uint32_t reader_access;
 } geodisk_frame_options;
 
-/* Makes a frame sampler and allocates all its memory. `options` may be NULL. The meshes of the
- * domain must have 2 or 3 coordinates per vertex. Experimental. */
+/* Makes a frame sampler of the samples that `count` requests ask for, and allocates all its memory.
+ * `options` may be NULL. All elements of `requests` have the struct_size of the first one. Fails with
+ * GEODISK_INVALID_ARGUMENT for a request that takes several runs, naming the field, for requests that
+ * cannot share one, and for a mesh without 2 or 3 coordinates per vertex. Experimental. */
+GEODISK_C_API geodisk_status geodisk_frame_sampler_create_requests(
+    const geodisk_device *device, const geodisk_mesh_request *requests, size_t count,
+    const geodisk_frame_options *options, geodisk_frame_sampler **frames, geodisk_error *error);
+
+/* Makes a frame sampler of a domain of surfaces, likewise. Experimental. */
 GEODISK_C_API geodisk_status geodisk_frame_sampler_create(const geodisk_device *device,
                                                           const geodisk_domain *domain,
                                                           const geodisk_frame_options *options,

@@ -37,7 +37,7 @@ enum class SampleOrder : std::uint8_t {
 struct SampleRequest {
     /// The run at one distance. With `count`, its distance is the first one to try, at most that
     /// for one sample, or 0 for distance_for_count().
-    SampleParams params;
+    SampleParams params{};
     /// Number of samples, at least 1, for which a distance is found by trial (CountSearch); 0 if
     /// `params` tell the distance.
     double count = 0;
@@ -52,7 +52,7 @@ struct SampleRequest {
     /// For SampleOrder::farthest: number of samples to keep; 0 for all.
     std::uint32_t keep = 0;
     /// Distances through space instead of along the surface, to compare with other methods.
-    std::optional<Metric> metric;
+    std::optional<Metric> metric{};
     /// Coordinates of the mesh, for `features` and `metric`.
     const MeshView* view = nullptr;
     /// Sample in the frame of another mesh; null for the mesh's own.

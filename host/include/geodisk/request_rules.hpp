@@ -34,10 +34,11 @@ enum class RequestField : std::uint8_t {
     split_from,
     update,    ///< Samples that follow an edit of their mesh (Updater).
     processes, ///< Several processes that divide a surface.
+    frames,    ///< Frames of an engine, into which a run is recorded (FrameSampler).
 };
 
 /// Number of fields.
-inline constexpr std::uint32_t kRequestFields = 20;
+inline constexpr std::uint32_t kRequestFields = 21;
 
 /// Returns the name of a field as spelled above.
 GEODISK_API const char* to_string(RequestField field) noexcept;

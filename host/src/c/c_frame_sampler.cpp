@@ -12,12 +12,13 @@
 #include "c/c_domain.hpp"
 #include "c/c_frames.hpp"
 #include "c/c_handles.hpp"
+#include "c/c_request.hpp"
 #include "c/c_sampler.hpp"
 #include "support/try.hpp"
 
 struct geodisk_frame_sampler {
     std::shared_ptr<const geodisk::c::Device> device;
-    std::shared_ptr<const geodisk::c::DomainState> domain;
+    std::shared_ptr<const void> sampled; ///< Its domain, or its requests.
     geodisk::FrameSampler recorded;
     std::atomic<bool> is_held = false; ///< True while a call uses it.
 };
@@ -40,6 +41,27 @@ using namespace geodisk;
 using namespace geodisk::c;
 
 extern "C" {
+
+geodisk_status geodisk_frame_sampler_create_requests(
+    const geodisk_device* device, const geodisk_mesh_request* requests, size_t count,
+    const geodisk_frame_options* options, geodisk_frame_sampler** frames, geodisk_error* error) {
+    return answer(error, [&]() -> Result<Done> {
+        if (device == nullptr || frames == nullptr) {
+            return wrong("device or frames is NULL");
+        }
+        const auto wanted = taken_if_any(options, "options");
+        GEODISK_TRY(wanted);
+        auto state = requests_of(requests, count);
+        GEODISK_TRY(state);
+        auto sampler = device->shared->sampler();
+        GEODISK_TRY(sampler);
+        auto made =
+            FrameSampler::create(std::move(*sampler), (*state)->on_meshes(), options_of(*wanted));
+        GEODISK_TRY(made);
+        *frames = new geodisk_frame_sampler{device->shared, std::move(*state), std::move(*made)};
+        return Done{};
+    });
+}
 
 geodisk_status geodisk_frame_sampler_create(const geodisk_device* device,
                                             const geodisk_domain* domain,

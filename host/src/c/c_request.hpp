@@ -26,14 +26,13 @@ struct RequestsState {
     std::vector<std::shared_ptr<RequestState>> each; ///< On surfaces; or one in a box.
     std::optional<RequestRuns> runs;                 ///< If they were started.
 
+    /// Returns those on surfaces.
+    std::vector<MeshRequest> on_meshes() const;
     /// Makes the runs.
     Result<RequestRuns> begin() const;
     /// Samples what is asked for, and waits.
     Result<std::vector<RequestedSet>> sample(Runner& runner,
                                              const ProgressCallback& progress) const;
-
-  private:
-    std::vector<MeshRequest> on_meshes() const;
 };
 
 /// Copies a request of the caller's.

@@ -142,14 +142,15 @@ int main() {
     const std::vector<std::uint32_t> triangles = {0, 1, 2, 0, 3, 1, 0, 2, 3, 1, 3, 2};
     const geodisk::MeshView view{positions, triangles};
     const auto mesh = take(geodisk::PreparedMesh::prepare(view));
-    const auto domain = take(geodisk::Domain::surface(mesh, {.min_distance = 0.2, .seed = 7}));
+    const geodisk::MeshRequest request{&mesh,
+                                       {.params = {.min_distance = 0.2, .seed = 7}, .view = &view}};
 
     const auto context = take(geodisk::Context::create());
     const auto sampler =
         std::make_shared<const geodisk::Sampler>(take(geodisk::Sampler::create(context.device())));
     geodisk::FrameSamplerOptions options;
     options.frames = Frames::kInFlight;
-    auto samples = take(geodisk::FrameSampler::create(sampler, domain, view, options));
+    auto samples = take(geodisk::FrameSampler::create(sampler, {&request, 1}, options));
     Frames frames(context); // Ends before the samples do.
 
     while (!samples.samples().is_complete) {

@@ -59,9 +59,15 @@ constexpr RequestRule kRules[] = {
     {Field::processes, Field::metric, "processes divide a surface by distances along it"},
     {Field::processes, Field::frame, "processes have the frame of their own surface"},
     {Field::processes, Field::update, "processes sample a surface anew"},
+    {Field::frames, Field::count, "a distance is found for a count by several runs"},
+    {Field::frames, Field::maximal, "gaps are filled by several runs"},
+    {Field::frames, Field::features, "features are a run of their own"},
+    {Field::frames, Field::progressive, "each level is a run of its own"},
+    {Field::frames, Field::farthest, "the order is found when all samples are there"},
+    {Field::frames, Field::metric, "frames get samples by distances along the surface"},
 };
 
-static_assert(kRequestFields == static_cast<std::uint32_t>(Field::processes) + 1 &&
+static_assert(kRequestFields == static_cast<std::uint32_t>(Field::frames) + 1 &&
               kRequestFields <= 32);
 
 } // namespace
@@ -95,11 +101,11 @@ RequestFields fields_of(const SampleRequest& request) noexcept {
 }
 
 const char* to_string(RequestField field) noexcept {
-    constexpr const char* kNames[] = {"min_distance",  "count",      "is_exact", "darts",
-                                      "stop_count",    "maximal",    "radii",    "density",
-                                      "class_factors", "existing",   "avoid",    "features",
-                                      "progressive",   "farthest",   "keep",     "metric",
-                                      "frame",         "split_from", "update",   "processes"};
+    constexpr const char* kNames[] = {
+        "min_distance", "count",     "is_exact",      "darts",    "stop_count", "maximal",
+        "radii",        "density",   "class_factors", "existing", "avoid",      "features",
+        "progressive",  "farthest",  "keep",          "metric",   "frame",      "split_from",
+        "update",       "processes", "frames"};
     static_assert(std::size(kNames) == kRequestFields);
     return kNames[static_cast<std::size_t>(field)];
 }

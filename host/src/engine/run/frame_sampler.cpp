@@ -7,6 +7,8 @@
 
 #include "engine/domain/domain_impl.hpp"
 #include "engine/job/sampler_impl.hpp"
+#include "engine/request/check_fields.hpp"
+#include "engine/request/on_mesh.hpp"
 #include "engine/run/frame_growth.hpp"
 #include "engine/run/frame_memory.hpp"
 #include "engine/run/frame_run.hpp"
@@ -35,6 +37,32 @@ Result<Done> check_options(const FrameSamplerOptions& options) {
     return Done{};
 }
 
+/// Makes the one run of all requests.
+Result<RequestRuns> one_run_of(std::span<const MeshRequest> requests) {
+    if (requests.empty()) {
+        return invalid("there are no requests");
+    }
+    for (std::size_t i = 0; i < requests.size(); ++i) {
+        const SampleRequest& request = requests[i].request;
+        RequestFields fields = fields_of(request);
+        fields.add(RequestField::frames);
+        if (const auto checked = check_fields(fields); !checked) {
+            return on_mesh(i, requests.size(), checked.error());
+        }
+        if (request.view == nullptr) {
+            return on_mesh(i, requests.size(),
+                           invalid("the request has no view, by which samples get their place"));
+        }
+    }
+    auto runs = RequestRuns::create(requests);
+    GEODISK_TRY(runs);
+    if (runs->job()->first_faces().size() != requests.size() + 1) {
+        return invalid("the requests share no run: disks of one have many more faces than those of "
+                       "another, or they have darts, classes or a stop count, or are too many");
+    }
+    return runs;
+}
+
 } // namespace
 
 struct FrameSampler::Impl {
@@ -44,6 +72,7 @@ struct FrameSampler::Impl {
     };
 
     std::shared_ptr<const Sampler> sampler;
+    std::optional<RequestRuns> runs; ///< Those of the requests, if there are any.
     const Domain& domain;
     FrameSamplerOptions options;
     FrameMesh mesh;
@@ -60,9 +89,13 @@ struct FrameSampler::Impl {
 
     Impl(std::shared_ptr<const Sampler> with, const Domain& of, const FrameSamplerOptions& given)
         : sampler(std::move(with)), domain(of), options(given) {}
+    Impl(std::shared_ptr<const Sampler> with, RequestRuns of, const FrameSamplerOptions& given)
+        : sampler(std::move(with)), runs(std::move(of)), domain(*runs->job()), options(given) {}
 
     const Sampler::Impl& engine() const { return Sampler::Impl::of(*sampler); }
 
+    /// Checks the options, copies the meshes, and allocates the first memory.
+    Result<Done> prepare(std::span<const MeshView> meshes);
     /// Replaces the current memory by that of a new plan. Sampling restarts.
     Result<Done> replace(const RunPlan& plan);
     /// Records the next part; the command buffer of `lag` calls ago has completed.
@@ -73,6 +106,19 @@ struct FrameSampler::Impl {
     /// Frees memory that no frame uses any more.
     void free_unused(std::uint32_t lag);
 };
+
+Result<Done> FrameSampler::Impl::prepare(std::span<const MeshView> meshes) {
+    if (!sampler) {
+        return invalid("the sampler is null");
+    }
+    GEODISK_TRY(check_options(options));
+    auto copied = FrameMesh::copy(domain, meshes);
+    GEODISK_TRY(copied);
+    mesh = std::move(*copied);
+    const auto plan = sampler->plan_run(domain, options.pool_bytes);
+    GEODISK_TRY(plan);
+    return replace(*plan);
+}
 
 Result<Done> FrameSampler::Impl::replace(const RunPlan& plan) {
     auto made = FrameMemory::create(*sampler, domain, mesh, plan, options);
@@ -183,25 +229,26 @@ Result<FrameSampler> FrameSampler::create(std::shared_ptr<const Sampler> sampler
                                           const Domain& domain, std::span<const MeshView> meshes,
                                           const FrameSamplerOptions& options) noexcept {
     return guarded([&]() -> Result<FrameSampler> {
-        if (!sampler) {
-            return invalid("the sampler is null");
-        }
-        GEODISK_TRY(check_options(options));
         auto impl = std::make_unique<Impl>(std::move(sampler), domain, options);
-        auto mesh = FrameMesh::copy(domain, meshes);
-        GEODISK_TRY(mesh);
-        impl->mesh = std::move(*mesh);
-        const auto plan = impl->sampler->plan_run(domain, options.pool_bytes);
-        GEODISK_TRY(plan);
-        GEODISK_TRY(impl->replace(*plan));
+        GEODISK_TRY(impl->prepare(meshes));
         return FrameSampler(std::move(impl));
     });
 }
 
 Result<FrameSampler> FrameSampler::create(std::shared_ptr<const Sampler> sampler,
-                                          const Domain& domain, const MeshView& mesh,
+                                          std::span<const MeshRequest> requests,
                                           const FrameSamplerOptions& options) noexcept {
-    return create(std::move(sampler), domain, {&mesh, 1}, options);
+    return guarded([&]() -> Result<FrameSampler> {
+        auto runs = one_run_of(requests);
+        GEODISK_TRY(runs);
+        std::vector<MeshView> meshes;
+        for (const MeshRequest& one : requests) {
+            meshes.push_back(*one.request.view);
+        }
+        auto impl = std::make_unique<Impl>(std::move(sampler), std::move(*runs), options);
+        GEODISK_TRY(impl->prepare(meshes));
+        return FrameSampler(std::move(impl));
+    });
 }
 
 FrameSampler::FrameSampler(std::unique_ptr<Impl> impl) noexcept : impl_(std::move(impl)) {}
