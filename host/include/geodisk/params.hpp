@@ -80,14 +80,27 @@ struct SampleParams {
     bool maximal = false;
 };
 
-/// Source of a job's candidates: a pool, or an exact number of darts. They come in stages. Each is
-/// a Poisson process of its own, drawn face by face. All candidates of a stage precede those of the
-/// next (host/docs/determinism.md).
+/// Source of a job's candidates.
+enum class CandidateSource : std::uint8_t {
+    pool,    ///< Drawn from the seed, about SampleParams::pool_ratio per expected sample.
+    darts,   ///< Drawn from the seed, exactly SampleParams::darts.
+    list,    ///< Points that the host gives.
+    targets, ///< Points that disks look for, or none. No candidate is decided.
+};
+
+/// Returns the source of candidates that parameters ask for.
+constexpr CandidateSource source_of(std::uint32_t darts) noexcept {
+    return darts != 0 ? CandidateSource::darts : CandidateSource::pool;
+}
+
+/// The candidates of a job. Those that are drawn come in stages. Each is a Poisson process of its
+/// own, drawn face by face. All candidates of a stage precede those of the next
+/// (host/docs/determinism.md). A list is a single stage.
 struct Stages {
     double samples = 0;      ///< Expected samples of the job.
     double ratio = 0;        ///< Candidates of a pool per expected sample.
-    std::uint32_t darts = 0; ///< Number of darts instead of a pool, if not 0. Stages go on until
-                             ///< there are as many.
+    std::uint32_t darts = 0; ///< Number of darts. Stages go on until there are as many.
+    CandidateSource source = source_of(darts);
     /// For several surfaces, each with its own stages: the maximum of stages of one surface, and
     /// the candidates that all first stages expect together. 0 for one surface.
     std::uint32_t max_stages = 0;
@@ -111,7 +124,11 @@ struct Stages {
     GEODISK_API double per_sample(std::uint32_t stage) const noexcept;
 
     /// Returns true if just `darts` candidates take part, however many the stages have.
-    bool is_counted() const noexcept { return darts != 0; }
+    bool is_counted() const noexcept { return source == CandidateSource::darts; }
+    /// Returns true if kernels draw the candidates, and the host does not upload them.
+    bool is_drawn() const noexcept {
+        return source == CandidateSource::pool || source == CandidateSource::darts;
+    }
     /// Returns how many stages may be drawn at once: all of a pool, one of darts.
     std::uint32_t max_at_once() const noexcept { return is_counted() ? 1 : pool_stages(); }
     /// Returns how many stages are left after the first `done` with `drawn` candidates. For darts

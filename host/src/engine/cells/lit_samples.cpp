@@ -7,6 +7,7 @@
 
 #include "engine/cells/grid_points.hpp"
 #include "engine/domain/existing.hpp"
+#include "engine/domain/face_mask.hpp"
 #include "support/invalid.hpp"
 #include "support/try.hpp"
 
@@ -69,9 +70,7 @@ Result<std::unique_ptr<LitSamples>> LitSamples::make(Runner& runner, const Prepa
     const double each = statistics.area / static_cast<double>(made->samples.size());
     made->job.min_distance =
         std::max(kFirstRadius * std::sqrt(each), statistics.longest_edge / kLongestEdge);
-    made->job.darts = 1; // A pool might be too large, and none is drawn.
-    const auto frame = frame_of(mesh, made->job);
-    made->job.darts = 0;
+    const auto frame = frame_of_disks(mesh, made->job);
     GEODISK_TRY(frame);
     made->frame = *frame;
     made->lit = std::make_unique<LitCells>(runner, mesh, made->samples, made->job, made->frame,

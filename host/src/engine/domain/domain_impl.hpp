@@ -58,8 +58,6 @@ struct Domain::Impl {
     std::uint32_t avoided = 0; ///< Number of them that are points to avoid.
     std::uint32_t classes = 0; ///< Number of classes; 0 if samples have none.
     ErrorModel error;          ///< Bound on the error of distances.
-    /// True if the host gives the candidates, and upload_parts() has them.
-    bool is_listed = false;
     /// Set if the samples of this domain, made with its parameters, are only the first ones of a
     /// maximal set.
     std::optional<MaximalJob> maximal;

@@ -33,6 +33,10 @@ double whole_area(const PreparedMesh& mesh, const SampleParams& params) noexcept
 Result<JobFrame> frame_with(const PreparedMesh& mesh, const SampleParams& params,
                             const Areas& areas);
 
+/// Returns the frame of disks with these parameters, where no candidate is decided. Errors: those
+/// of frame_of() that concern disks.
+Result<JobFrame> frame_of_disks(const PreparedMesh& mesh, const SampleParams& params);
+
 /// Checks the mask against the mesh.
 Result<Done> check_mask(const PreparedMesh& mesh, const SampleParams& params);
 

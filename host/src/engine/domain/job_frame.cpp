@@ -16,11 +16,10 @@ namespace {
 // with the order of work the longest window chain may change, and with it the guard.
 constexpr double kHeapFaces = 1u << 14;
 
-} // namespace
-
-Result<JobFrame> frame_with(const PreparedMesh& mesh, const SampleParams& params,
-                            const Areas& areas) {
-    const Stages stages = stages_of(mesh, params, areas.taken);
+Result<JobFrame> frame_in(const PreparedMesh& mesh, const SampleParams& params, const Areas& areas,
+                          CandidateSource source) {
+    Stages stages = stages_of(mesh, params, areas.taken);
+    stages.source = source;
     GEODISK_TRY(check_candidates(mesh, params, stages));
     const MeshStatistics& statistics = mesh.statistics();
     const double full = expected_count(areas.whole, params.min_distance);
@@ -38,6 +37,19 @@ Result<JobFrame> frame_with(const PreparedMesh& mesh, const SampleParams& params
     frame.straight_faces = statistics.diagonal > 0;
     frame.error_bound = ErrorModel(frame).error_of(guessed_chain(mesh, params.min_distance));
     return frame;
+}
+
+} // namespace
+
+Result<JobFrame> frame_with(const PreparedMesh& mesh, const SampleParams& params,
+                            const Areas& areas) {
+    return frame_in(mesh, params, areas, source_of(params.darts));
+}
+
+Result<JobFrame> frame_of_disks(const PreparedMesh& mesh, const SampleParams& params) {
+    GEODISK_TRY(check_params(mesh, params));
+    return frame_in(mesh, params, {whole_area(mesh, params), effective_area(mesh, params)},
+                    CandidateSource::targets);
 }
 
 bool decide_alike(const JobFrame& a, const JobFrame& b) noexcept {

@@ -95,8 +95,8 @@ std::vector<std::uint32_t> sort_by_cell(const PlacedSurface& surface, const Face
 
 } // namespace
 
-Stages listed_stages(double samples, std::size_t candidates) {
-    Stages stages{samples, static_cast<double>(candidates) / samples};
+Stages listed_stages(double samples, std::size_t candidates, CandidateSource source) {
+    Stages stages{samples, static_cast<double>(candidates) / samples, 0, source};
     stages.max_stages = 1;
     stages.max_expected = static_cast<double>(candidates);
     return stages;
@@ -128,11 +128,11 @@ Result<Domain> SurfaceDomain::listed(const PreparedMesh& mesh, const SampleParam
                                      const JobFrame& frame,
                                      std::span<const ListedCandidate> candidates) {
     PlacedSurface surface = placed(mesh, params, frame);
-    surface.stages = listed_stages(surface.stages.samples, candidates.size());
+    surface.stages =
+        listed_stages(surface.stages.samples, candidates.size(), CandidateSource::list);
     auto cells = count_cells({&surface, 1});
     GEODISK_TRY(cells);
     auto made = std::make_unique<SurfaceDomain>(std::vector{surface}, std::move(*cells));
-    made->is_listed = true;
     made->listed_ = listed_buffers(surface, made->cells_, candidates);
     const double most = static_cast<double>(made->settled.size() + candidates.size());
     made->samples = std::min(made->samples, most);
@@ -143,15 +143,15 @@ Result<Domain> SurfaceDomain::recording(const PreparedMesh& mesh, const SamplePa
                                         const JobFrame& frame, Ending ending,
                                         std::span<const ListedCandidate> targets,
                                         std::uint32_t max_records, std::span<const double> bounds) {
-    // A job needs a candidate. No candidate is ever decided.
+    // A job needs a candidate, also without targets.
     const ListedCandidate candidate{0, 0, 0};
     const auto candidates = targets.empty() ? std::span(&candidate, 1) : targets;
     PlacedSurface surface = placed(mesh, params, frame);
-    surface.stages = listed_stages(surface.stages.samples, candidates.size());
+    surface.stages =
+        listed_stages(surface.stages.samples, candidates.size(), CandidateSource::targets);
     auto cells = targets.empty() ? FaceCells{} : count_cells({&surface, 1});
     GEODISK_TRY(cells);
     auto made = std::make_unique<SurfaceDomain>(std::vector{surface}, std::move(*cells));
-    made->is_listed = true;
     made->listed_ = listed_buffers(surface, made->cells_, candidates);
     made->kernels.ending = ending;
     made->kernels.points = !targets.empty();

@@ -61,8 +61,8 @@ struct ListedBuffers {
         numbers; ///< In the list, of the candidate at each place. Not uploaded.
 };
 
-/// Returns the stages of a job with so many listed candidates: a single one.
-Stages listed_stages(double samples, std::size_t candidates);
+/// Returns the stages of a job with so many candidates of the host: a single one.
+Stages listed_stages(double samples, std::size_t candidates, CandidateSource source);
 
 /// Sorts the candidates by face and cell.
 ListedBuffers listed_buffers(const PlacedSurface& surface, const FaceCells& cells,

@@ -165,7 +165,7 @@ Result<std::uint32_t> check_candidates(const PreparedMesh& mesh, const SamplePar
                            : "the minimum distance is too large for this surface: it has hardly "
                              "any area");
     }
-    const double wanted = std::ceil(stages.candidates());
+    const double wanted = stages.is_drawn() ? std::ceil(stages.candidates()) : 0;
     if (!(wanted <= kMaxCandidates)) {
         return invalid("the minimum distance is too small for this surface: the pool would take " +
                        number_text(wanted) + " candidates, the maximum is " +
@@ -178,7 +178,9 @@ Result<std::uint32_t> check_candidates(const PreparedMesh& mesh, const SamplePar
             number_text(longest) + " times as long, and single precision resolves at most " +
             number_text(kLongestEdge) + " times; raise it, lower the count, or split long edges");
     }
-    GEODISK_TRY(check_largest_face(mesh, params, stages));
+    if (stages.is_drawn()) {
+        GEODISK_TRY(check_largest_face(mesh, params, stages));
+    }
     return static_cast<std::uint32_t>(wanted);
 }
 

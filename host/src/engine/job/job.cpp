@@ -308,7 +308,6 @@ Result<Done> Job::Impl::set_out(const Domain& of_domain, const RunPlan& new_plan
     max_slots = new_plan.slots;
     max_lanes = new_plan.lanes;
     has_lane_per_slot = of.has_lane_per_slot;
-    is_listed = of.is_listed;
     stages = of.stages;
     samples_per_measure = of.samples_per_measure;
     error = of.error;

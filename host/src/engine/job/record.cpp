@@ -297,7 +297,7 @@ bool record_begin(VkCommandBuffer commands, Job::Impl& job, Budget& budget) {
     });
     recorder.clear(BufferRole::pool,
                    push.first_stage == 0 ? VkDeviceSize{push.first_list_row} * 16 : 0);
-    if (!job.is_listed) {
+    if (job.stages.is_drawn()) {
         draw_candidates(recorder, job);
     }
     recorder.single(Kernel::begin_chunk, push);

@@ -85,7 +85,6 @@ struct Job::Impl {
     std::uint32_t max_lanes = 0; ///< Lanes of the first plan.
     // As Domain::Impl has them.
     bool has_lane_per_slot = false;
-    bool is_listed = false;
     Stages stages;
     double samples_per_measure = 0;
     ErrorModel error;

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "engine/domain/existing.hpp"
+#include "engine/domain/face_mask.hpp"
 #include "engine/domain/stages.hpp"
 #include "engine/domain/surface_domain.hpp"
 #include "engine/domain/tolerances.hpp"
@@ -123,9 +124,7 @@ Result<SearchJobs> SearchJobs::create(const PreparedMesh& mesh, const NeighbourQ
     SearchJobs jobs(mesh, query, bounds);
     SampleParams& params = jobs.params_;
     GEODISK_TRY(check_edges(mesh, params.min_distance));
-    params.darts = 1; // A pool might be too large, and none is drawn.
-    const auto frame = frame_of(mesh, params);
-    params.darts = 0;
+    const auto frame = frame_of_disks(mesh, params);
     GEODISK_TRY(frame);
     jobs.frame_ = *frame;
     GEODISK_TRY(check_range(frame->unit, frame->unit));

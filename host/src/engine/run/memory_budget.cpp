@@ -51,7 +51,7 @@ Result<Fitting> fit_plan(const Runner::Impl& runner, const Domain& domain, std::
         RunPlan& plan = fitting.plan;
         // Darts always come one stage at a time, and a list has one.
         const bool is_fixed =
-            runner.options.plan.stages != 0 && !of.stages.is_counted() && !of.is_listed;
+            runner.options.plan.stages != 0 && of.stages.source == CandidateSource::pool;
         plan.stages = is_fixed ? plan.stages : std::min(plan.stages, stages);
         plan.sample_capacity = std::max(plan.sample_capacity, samples);
         const auto needs = sampler.workspace_needs(domain, plan);
