@@ -26,15 +26,15 @@ struct Figure {
 /// Runs the command of that name. Checks that it writes NAME.csv with this many rows below the
 /// columns, and the other files.
 Outcome check_figure(const Figure& figure) {
-    const auto& [name, others, rows, options] = figure;
+    const std::string& name = figure.name;
     INFO(name);
     const TemporaryFolder folder;
     std::vector<std::string> arguments{name};
-    arguments.insert(arguments.end(), options.begin(), options.end());
+    arguments.insert(arguments.end(), figure.arguments.begin(), figure.arguments.end());
     Outcome outcome = run(folder, arguments, paper());
     REQUIRE(outcome.status == 0);
     CHECK(outcome.err.empty());
-    std::vector<std::string> expected = others;
+    std::vector<std::string> expected = figure.others;
     expected.push_back(name + ".csv");
     std::sort(expected.begin(), expected.end());
     CHECK(files_in(folder) == expected);
@@ -43,12 +43,12 @@ Outcome check_figure(const Figure& figure) {
     REQUIRE_FALSE(lines.empty());
     CHECK(contains(lines[0], ", commit "));
     std::erase_if(lines, [](const std::string& line) { return line.starts_with("# "); });
-    CHECK(std::ssize(lines) == rows + 1);
+    CHECK(std::ssize(lines) == figure.rows + 1);
     for (const std::string& line : lines) {
         CHECK(std::count(line.begin(), line.end(), ',') ==
               std::count(lines[0].begin(), lines[0].end(), ','));
     }
-    for (const std::string& other : others) {
+    for (const std::string& other : figure.others) {
         if (other.ends_with(".png")) {
             const PngImage image = read_png(folder / other);
             CHECK(std::count(image.pixels.begin(), image.pixels.end(), image.pixels.front()) <

@@ -7,6 +7,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include "program/exact_text.hpp"
+
 namespace geodisk::tools {
 namespace {
 
@@ -14,7 +16,24 @@ CLI::Option* described(CLI::Option* option, const std::string& type, const std::
     return option->type_name(type)->group(group);
 }
 
-OptionFacts facts_of(const CLI::Option& option, const Offers& offers) {
+std::vector<std::string> texts_of(bool is_set) {
+    return is_set ? std::vector<std::string>{"true"} : std::vector<std::string>();
+}
+
+std::vector<std::string> texts_of(const std::string& text) {
+    return text.empty() ? std::vector<std::string>() : std::vector{text};
+}
+
+std::vector<std::string> texts_of(const std::vector<std::string>& texts) {
+    return texts;
+}
+
+template <class Number>
+std::vector<std::string> texts_of(Number number) {
+    return {exact_text(number)};
+}
+
+OptionFacts facts_of(const CLI::Option& option, const NotesByOption& notes) {
     OptionFacts facts;
     facts.is_argument = option.get_positional();
     if (facts.is_argument) {
@@ -34,8 +53,8 @@ OptionFacts facts_of(const CLI::Option& option, const Offers& offers) {
     facts.group = option.get_group();
     facts.is_required = option.get_required();
     facts.repeats = option.get_expected_max() > 1;
-    if (const auto found = offers.find(&option); found != offers.end()) {
-        facts.offers = found->second;
+    if (const auto found = notes.find(&option); found != notes.end()) {
+        facts.offers = found->second.offers;
     }
     return facts;
 }
@@ -83,7 +102,7 @@ Option Option::needs(Option other) const {
 }
 
 Option Option::offers(std::vector<std::string> values) const {
-    (*offers_)[option_] = std::move(values);
+    (*notes_)[option_].offers = std::move(values);
     return *this;
 }
 
@@ -94,7 +113,9 @@ bool Option::is_given() const {
 template <class Value>
 Option Command::add_option(const std::string& names, Value& value, const std::string& type,
                            const std::string& text, const std::string& group) const {
-    return {described(app_->add_option(names, value, text), type, group), *offers_};
+    CLI::Option* const option = described(app_->add_option(names, value, text), type, group);
+    (*notes_)[option].values = [&value] { return texts_of(value); };
+    return {option, *notes_};
 }
 
 template Option Command::add_option(const std::string&, double&, const std::string&,
@@ -114,13 +135,15 @@ Option Command::add_reader(const std::string& names,
                            const std::string& type, const std::string& text,
                            const std::string& group) const {
     return {described(app_->add_option_function<std::string>(names, take, text), type, group),
-            *offers_};
+            *notes_};
 }
 
 template <class Value>
 Option Command::add_flag(const std::string& names, Value& value, const std::string& text,
                          const std::string& group) const {
-    return {app_->add_flag(names, value, text)->group(group), *offers_};
+    CLI::Option* const option = app_->add_flag(names, value, text)->group(group);
+    (*notes_)[option].values = [&value] { return texts_of(value); };
+    return {option, *notes_};
 }
 
 template Option Command::add_flag(const std::string&, bool&, const std::string&,
@@ -129,17 +152,17 @@ template Option Command::add_flag(const std::string&, std::string&, const std::s
                                   const std::string&) const;
 
 Command Command::add_command(const std::string& name, const std::string& text) const {
-    return {*app_->add_subcommand(name, text), *offers_};
+    return {*app_->add_subcommand(name, text), *notes_};
 }
 
 Command Command::add_hidden_command(const std::string& name, const std::string& text) const {
-    return {*app_->add_subcommand(name, text)->group(""), *offers_};
+    return {*app_->add_subcommand(name, text)->group(""), *notes_};
 }
 
 std::optional<Command> Command::find_command(const std::string& name) const {
     const auto has_name = [&name](CLI::App* one) { return one->check_name(name); };
     const auto found = app_->get_subcommands(std::function<bool(CLI::App*)>(has_name));
-    return found.empty() ? std::nullopt : std::optional(Command(*found.front(), *offers_));
+    return found.empty() ? std::nullopt : std::optional(Command(*found.front(), *notes_));
 }
 
 std::vector<std::string> Command::command_names() const {
@@ -173,15 +196,40 @@ CommandFacts Command::facts(bool with_hidden) const {
     const CLI::App& app = *app_;
     for (const CLI::Option* option : app.get_options()) {
         if (with_hidden || !option->get_group().empty()) {
-            facts.options.push_back(facts_of(*option, *offers_));
+            facts.options.push_back(facts_of(*option, *notes_));
         }
     }
     for (CLI::App* command : app_->get_subcommands(std::function<bool(CLI::App*)>())) {
         if (!command->get_group().empty()) {
-            facts.commands.push_back(Command(*command, *offers_).facts(with_hidden));
+            facts.commands.push_back(Command(*command, *notes_).facts(with_hidden));
         }
     }
     return facts;
+}
+
+std::vector<std::string> Command::words(const Command& usual) const {
+    std::vector<std::string> words;
+    const CLI::App& app = *app_;
+    for (const CLI::Option* const option : app.get_options()) {
+        const auto noted = notes_->find(option);
+        if (noted == notes_->end() || !noted->second.values) {
+            continue;
+        }
+        const std::string name = "--" + option->get_lnames().front();
+        const CLI::Option* const twin = usual.app_->get_option(name);
+        const std::vector<std::string> values = noted->second.values();
+        if (values == usual.notes_->at(twin).values()) {
+            continue;
+        }
+        for (const std::string& value : values) {
+            if (option->get_items_expected_max() > 0) {
+                words.insert(words.end(), {name, value});
+            } else {
+                words.push_back(value == "true" ? name : name + '=' + value);
+            }
+        }
+    }
+    return words;
 }
 
 } // namespace geodisk::tools

@@ -33,14 +33,19 @@ struct CommandFacts {
     std::vector<CommandFacts> commands;
 };
 
-/// Values that completion offers for options.
-using Offers = std::map<const CLI::Option*, std::vector<std::string>>;
+/// NotesByOption on an option.
+struct OptionNotes {
+    std::vector<std::string> offers; ///< Values that completion offers.
+    /// Returns the values that the option has now: none where it would not be given.
+    std::function<std::vector<std::string>()> values;
+};
+using NotesByOption = std::map<const CLI::Option*, OptionNotes>;
 
 /// An option, flag or argument of a command: a handle, valid as long as the program parses.
 class Option {
   public:
     Option() = default;
-    Option(CLI::Option* option, Offers& offers) : option_(option), offers_(&offers) {}
+    Option(CLI::Option* option, NotesByOption& notes) : option_(option), notes_(&notes) {}
 
     /// It must be given.
     Option required() const;
@@ -65,13 +70,13 @@ class Option {
 
   private:
     CLI::Option* option_ = nullptr;
-    Offers* offers_ = nullptr;
+    NotesByOption* notes_ = nullptr;
 };
 
 /// A program or one of its subcommands: a handle, valid as long as the program parses.
 class Command {
   public:
-    Command(CLI::App& app, Offers& offers) : app_(&app), offers_(&offers) {}
+    Command(CLI::App& app, NotesByOption& notes) : app_(&app), notes_(&notes) {}
 
     /// Adds an option: its names, where its value goes, what help calls the value (TYPE), what it
     /// is for, and under which heading help lists it. Value: double, int, std::uint32_t,
@@ -111,9 +116,13 @@ class Command {
     /// Describes the command; with `with_hidden`, also options that help does not show.
     CommandFacts facts(bool with_hidden = false) const;
 
+    /// Returns its options with their values, as they are typed, but for those that have the same
+    /// values in `usual`, a command with the same options.
+    std::vector<std::string> words(const Command& usual) const;
+
   private:
     CLI::App* app_;
-    Offers* offers_;
+    NotesByOption* notes_;
 };
 
 } // namespace geodisk::tools

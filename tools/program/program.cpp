@@ -120,8 +120,8 @@ int run(const char* name, const char* description, SetUp set_up, int argc, char*
         Rewrite rewrite) {
     try {
         CLI::App app(description, name);
-        Offers offers;
-        const Command program(app, offers);
+        NotesByOption notes;
+        const Command program(app, notes);
         set_up(program);
         return parse(app, program, argc, argv, rewrite);
     } catch (const std::bad_alloc&) {
@@ -140,8 +140,8 @@ const std::string& given_command() {
 void run_arguments(const std::function<void(Command)>& set_up, std::vector<std::string> arguments) {
     CLI::App app;
     app.set_help_flag();
-    Offers offers;
-    const Command program(app, offers);
+    NotesByOption notes;
+    const Command program(app, notes);
     set_up(program);
     const std::string command = chosen_command(program, arguments);
     try {
@@ -149,6 +149,16 @@ void run_arguments(const std::function<void(Command)>& set_up, std::vector<std::
     } catch (const CLI::ParseError& error) {
         fail_usage(usage_message(error));
     }
+}
+
+std::vector<std::string> words_of(const std::function<void(Command)>& set_up,
+                                  const std::function<void(Command)>& set_up_usual) {
+    CLI::App app, usual_app;
+    NotesByOption notes, usual_notes;
+    const Command command(app, notes), usual(usual_app, usual_notes);
+    set_up(command);
+    set_up_usual(usual);
+    return command.words(usual);
 }
 
 int run_program(const char* name, const char* description, SetUp set_up, int argc, char** argv,

@@ -26,6 +26,11 @@ int run_program(const char* name, const char* description, SetUp set_up, int arg
 /// step of another. Throws what that throws, and UserError(usage) for arguments that are none.
 void run_arguments(const std::function<void(Command)>& set_up, std::vector<std::string> arguments);
 
+/// Returns options as they are typed, with the values that they have now: those that `set_up` adds
+/// to a command, but for those that have the same values where `set_up_usual` adds them.
+std::vector<std::string> words_of(const std::function<void(Command)>& set_up,
+                                  const std::function<void(Command)>& set_up_usual);
+
 /// The command that run_program() was called by, as a line for a shell.
 const std::string& given_command();
 

@@ -5,6 +5,7 @@
 
 #include "files/meshes/mesh_file.hpp"
 #include "files/samples/sample_target.hpp"
+#include "geodisk/options/sample_command.hpp"
 #include "program/command.hpp"
 #include "program/exact_text.hpp"
 #include "program/failure.hpp"
@@ -18,10 +19,7 @@ namespace {
 void add_line_options(Command command, LineOptions& line) {
     add_mesh_argument(command, line.sample.mesh, "Mesh to sample");
     command.add_option("-o,--output", line.name, "NAME", "File to write, in the folder");
-    add_subject_options(command, line.sample);
-    add_text_options(command, line.sample.out);
-    add_columns_options(command, line.sample.out);
-    add_scene_options(command, line.sample.out);
+    add_manifest_options(command, line.sample);
 }
 
 void parse_words(const std::vector<std::string>& words, LineOptions& line) {

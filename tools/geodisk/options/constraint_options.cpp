@@ -95,17 +95,6 @@ HeaderEntries ConstraintOptions::entries() const {
     return entries;
 }
 
-HeaderEntries ConstraintOptions::given() const {
-    HeaderEntries options;
-    for (const auto& [name, value] : entries()) {
-        options.emplace_back("--" + name, value);
-    }
-    if (!tolerance.empty()) {
-        options.emplace_back("--tolerance", tolerance);
-    }
-    return options;
-}
-
 void add_avoid_option(Command command, ConstraintOptions& options, OptionUse use,
                       const std::string& group) {
     command

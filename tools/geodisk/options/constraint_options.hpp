@@ -46,8 +46,6 @@ struct ConstraintOptions {
     void place_files(const std::function<std::string(const std::string&)>& place);
     /// Name and value of what is given, as the header of a sample file names it.
     HeaderEntries entries() const;
-    /// Name and value of each option, as on the command line.
-    HeaderEntries given() const;
 };
 
 void add_constraint_options(Command command, ConstraintOptions& options);
