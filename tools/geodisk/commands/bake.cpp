@@ -81,9 +81,7 @@ void run_bake(BakeOptions options) {
     const TextureSize size = parse_size(options.size);
     const picture::Style style = parse_map_style(options.style);
     options.mesh.fields.uvs = true;
-    RunnerOptions runner;
-    runner.device_bytes = options.run.device_bytes();
-    runner.stall_seconds = options.run.stall_seconds();
+    const RunnerOptions runner = options.run.runner();
     check_tolerance(options.tolerance);
     check_files(options);
 

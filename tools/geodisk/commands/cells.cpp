@@ -80,9 +80,7 @@ SampleHeader header_with_areas(const CellOptions& options, const SampleHeader& s
 }
 
 void run_cells_command(const CellOptions& options) {
-    RunnerOptions runner;
-    runner.device_bytes = options.run.device_bytes();
-    runner.stall_seconds = options.run.stall_seconds();
+    const RunnerOptions runner = options.run.runner();
     check_tolerance(options.tolerance);
     check_files(options);
 

@@ -177,9 +177,7 @@ void run_neighbours(const NeighbourOptions& options) {
     const double nearest = options.nearest.empty() ? 0 : parse_count("--nearest", options.nearest);
     const double pairs =
         options.max_pairs.empty() ? 0 : parse_count("--most-pairs", options.max_pairs);
-    RunnerOptions runner;
-    runner.device_bytes = options.run.device_bytes();
-    runner.stall_seconds = options.run.stall_seconds();
+    const RunnerOptions runner = options.run.runner();
     check_tolerance(options.tolerance);
     check_files(options);
 

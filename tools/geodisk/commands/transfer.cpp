@@ -213,9 +213,7 @@ void run_transfer(const TransferOptions& options) {
         fail_choice("--order", options.order, std::vector<std::string>{"file", "farthest"});
     }
     const std::uint32_t keep = parse_keep(options.keep, options.is_farthest());
-    RunnerOptions runner;
-    runner.device_bytes = options.run.device_bytes();
-    runner.stall_seconds = options.run.stall_seconds();
+    const RunnerOptions runner = options.run.runner();
     check_files(options);
     check_tolerance(options.tolerance);
     ProgressLine progress(options.out.quiet);

@@ -103,8 +103,7 @@ BoxJob parse_job(const BoxOptions& options) {
         box.min_distance = distance_for_count(box, job.wanted_count.samples);
     }
     box.darts = job.method.darts_for(expected_count(box));
-    job.runner.device_bytes = options.run.device_bytes();
-    job.runner.stall_seconds = options.run.stall_seconds();
+    job.runner = options.run.runner();
     return job;
 }
 

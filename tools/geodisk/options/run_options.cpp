@@ -95,13 +95,16 @@ std::uint64_t RunOptions::parsed_seed() const {
     return parse_seed("--seed", seed);
 }
 
-std::uint64_t RunOptions::device_bytes() const {
-    return memory.empty() ? 0 : parse_bytes("--memory", memory);
-}
-
-double RunOptions::stall_seconds() const {
+RunnerOptions RunOptions::runner() const {
     constexpr double kWeek = 604800;
-    return stall_timeout.empty() ? 0 : parse_ratio("--stall-timeout", stall_timeout, 0.1, kWeek);
+    RunnerOptions options;
+    if (!memory.empty()) {
+        options.device_bytes = parse_bytes("--memory", memory);
+    }
+    if (!stall_timeout.empty()) {
+        options.stall_seconds = parse_ratio("--stall-timeout", stall_timeout, 0.1, kWeek);
+    }
+    return options;
 }
 
 void add_validate_option(Command command, DeviceOptions& options) {

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include <geodisk/runner.hpp>
+
 #include "files/output/files_in_use.hpp"
 #include "files/samples/sample_target.hpp"
 #include "files/stream_path.hpp"
@@ -92,8 +94,7 @@ struct RunOptions {
 
     /// Throw UserError(usage) naming the option whose value will not do.
     std::uint64_t parsed_seed() const;
-    std::uint64_t device_bytes() const; ///< 0 for no bound.
-    double stall_seconds() const;       ///< 0 for what suits the device.
+    RunnerOptions runner() const;
 };
 
 /// Adds --seed.

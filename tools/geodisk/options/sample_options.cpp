@@ -168,8 +168,7 @@ SampleJob parse_job(const SampleOptions& options) {
     job.params.pool_ratio = job.method.pool_ratio;
     job.params.stop_count = job.method.stop_count;
     job.params.maximal = job.method.is_maximal;
-    job.runner.device_bytes = options.run.device_bytes();
-    job.runner.stall_seconds = options.run.stall_seconds();
+    job.runner = options.run.runner();
     if (job.method.has_levels && job.out.is_dry_run) {
         fail_usage("--dry-run tries one run, but --order progressive takes one for each level");
     }
