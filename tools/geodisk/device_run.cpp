@@ -81,10 +81,8 @@ void check_taken(const Result<Done>& taken) {
         return;
     }
     Error error = taken.error();
-    for (const std::string field : {"stop_count: ", "count: "}) {
-        if (error.message.starts_with(field)) {
-            fail_usage("--count: " + error.message.substr(field.size()));
-        }
+    if (error.message.starts_with("count: ")) {
+        fail_usage("--" + error.message);
     }
     take(Result<Done>(std::move(error)));
 }
