@@ -46,11 +46,34 @@ TEST_CASE("help tells options, examples and exit statuses") {
     }
 }
 
-TEST_CASE("nothing asked for is a question for help") {
+TEST_CASE("no arguments print help to standard error, with the status of wrong usage") {
     const TemporaryFolder folder;
     const Outcome outcome = run(folder, {});
-    CHECK(outcome.status == 0);
-    CHECK(outcome.out == run(folder, {"--help"}).out);
+    CHECK(outcome.status == 2);
+    CHECK(outcome.out.empty());
+    CHECK(outcome.err == run(folder, {"--help"}).out);
+}
+
+TEST_CASE("samples without a name are named by their mesh, and no file replaced") {
+    const TemporaryFolder folder;
+    REQUIRE(run(folder, {"sample", "builtin:cube", "-n", "50"}).status == 0);
+    const Outcome second = run(folder, {"sample", "builtin:cube", "-n", "90"});
+    REQUIRE(second.status == 0);
+    CHECK(contains(second.out, "file          cube-samples-2.ply\n"));
+    CHECK(files_in(folder) == std::vector<std::string>{"cube-samples-2.ply", "cube-samples.ply"});
+    CHECK(bytes_of(folder / "cube-samples.ply") != bytes_of(folder / "cube-samples-2.ply"));
+}
+
+TEST_CASE("samples in the place of their mesh are told the order of the arguments") {
+    const TemporaryFolder folder;
+    for (const char* const name : {"a.ply", "a.csv"}) {
+        REQUIRE(run(folder, {"sample", "builtin:cube", "-n", "20", "-o", name}).status == 0);
+        const std::string message =
+            std::string(name) + ": holds samples, but a mesh is expected here";
+        check_fails(folder, 3, message + "; give MESH SAMPLES in this order",
+                    {"verify", name, "builtin:cube"});
+        check_fails(folder, 3, message, {"sample", name, "-n", "20", "-o", "b.ply"});
+    }
 }
 
 TEST_CASE("a mesh alone is sampled and drawn, and no file replaced") {
@@ -146,7 +169,6 @@ TEST_CASE("wrong usage is explained") {
     check_fails(folder, 2, "unknown built-in shape 'kube'", {"builtin:kube"});
     check_fails(folder, 2, "--count: 'many' is not", {"builtin:cube", "--count", "many"});
     check_fails(folder, 2, "MESH is required (see geodisk sample --help)", {"sample"});
-    check_fails(folder, 2, "--output is required", {"sample", "builtin:cube", "-n", "9"});
     check_fails(folder, 2, "SAMPLES is required", {"verify", "builtin:cube"});
     check_fails(folder, 2, "--speed", sample({"-n", "9", "--speed", "3"}));
     check_fails(folder, 2, "one argument too many: 'surplus'", sample({"surplus", "-n", "9"}));

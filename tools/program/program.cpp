@@ -98,6 +98,10 @@ int parse(CLI::App& app, Command program, int argc, char** argv, Rewrite rewrite
         if (rewrite != nullptr) {
             rewrite(program, arguments);
         }
+        if (arguments.empty() && !program.command_names().empty()) {
+            std::cerr << app.help();
+            return static_cast<int>(ExitCode::usage);
+        }
         command = chosen_command(program, arguments);
         app.parse(understood(program, command, std::move(arguments)));
     } catch (const CLI::CallForHelp&) {

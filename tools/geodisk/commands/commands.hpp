@@ -38,10 +38,14 @@ struct UnnamedOutputs {
 void sample_to_files(const SampleOptions& options, const UnnamedOutputs& unnamed = {},
                      SurfaceSampler* sampler = nullptr);
 
+/// Runs `sample` into a file of the current folder that is named by the mesh and replaces none; if
+/// it `draws`, also a picture unless the user names one.
+void sample_to_free_names(SampleOptions options, bool draws);
+
 /// Samples a mesh and draws the samples, into files of the current folder named by the mesh.
 void add_quick_command(Command app);
 
-/// Makes a mesh alone, or nothing, the arguments of a command: `quick`, or help. UserError(usage)
+/// Makes a mesh alone the arguments of a command, `quick`. UserError(usage)
 /// for what is neither a command nor a mesh.
 void choose_command(Command app, std::vector<std::string>& arguments);
 

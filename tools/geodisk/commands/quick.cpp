@@ -94,38 +94,9 @@ class FreeNames {
     int number_ = 1;
 };
 
-/// Samples into files named by the mesh, and draws a picture unless the user names one.
-void sample_to_free_names(SampleOptions options) {
-    const bool is_visible = options.mesh.edge_lengths.empty() || !options.mesh.coordinates.empty();
-    const bool names_picture = options.picture.empty() && is_visible;
-    std::vector<std::string> endings{'.' +
-                                     (options.out.format.empty() ? "ply" : options.out.format)};
-    if (names_picture) {
-        endings.emplace_back(".png");
-    }
-    FreeNames names(base_name(options.mesh.mesh), endings);
-    options.out.output = names.name(0);
-    if (names_picture) {
-        options.picture = names.name(1);
-    }
-    bool has_picture = names_picture;
-    const auto name = [&](const std::vector<AtomicFile*>& files, std::string& output,
-                          std::string& picture) {
-        names.claim(files);
-        output = names.name(0);
-        has_picture = !picture.empty();
-        picture = names_picture && has_picture ? names.name(1) : picture;
-    };
-    sample_to_files(options, {name, names_picture});
-    if (names_picture && !has_picture && options.out.has_summary()) {
-        std::cout << "picture       none, the device cannot draw\n";
-        flush_or_fail("the summary");
-    }
-}
-
 void sample_one(const SampleOptions& options) {
     if (options.out.output.empty() && !options.out.is_dry_run) {
-        sample_to_free_names(options);
+        sample_to_free_names(options, true);
     } else {
         sample_to_files(options);
     }
@@ -229,6 +200,34 @@ CommandFacts quick_facts(Command app) {
 
 } // namespace
 
+void sample_to_free_names(SampleOptions options, bool draws) {
+    const bool is_visible = options.mesh.edge_lengths.empty() || !options.mesh.coordinates.empty();
+    const bool names_picture = draws && options.picture.empty() && is_visible;
+    std::vector<std::string> endings{'.' +
+                                     (options.out.format.empty() ? "ply" : options.out.format)};
+    if (names_picture) {
+        endings.emplace_back(".png");
+    }
+    FreeNames names(base_name(options.mesh.mesh), endings);
+    options.out.output = names.name(0);
+    if (names_picture) {
+        options.picture = names.name(1);
+    }
+    bool has_picture = names_picture;
+    const auto name = [&](const std::vector<AtomicFile*>& files, std::string& output,
+                          std::string& picture) {
+        names.claim(files);
+        output = names.name(0);
+        has_picture = !picture.empty();
+        picture = names_picture && has_picture ? names.name(1) : picture;
+    };
+    sample_to_files(options, {name, names_picture});
+    if (names_picture && !has_picture && options.out.has_summary()) {
+        std::cout << "picture       none, the device cannot draw\n";
+        flush_or_fail("the summary");
+    }
+}
+
 void add_quick_command(Command app) {
     const Command command =
         app.add_command("quick", "Same as geodisk MESH: write about 10,000 samples to\n"
@@ -242,7 +241,6 @@ void add_quick_command(Command app) {
 
 void choose_command(Command app, std::vector<std::string>& arguments) {
     if (arguments.empty()) {
-        arguments.emplace_back("--help");
         return;
     }
     const std::string& first = arguments.front();

@@ -64,7 +64,7 @@ void run_report(const ReportOptions& options) {
     check_outputs(job.out, "the page", files_read(job), check_page_path);
 
     ProgressLine progress(job.out.quiet);
-    const MeshInput mesh = load_mesh(job.mesh, progress, job.density, job.mask);
+    const MeshInput mesh = load_mesh(job.mesh, progress, job.density, job.mask, "");
     if (!options.harmonics.empty() && mesh.radii) {
         fail_usage("--harmonics: a spectrum is of samples whose radii do not vary");
     }

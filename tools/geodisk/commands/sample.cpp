@@ -104,7 +104,7 @@ void sample_to_files(const SampleOptions& options, const UnnamedOutputs& unnamed
     }
     ProgressLine progress(job.out.quiet);
     RunDevice begun = begin_device_for(job);
-    const MeshInput mesh = load_mesh(job.mesh, progress, job.density, job.mask);
+    const MeshInput mesh = load_mesh(job.mesh, progress, job.density, job.mask, "");
     if (!job.out.output.empty()) {
         check_target(job, mesh);
     }
@@ -147,7 +147,13 @@ void add_sample_command(Command app) {
     add_mesh_argument(command, options->mesh, "Mesh to sample");
     add_sample_options(command, *options);
     command.has_footer(help_footer(kSampleExamples));
-    command.calls([options] { sample_to_files(*options); });
+    command.calls([options] {
+        if (options->out.output.empty() && !options->out.is_dry_run) {
+            sample_to_free_names(*options, false);
+        } else {
+            sample_to_files(*options);
+        }
+    });
 }
 
 } // namespace geodisk::tools

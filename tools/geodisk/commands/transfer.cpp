@@ -81,25 +81,8 @@ void check_files(const TransferOptions& options) {
     options.out.check_scene(false);
 }
 
-bool holds_samples(const std::string& path) {
-    try {
-        return read_samples(path).has_faces;
-    } catch (const UserError&) {
-        return false;
-    }
-}
-
-/// Loads a mesh. If samples are in its place, the error says the order of the arguments.
 MeshInput load(const MeshOptions& mesh, ProgressLine& progress) {
-    try {
-        return load_mesh(mesh, progress);
-    } catch (const UserError& error) {
-        if (error.code() == ExitCode::bad_input && holds_samples(mesh.mesh)) {
-            fail_input(mesh.mesh, "holds samples, but a mesh is expected here; give SAMPLES MESH_A "
-                                  "MESH_B in this order");
-        }
-        throw;
-    }
+    return load_mesh(mesh, progress, {}, {}, "SAMPLES MESH_A MESH_B");
 }
 
 std::string corners_text(const MeshFile& mesh, std::size_t face) {

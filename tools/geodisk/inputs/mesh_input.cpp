@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "files/meshes/mesh_file.hpp"
+#include "files/samples/sample_file.hpp"
 #include "geodisk/inputs/mask_input.hpp"
 #include "geodisk/inputs/radii_input.hpp"
 #include "geodisk/outputs/outputs.hpp"
@@ -34,6 +35,14 @@ void collect_warnings(const std::string& path, MeshInput& mesh, bool has_normals
     }
     for (MeshWarning& warning : mesh.warnings) {
         warning.file = path;
+    }
+}
+
+bool holds_samples(const std::string& path) {
+    try {
+        return read_samples(path).has_faces;
+    } catch (const UserError&) {
+        return false;
     }
 }
 
@@ -242,8 +251,19 @@ MeshInput load_silently(const MeshOptions& options, ProgressLine& progress,
 }
 
 MeshInput load_mesh(const MeshOptions& options, ProgressLine& progress,
-                    const DensityOptions& density, const MaskOptions& mask) {
-    MeshInput mesh = load_silently(options, progress, density, mask);
+                    const DensityOptions& density, const MaskOptions& mask,
+                    const std::string& order) {
+    MeshInput mesh;
+    try {
+        mesh = load_silently(options, progress, density, mask);
+    } catch (const UserError& error) {
+        if (error.code() == ExitCode::bad_input && holds_samples(options.mesh)) {
+            fail_input(options.mesh,
+                       "holds samples, but a mesh is expected here" +
+                           (order.empty() ? "" : "; give " + order + " in this order"));
+        }
+        throw;
+    }
     progress.clear();
     for (const MeshWarning& warning : mesh.warnings) {
         print_warning((warning.file.empty() ? "" : warning.file + ": ") + warning.message);

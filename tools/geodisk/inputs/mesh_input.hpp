@@ -125,9 +125,11 @@ struct MeshInput {
 MeshInput load_silently(const MeshOptions& options, ProgressLine& progress,
                         const DensityOptions& density, const MaskOptions& mask);
 
-/// The same, and writes warnings to standard error.
+/// The same, and writes warnings to standard error. The error for samples in the place of the mesh
+/// tells the order of the command's arguments, unless it is "".
 MeshInput load_mesh(const MeshOptions& options, ProgressLine& progress,
-                    const DensityOptions& density = {}, const MaskOptions& mask = {});
+                    const DensityOptions& density = {}, const MaskOptions& mask = {},
+                    const std::string& order = "MESH SAMPLES");
 
 /// `length` in mesh units. Throws UserError(usage) for % of a mesh that has no bounding box.
 double distance_on_mesh(const Length& length, const MeshStatistics& mesh);

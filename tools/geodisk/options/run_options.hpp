@@ -42,6 +42,11 @@ struct OutputOptions {
 inline constexpr const char* kSampleFiles =
     "File to write: *.ply, *.csv, *.npz, *.pcd, *.glb, *.gltf,\n"
     "*.usda, *.obj (points, normals) or *.xyz (points)";
+/// The same where a name is not required.
+inline constexpr const char* kSampleFilesOrNone =
+    "File to write: *.ply, *.csv, *.npz, *.pcd, *.glb, *.gltf,\n"
+    "*.usda, *.obj (points, normals) or *.xyz (points); without\n"
+    "it NAME-samples.ply, which replaces no file";
 
 /// Adds -o, described by `summary`.
 void add_output_argument(Command command, OutputOptions& options,

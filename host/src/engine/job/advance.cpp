@@ -26,7 +26,7 @@ Result<std::uint32_t> larger_capacity(const gpu::ControlRec& control, std::uint3
                          std::to_string(capacity * sizeof(gpu::SampleRec)) + " bytes, but " +
                          report.name + " binds at most " +
                          std::to_string(report.limits.max_storage_buffer_range) +
-                         "; raise the minimum distance"};
+                         "; raise the minimum distance, or ask for fewer samples"};
     }
     return static_cast<std::uint32_t>(capacity);
 }

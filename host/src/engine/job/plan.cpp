@@ -86,13 +86,14 @@ Result<Done> check_needs(const WorkspaceNeeds& needs, const Domain::Impl& of,
     for (std::size_t i = 0; i < kBufferRoles; ++i) {
         const bool of_mesh = i == gpu::kBindFaces || i == gpu::kBindFans;
         if (needs.bytes[i] > limit) {
-            return Error{
-                Status::job_too_large,
-                std::string("the buffer ") + of.name_of(static_cast<BufferRole>(i)) + " for " +
-                    std::to_string(candidates) + " candidates" + of.beside_candidates() +
-                    " takes " + std::to_string(needs.bytes[i]) + " bytes, but " + report.name +
-                    " binds at most " + std::to_string(limit) +
-                    (of_mesh ? "; give a mesh of fewer faces" : "; raise the minimum distance")};
+            return Error{Status::job_too_large,
+                         std::string("the buffer ") + of.name_of(static_cast<BufferRole>(i)) +
+                             " for " + std::to_string(candidates) + " candidates" +
+                             of.beside_candidates() + " takes " + std::to_string(needs.bytes[i]) +
+                             " bytes, but " + report.name + " binds at most " +
+                             std::to_string(limit) +
+                             (of_mesh ? "; give a mesh of fewer faces"
+                                      : "; raise the minimum distance, or ask for fewer samples")};
         }
     }
     return Done{};
