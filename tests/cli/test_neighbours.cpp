@@ -74,6 +74,9 @@ TEST_CASE("neighbours of vertices, points and each other") {
           "3,0,1\n3,2,1\n3,3,0\n");
     CHECK(found(folder, {"square.obj", "--within", "1.1", "--vertices", "3, 0-1", "--among",
                          "sources"}) == "source,target,distance\n3,0,1\n0,3,1\n0,1,1\n1,0,1\n");
+    write(folder, "some.txt", "# vertices\r\n3,\n 0-1 # two\n");
+    CHECK(found(folder, {"square.obj", "--within", "1.1", "--vertices", "@some.txt", "--among",
+                         "sources"}) == "source,target,distance\n3,0,1\n0,3,1\n0,1,1\n1,0,1\n");
     write(folder, "points.csv", "x,y,z,reach\n0.5,0.25,0,0.3\n0,1,0,2\n");
     CHECK(found(folder, {"square.obj", "points.csv", "--within", "reach"}) ==
           "source,target,distance\n1,0,1\n1,1,1.4142\n1,2,1\n1,3,0\n");
@@ -200,6 +203,11 @@ TEST_CASE("neighbours that cannot be found are refused, and no file is left") {
     }
     refused(2, "the distance is too small for this mesh", {"--within", "1e-5"});
     refused(2, "--vertices: 'x' is neither", {"--within", "1", "--vertices", "x"});
+    write(folder, "wrong.txt", "1\n2 x\n");
+    refused(3, "wrong.txt: line 2: 'x' is neither", {"--within", "1", "--vertices", "@wrong.txt"});
+    write(folder, "empty.txt", "# none\n");
+    refused(3, "empty.txt: names no vertex", {"--within", "1", "--vertices", "@empty.txt"});
+    refused(3, "gone.txt", {"--within", "1", "--vertices", "@gone.txt"});
     refused(2, "--vertices: '3-1' is neither", {"--within", "1", "--vertices", "3-1"});
     refused(2, "--vertices contradicts POINTS", {"points.csv", "--within", "1", "--vertices", "1"});
     refused(2, "--nearest", {"--within", "1", "--nearest", "0"});

@@ -1,9 +1,13 @@
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <optional>
+#include <sstream>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "files/text_file.hpp"
 #include "geodisk/checks/run_warnings.hpp"
 #include "geodisk/checks/sample_input.hpp"
 #include "geodisk/commands/commands.hpp"
@@ -68,29 +72,68 @@ Within parsed_within(const NeighbourOptions& options) {
     return {{}, options.within};
 }
 
-/// "0,5,17-20".
-std::vector<VertexRange> parsed_vertices(const std::string& text) {
-    std::vector<VertexRange> vertices;
-    const auto fail = [](const std::string& item) {
-        fail_usage("--vertices: " + in_quotes(item) +
-                   " is neither a number nor a range such as 10-20");
-    };
-    for (std::size_t begin = 0; begin <= text.size() && !text.empty();) {
-        const std::size_t end = std::min(text.find(',', begin), text.size());
-        const std::string item(trimmed(std::string_view(text).substr(begin, end - begin)));
-        const std::size_t dash = item.find('-');
-        const auto first = parse_integer<std::uint32_t>(std::string_view(item).substr(0, dash));
-        const auto last =
-            dash == std::string::npos
-                ? first
-                : parse_integer<std::uint32_t>(std::string_view(item).substr(dash + 1));
-        if (!first || !last || *last < *first) {
-            fail(item);
+/// Returns the range of a text such as "5" or "10-20"; nothing for another text.
+std::optional<VertexRange> parsed_range(std::string_view text) {
+    const std::size_t dash = text.find('-');
+    const auto first = parse_integer<std::uint32_t>(text.substr(0, dash));
+    const auto last = dash == std::string_view::npos
+                          ? first
+                          : parse_integer<std::uint32_t>(text.substr(dash + 1));
+    return first && last && *first <= *last ? std::optional(VertexRange{*first, *last})
+                                            : std::nullopt;
+}
+
+std::string no_range_text(std::string_view text) {
+    return in_quotes(std::string(text)) + " is neither a number nor a range such as 10-20";
+}
+
+/// Returns the name of the file of vertices; "" if they are on the command line.
+std::string vertex_file(const NeighbourOptions& options) {
+    return options.vertices.starts_with('@') ? options.vertices.substr(1) : "";
+}
+
+/// Reads numbers and ranges between blanks, commas and lines; '#' begins a comment.
+std::vector<VertexRange> vertices_in(const std::string& file) {
+    std::vector<VertexRange> ranges;
+    std::istringstream text(read_text(file));
+    std::string line;
+    for (std::size_t number = 1; std::getline(text, line); ++number) {
+        line.erase(std::min(line.find('#'), line.size()));
+        std::ranges::replace_if(
+            line, [](char c) { return c == ',' || c == '\r'; }, ' ');
+        std::vector<std::string_view> words;
+        split_tokens(line, words);
+        for (const std::string_view word : words) {
+            const auto range = parsed_range(word);
+            if (!range) {
+                fail_input(file, "line " + std::to_string(number) + ": " + no_range_text(word));
+            }
+            ranges.push_back(*range);
         }
-        vertices.push_back({*first, *last});
+    }
+    if (ranges.empty()) {
+        fail_input(file, "names no vertex");
+    }
+    return ranges;
+}
+
+std::vector<VertexRange> parsed_vertices(const NeighbourOptions& options) {
+    if (const std::string file = vertex_file(options); !file.empty()) {
+        return vertices_in(file);
+    }
+    std::vector<VertexRange> ranges;
+    const std::string_view list = options.vertices;
+    for (std::size_t begin = 0; begin <= list.size() && !list.empty();) {
+        const std::size_t end = std::min(list.find(',', begin), list.size());
+        const std::string_view item = trimmed(list.substr(begin, end - begin));
+        const auto range = parsed_range(item);
+        if (!range) {
+            fail_usage("--vertices: " + no_range_text(item));
+        }
+        ranges.push_back(*range);
         begin = end + 1;
     }
-    return vertices;
+    return ranges;
 }
 
 void check_files(const NeighbourOptions& options) {
@@ -101,6 +144,9 @@ void check_files(const NeighbourOptions& options) {
     }
     if (!options.searched().empty()) {
         read.push_back({"the points to search", options.searched()});
+    }
+    if (const std::string file = vertex_file(options); !file.empty()) {
+        read.push_back({"the vertices", file});
     }
     check_outputs(options.out, "the neighbours", read, [](const Path&) {});
 }
@@ -172,7 +218,7 @@ void run_neighbours(const NeighbourOptions& options) {
     if (!options.points.empty() && !options.vertices.empty()) {
         fail_usage("--vertices contradicts POINTS: sources are either");
     }
-    const std::vector<VertexRange> vertices = parsed_vertices(options.vertices);
+    const std::vector<VertexRange> vertices = parsed_vertices(options);
     constexpr double kMax = 0xffffffffp0;
     const double nearest = options.nearest.empty() ? 0 : parse_count("--nearest", options.nearest);
     const double pairs =
@@ -223,7 +269,8 @@ void add_neighbours_command(Command app) {
                        "Distance along the surface: in mesh units, or 1% of the\n"
                        "diagonal, or the column of POINTS that has one for each");
     command.add_option("--vertices", options->vertices, "LIST",
-                       "Sources are only these vertices, such as 0,5,10-20");
+                       "Sources are only these vertices, such as 0,5,10-20, or @FILE\n"
+                       "with such numbers, separated by blanks or lines");
     command.add_option("--among", options->among, "WHAT",
                        "What to find: vertices (the default), sources (all\n"
                        "others), or the points of a file");
