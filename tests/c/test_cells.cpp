@@ -87,6 +87,32 @@ TEST_CASE("cells are those of C++") {
     CHECK(arrays.triangles == nullptr);
 }
 
+TEST_CASE("cells of a mask are those of C++") {
+    const TestMesh shape = builtin("cube", 2);
+    std::vector<geodisk_surface_point> points;
+    std::vector<Sample> samples;
+    for (std::uint32_t face = 0; face < shape.face_count(); face += 5) {
+        samples.push_back({face, {0.5f, 0.25f, 0.25f}});
+        points.push_back({face, {0.5f, 0.25f, 0.25f}});
+    }
+    std::vector<std::uint8_t> mask(shape.face_count(), 0);
+    mask[3] = mask[8] = 1;
+    CellParams wanted;
+    wanted.face_mask = mask;
+    Runner runner = expect(Runner::create(shared_context().device(), shared_context().queue()));
+    const SurfaceCells expected = expect(find_cells(runner, prepared(shape), samples, wanted));
+    geodisk_cell_params params = params_of(points);
+    params.face_mask = mask.data();
+    geodisk_cells* made = nullptr;
+    REQUIRE(geodisk_find_cells(shared_sampler(), mesh_of(shape).get(), &params, nullptr, nullptr,
+                               &made, nullptr) == GEODISK_OK);
+    const Cells cells(made);
+    geodisk_cell_arrays arrays{};
+    arrays.struct_size = sizeof arrays;
+    REQUIRE(geodisk_cells_describe(cells.get(), &arrays, nullptr) == GEODISK_OK);
+    CHECK(std::vector(arrays.areas, arrays.areas + arrays.sample_count) == expected.areas);
+}
+
 TEST_CASE("cells that cannot be found are refused") {
     const auto mesh = mesh_of(builtin("cube", 2));
     std::vector<geodisk_surface_point> points{{0, {1, 0, 0}}, {9, {0, 1, 0}}};

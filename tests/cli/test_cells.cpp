@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -88,6 +89,17 @@ TEST_CASE("cells: areas and dual graph of the corners of a cube") {
     CHECK(bytes_of(folder / "again.csv") == csv);
     CHECK(run(folder, {"sample", "dual.obj", "-d", "0.5", "-o", "on_dual.csv"}).status == 0);
     CHECK(bytes_of(folder / "dual.npz").find("triangles.npy") != std::string::npos);
+}
+
+TEST_CASE("cells: areas of masked samples sum to the masked area") {
+    const TemporaryFolder folder;
+    const Arguments mask{"--mask", "z>=0"};
+    REQUIRE(run(folder, joined({"sample", "builtin:cube:4", "-o", "top.csv", "-n", "60"}, mask))
+                .status == 0);
+    REQUIRE(run(folder, joined({"cells", "builtin:cube:4", "top.csv", "-o", "areas.csv"}, mask))
+                .status == 0);
+    const std::vector<double> areas = last_column(bytes_of(folder / "areas.csv"), "area");
+    CHECK(std::accumulate(areas.begin(), areas.end(), 0.0) == doctest::Approx(3).epsilon(1e-5));
 }
 
 TEST_CASE("cells: what cannot be found leaves no file") {

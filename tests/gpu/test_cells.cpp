@@ -488,6 +488,33 @@ TEST_SUITE("cells") {
         CHECK(stopped.error().status == Status::cancelled);
     }
 
+    TEST_CASE("have the areas of the faces that a mask takes, as if others had none") {
+        const PreparedMesh knot = prepared(builtin("torus-knot", 8));
+        const std::vector<Sample> samples = samples_at(random_points(knot, 3, 60));
+        std::vector<std::uint8_t> mask(knot.face_count());
+        double taken = 0;
+        for (std::uint32_t face = 0; face < knot.face_count(); ++face) {
+            mask[face] = face % 3 == 0 ? 2 : 0;
+            const HalfEdge& edge = knot.half_edges()[std::size_t{3} * face];
+            taken += mask[face] != 0 ? 0.5 * edge.length * edge.apex_y : 0;
+        }
+        CellParams params;
+        params.face_mask = mask;
+        const SurfaceCells some = expect(find_cells(cells_runner(), knot, samples, params));
+        CHECK(std::accumulate(some.areas.begin(), some.areas.end(), 0.0) ==
+              doctest::Approx(taken).epsilon(1e-5));
+        for (std::uint8_t& byte : mask) {
+            byte = byte == 0;
+        }
+        const SurfaceCells others = expect(find_cells(cells_runner(), knot, samples, params));
+        const SurfaceCells all = expect(find_cells(cells_runner(), knot, samples));
+        for (std::size_t i = 0; i < samples.size(); ++i) {
+            CHECK(some.areas[i] + others.areas[i] == doctest::Approx(all.areas[i]).epsilon(1e-9));
+        }
+        params.face_mask = std::span(mask).first(mask.size() - 1);
+        CHECK_FALSE(find_cells(cells_runner(), knot, samples, params));
+    }
+
     TEST_CASE("that cannot be found are refused") {
         const PreparedMesh cube = prepared(builtin("cube", 2));
         std::vector<Sample> samples = samples_at(random_points(cube, 1, 100));

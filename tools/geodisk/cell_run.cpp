@@ -44,6 +44,7 @@ CellResult run_cells(std::span<const SampleRow> rows, bool has_dual, const MeshI
     CellParams params;
     params.has_dual = has_dual;
     params.max_records = max_records(bytes);
+    params.face_mask = mesh.face_mask;
     auto found = find_cells(device.runner(), mesh.prepared, samples, params,
                             search_progress(progress, "samples"));
     progress.clear();

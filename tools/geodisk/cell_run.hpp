@@ -29,8 +29,8 @@ std::uint64_t max_records(std::uint64_t bytes);
 /// Throws UserError for an error of a search for cells, which was bounded by --memory `bytes`.
 void check_cells(const Error& error, std::uint64_t bytes);
 
-/// Opens the device where need be and finds the cells of the samples in `rows`, with --memory
-/// `bytes`. Throws UserError.
+/// Opens the device where need be and finds the cells of the samples in `rows`, on the faces of the
+/// mesh's mask, with --memory `bytes`. Throws UserError.
 CellResult run_cells(std::span<const SampleRow> rows, bool has_dual, const MeshInput& mesh,
                      RunDevice& device, std::uint64_t bytes, ProgressLine& progress);
 

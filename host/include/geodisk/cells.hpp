@@ -22,6 +22,10 @@ struct CellParams {
     /// Maximum number of records of paths, 36 bytes each on the host. Some 10 to 1,000 per sample
     /// are usual.
     std::uint64_t max_records = std::uint64_t{1} << 27;
+    /// A byte per face: 0 for one whose area counts for no cell, and where no cells touch.
+    /// Distances still cross such faces. Empty to take all faces. Must outlive what is made with
+    /// it.
+    std::span<const std::uint8_t> face_mask{};
 };
 
 /// The shape of a dual graph beside that of the mesh.
@@ -38,7 +42,7 @@ struct DualReport {
 /// The geodesic Voronoi cells of samples.
 struct SurfaceCells {
     /// Area of the cell of each sample, in square mesh units. The areas sum to the area of the
-    /// surface minus `unreached`.
+    /// surface, or of the faces that CellParams::face_mask takes, minus `unreached`.
     std::vector<double> areas;
     /// Maximum error of an area. Includes regions that tie between samples, such as those behind a
     /// saddle vertex.
@@ -60,9 +64,10 @@ struct SurfaceCells {
 /// any memory size. Progress counts samples twice as candidates: when their disks are computed, and
 /// when their cells are. Returns `cancelled` if it asks to stop.
 ///
-/// Errors: `invalid_argument` for no sample; for a sample, naming it, in a face that does not exist
-/// or repeats a vertex or with weights that are negative or do not sum to 1. `job_too_large` for
-/// more than `max_records`, naming how many to expect. Others as Runner::sample_and_wait().
+/// Errors: `invalid_argument` for no sample, or a mask of another size; for a sample, naming it, in
+/// a face that does not exist or repeats a vertex or with weights that are negative or do not sum
+/// to 1. `job_too_large` for more than `max_records`, naming how many to expect. Others as
+/// Runner::sample_and_wait().
 GEODISK_API Result<SurfaceCells> find_cells(Runner& runner, const PreparedMesh& mesh,
                                             std::span<const Sample> samples,
                                             const CellParams& params = {},

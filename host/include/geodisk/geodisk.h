@@ -813,6 +813,7 @@ typedef struct geodisk_cell_params {
     size_t sample_count;
     int32_t areas_only;    /* Not 0: find no edges and triangles. */
     uint64_t max_records; /* Maximum number of records of paths, 36 bytes each; 0 for 2^27. */
+    const uint8_t *face_mask; /* A byte per face: 0 where areas count for no cell; NULL for all. */
 } geodisk_cell_params;
 
 /* The geodesic Voronoi cells of samples: what is nearer to each one than to all others. */
@@ -832,8 +833,8 @@ typedef struct geodisk_cell_arrays {
     size_t sample_count;
     size_t edge_count;
     size_t triangle_count;
-    const double *areas;       /* Area of each cell. They sum to the area of the mesh minus
-                                * `unreached`. */
+    const double *areas;       /* Area of each cell. They sum to the area of the mesh, or of the
+                                * faces of the mask, minus `unreached`. */
     const uint32_t *edges;     /* Pairs of samples whose cells touch: the lower one first. */
     const uint32_t *triangles; /* Three samples for each place where their cells meet. */
     double area_error;         /* Maximum error of an area. */

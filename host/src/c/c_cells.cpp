@@ -17,13 +17,16 @@ struct geodisk_cells {
 namespace geodisk::c {
 namespace {
 
-Result<CellParams> params_of(const geodisk_cell_params& params) {
+Result<CellParams> params_of(const geodisk_mesh& mesh, const geodisk_cell_params& params) {
     if (params.samples == nullptr && params.sample_count != 0) {
         return wrong("params->samples is NULL");
     }
     CellParams cells;
     cells.has_dual = params.areas_only == 0;
     cells.max_records = params.max_records == 0 ? cells.max_records : params.max_records;
+    if (params.face_mask != nullptr) {
+        cells.face_mask = {params.face_mask, mesh.shared->prepared.face_count()};
+    }
     return cells;
 }
 
@@ -44,7 +47,7 @@ geodisk_status geodisk_find_cells(geodisk_sampler* sampler, const geodisk_mesh* 
         }
         const auto wanted = taken(params, "params");
         GEODISK_TRY(wanted);
-        const auto cell_params = params_of(*wanted);
+        const auto cell_params = params_of(*mesh, *wanted);
         GEODISK_TRY(cell_params);
         auto found = search(state, progress, user, [&](const ProgressCallback& heard) {
             return find_cells(state.runner, mesh->shared->prepared,

@@ -11,6 +11,7 @@
 #include "geodisk/commands/help_text.hpp"
 #include "geodisk/inputs/mesh_input.hpp"
 #include "geodisk/opened_device.hpp"
+#include "geodisk/options/mask_options.hpp"
 #include "geodisk/options/mesh_options.hpp"
 #include "geodisk/options/run_options.hpp"
 #include "geodisk/options/tolerance_option.hpp"
@@ -31,6 +32,7 @@ constexpr const char* kCellsExamples[] = {
 
 struct CellOptions {
     MeshOptions mesh;
+    MaskOptions mask;
     OutputOptions out;
     RunOptions run;
     std::string samples, dual, tolerance;
@@ -39,6 +41,7 @@ struct CellOptions {
 void check_files(const CellOptions& options) {
     std::vector<NamedFile> read{{"the samples read", options.samples}};
     options.mesh.add_files(read, "the mesh");
+    options.mask.add_files(read);
     std::vector<NamedFile> further;
     if (!options.dual.empty()) {
         dual_format(options.dual);
@@ -85,7 +88,12 @@ void run_cells_command(const CellOptions& options) {
     check_files(options);
 
     ProgressLine progress(options.out.quiet);
-    const MeshInput mesh = load_mesh(options.mesh, progress);
+    const MeshInput mesh = load_mesh(options.mesh, progress, {}, options.mask);
+    if (mesh.split) {
+        fail_usage(
+            "--mask: the image shows more than the corners of faces; split the faces where it "
+            "has detail");
+    }
     check_dimension(options.out.target(), mesh.dimension());
     check_dual_dimension(options, mesh.dimension());
     std::vector<MeshWarning> warnings;
@@ -150,6 +158,7 @@ void add_cells_command(Command app) {
                        "triangle where three cells meet) or *.npz (arrays points,\n"
                        "edges, triangles)");
     add_mesh_options(command, options->mesh);
+    add_mask_options(command, options->mask, OptionUse::checking);
     add_tolerance_option(command, options->tolerance);
     add_output_options(command, options->out);
     add_device_options(command, options->run.device);

@@ -7,13 +7,13 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from . import _library as c
 from . import _structs as s
 from ._devices import DeviceLike, name_of
 from ._existing import ExistingLike, points_of
-from ._mesh import Mesh, mesh_of
+from ._mesh import Mesh, mask_of, mesh_of
 from ._protocols import MeshLike
 from ._running import ProgressCallback
 from ._searching import search
@@ -28,7 +28,8 @@ class Cells:
     Attributes
     ----------
     area : ndarray of float64, shape (n,)
-        Area of the cell of each sample. They sum to the area of the mesh, without `unreached`.
+        Area of the cell of each sample. They sum to the area of the mesh, or of the faces of the mask,
+        without `unreached`.
     edges : ndarray of uint32, shape (e, 2)
         Pairs of samples whose cells touch along a line, the lower sample first.
     triangles : ndarray of uint32, shape (t, 3)
@@ -67,6 +68,7 @@ def cells(
     samples: ExistingLike,
     *,
     dual: bool = True,
+    face_mask: ArrayLike | None = None,
     max_records: int = 2**27,
     device: DeviceLike | None = None,
     progress: bool | ProgressCallback = False,
@@ -82,6 +84,9 @@ def cells(
         place the first has the cell.
     dual : bool
         Find edges and triangles too.
+    face_mask : array_like of bool, shape (f,), or of int, optional
+        Faces whose areas count, and where cells touch; as for :func:`sample`. Distances still cross
+        the others.
     max_records : int
         Fail if the disks of the samples have more records of paths, 36 bytes each.
     device, progress
@@ -111,11 +116,13 @@ def cells(
     """
     on = mesh_of(mesh, None, None, False)
     points = points_of(on._surface, samples, "samples", is_needed=True)
+    mask = None if face_mask is None else mask_of(on._surface, face_mask)
     params = s.CellParams(
         samples=points.ctypes.data,
         sample_count=len(points),
         areas_only=int(not flag(dual, "dual")),
         max_records=integer(max_records, "max_records", 2**64 - 1, 1),
+        face_mask=None if mask is None else mask.ctypes.data,
     )
     handle = search("cells", "geodisk_find_cells", on, params, name_of(device), progress)
     told = s.CellArrays()

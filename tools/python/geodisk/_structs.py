@@ -302,6 +302,7 @@ class CellParams(_Sized):
         ("sample_count", c_size_t),
         ("areas_only", c_int32),
         ("max_records", c_uint64),
+        ("face_mask", c_void_p),
     ]
 
 

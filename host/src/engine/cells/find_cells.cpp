@@ -66,7 +66,8 @@ void CellSearch::split(std::uint32_t part, FoundCells& found) const {
     const std::uint32_t first = part * kFacesPerPart;
     const std::uint32_t end = std::min(first + kFacesPerPart, mesh_.face_count());
     for (std::uint32_t face = first; face < end; ++face) {
-        if (has_area(mesh_, face)) {
+        const std::span<const std::uint8_t> mask = samples_.params.face_mask;
+        if (has_area(mesh_, face) && (mask.empty() || mask[face] != 0)) {
             splitter.split(face, found);
         }
     }

@@ -58,6 +58,10 @@ Result<std::unique_ptr<LitSamples>> LitSamples::make(Runner& runner, const Prepa
                                                      const CellParams& params,
                                                      const ProgressCallback& progress) {
     GEODISK_TRY(check_samples(mesh, samples));
+    if (!params.face_mask.empty() && params.face_mask.size() != mesh.face_count()) {
+        return invalid("the face mask is for " + std::to_string(params.face_mask.size()) +
+                       " faces, the mesh has " + std::to_string(mesh.face_count()));
+    }
     auto made = std::make_unique<LitSamples>();
     made->params = params;
     made->progress = progress;
