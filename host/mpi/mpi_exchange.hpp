@@ -10,7 +10,7 @@
 
 #include <mpi.h>
 
-#include "parts/exchange.hpp"
+#include <geodisk/exchange.hpp>
 
 namespace geodisk {
 

@@ -29,7 +29,7 @@ Result<SharedSamples> sample_together(MPI_Comm communicator, Runner& runner,
         }
         auto result = sample_parts(**exchange, runner, whole ? &*whole : nullptr, progress);
         GEODISK_TRY(result);
-        return SharedSamples{std::move(result->set), std::move(result->processes)};
+        return result;
     });
 }
 

@@ -7,13 +7,13 @@
 #include <string_view>
 #include <type_traits>
 
+#include <geodisk/exchange.hpp>
 #include <geodisk/fields.hpp>
 #include <geodisk/job_frame.hpp>
 #include <geodisk/version.hpp>
 
 #include "files/input_file.hpp"
 #include "files/output/output_file.hpp"
-#include "parts/part_bytes.hpp"
 #include "program/failure.hpp"
 #include "support/checksums.hpp"
 

@@ -5,8 +5,9 @@
 #include <optional>
 #include <string>
 
+#include <geodisk/checkpoint.hpp>
+
 #include "checkpoint_file.hpp"
-#include "parts/checkpoint.hpp"
 #include "program/command.hpp"
 #include "program/failure.hpp"
 #include "program/path.hpp"

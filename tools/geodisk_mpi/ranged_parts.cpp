@@ -145,9 +145,9 @@ Result<RangedParts> RangedParts::read(MPI_Comm communicator, const MpiExchange::
     return well ? Result<RangedParts>(std::move(made)) : well.error();
 }
 
-Result<PartsResult> RangedParts::sample(Runner& runner, const SampleParams& params,
-                                        const Checkpoints* checkpoints,
-                                        const ProgressCallback& progress) {
+Result<SharedSamples> RangedParts::sample(Runner& runner, const SampleParams& params,
+                                          const Checkpoints* checkpoints,
+                                          const ProgressCallback& progress) {
     return all([&](Lane& lane) {
         return sample_ranges(*lane.exchange, runner, *lane.surface, params,
                              lane.exchange->rank() == 0 ? checkpoints : nullptr, progress);

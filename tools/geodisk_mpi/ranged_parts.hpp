@@ -44,8 +44,8 @@ class RangedParts {
     const RangedSurface& surface() const { return *lanes_.front().surface; }
 
     /// As sample_ranges().
-    Result<PartsResult> sample(Runner& runner, const SampleParams& params,
-                               const Checkpoints* checkpoints, const ProgressCallback& progress);
+    Result<SharedSamples> sample(Runner& runner, const SampleParams& params,
+                                 const Checkpoints* checkpoints, const ProgressCallback& progress);
 
     /// Returns the places of some faces and their radii, without spreads. They are given in
     /// ascending order, each with corners of its own: all at one process, nothing elsewhere.

@@ -6,11 +6,11 @@
 #include <span>
 #include <vector>
 
+#include <geodisk/exchange.hpp>
 #include <geodisk/sample.hpp>
 #include <geodisk/status.hpp>
 
 #include "files/samples/row_format.hpp"
-#include "parts/exchange.hpp"
 #include "ranged_parts.hpp"
 
 namespace geodisk::tools {

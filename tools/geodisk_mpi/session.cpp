@@ -6,13 +6,13 @@
 #include <optional>
 #include <utility>
 
+#include <geodisk/checkpoint.hpp>
 #include <geodisk/fields.hpp>
 #include <geodisk/version.hpp>
 
 #include "cut_surface.hpp"
 #include "files/output/output_target.hpp"
 #include "geodisk/sample_run.hpp"
-#include "mesh/mesh_digest.hpp"
 #include "parts/sample_parts.hpp"
 #include "ply_range.hpp"
 #include "program/command_text.hpp"
@@ -198,22 +198,21 @@ Result<SampleSet> Session::sample(Runner& runner, const RequestStep& step,
                                   const ProgressCallback& progress) {
     const Checkpoints* checkpoints = nullptr;
     if (checkpoints_ != nullptr) {
-        const std::uint64_t mesh = ranges_
-                                       ? ranges()->statistics().digest
-                                       : mesh_digest(*step.surface) + fields_digest(step.params);
+        const std::uint64_t mesh =
+            ranges_ ? ranges()->statistics().digest : surface_digest(*step.surface, step.params);
         const JobFrame frame =
             take(ranges_ ? ranges()->frame(step.params) : frame_of(*step.surface, step.params));
         checkpoints = &checkpoints_->begin({mesh, job_digest(frame, step.params)});
     }
     next(ranges_ ? Task::sample_ranges : Task::sample_whole);
-    auto result = together([&]() -> Result<PartsResult> {
+    auto result = together([&]() -> Result<SharedSamples> {
         if (auto well = exchange_->check_all(nullptr); !well) {
             return well.error();
         }
         if (ranges_) {
             const auto job = all_hear(*exchange_, numbers_of(step.params));
             return job ? ranges_->sample(runner, *job, checkpoints, progress)
-                       : Result<PartsResult>(job.error());
+                       : Result<SharedSamples>(job.error());
         }
         const Cut cut = cut_surface;
         WholeSurface whole{*step.surface, step.params, cut};

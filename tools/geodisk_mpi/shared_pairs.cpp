@@ -6,7 +6,6 @@
 
 #include "cut_surface.hpp"
 #include "parts/halo.hpp"
-#include "parts/part_bytes.hpp"
 #include "program/failure.hpp"
 #include "program/interrupt.hpp"
 #include "status_of.hpp"

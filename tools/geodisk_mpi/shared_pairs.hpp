@@ -3,11 +3,11 @@
 
 #include <vector>
 
+#include <geodisk/exchange.hpp>
 #include <geodisk/status.hpp>
 
 #include "geodisk/checks/near_pairs.hpp"
 #include "geodisk/outputs/progress.hpp"
-#include "parts/exchange.hpp"
 
 namespace geodisk::tools {
 

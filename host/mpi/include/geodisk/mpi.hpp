@@ -14,14 +14,6 @@
 
 namespace geodisk {
 
-/// Samples of many processes, at process 0 of the communicator. Empty on the others.
-struct SharedSamples {
-    /// Samples of the whole surface: the set that Runner::sample_and_wait() returns for it. In its
-    /// report, work adds up over all processes; seconds are those of process 0.
-    SampleSet set;
-    std::vector<ProcessReport> processes; ///< Share of each process.
-};
-
 /// Samples a surface by all processes of a communicator, which all call it. Process 0 gives the
 /// mesh and the parameters; on the others both are null. It divides the surface and sends each
 /// process its part. The samples do not depend on the number of processes, nor on their devices;

@@ -14,6 +14,7 @@
 
 #include "engine/domain/check_frame.hpp"
 #include "engine/domain/existing.hpp"
+#include "engine/domain/listed.hpp"
 #include "engine/update/dart_set.hpp"
 #include "engine/update/face_set.hpp"
 #include "engine/update/live_mesh.hpp"

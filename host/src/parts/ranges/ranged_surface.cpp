@@ -88,8 +88,11 @@ Result<RangedSurface> RangedSurface::create(Exchange& exchange, MeshRange range)
             range.values = {};
             range.vertex_mask = {};
             range.face_mask = {};
-            surface.statistics_ = {findings.statistics, 0, findings.turned_edges,
-                                   findings.digest + surface.fields_.digest()};
+            surface.statistics_ = {
+                findings.statistics,           0,
+                findings.turned_edges,         findings.digest + surface.fields_.digest(),
+                surface.fields_.areas().taken, surface.fields_.borders(),
+                surface.fields_.masked_faces()};
             const auto owners = divide_by_curve(talk, range, std::move(faces), findings,
                                                 surface.fields_.areas().taken);
             surface.faces_ = own_faces_of(talk, range, owners);
