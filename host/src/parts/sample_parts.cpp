@@ -3,19 +3,18 @@
 #include <algorithm>
 #include <cstring>
 #include <optional>
-#include <string>
 #include <type_traits>
 #include <utility>
 
 #include "engine/domain/existing.hpp"
 #include "engine/domain/listed.hpp"
+#include "parts/cut.hpp"
 #include "parts/decide_stages.hpp"
 #include "parts/mesh_turn.hpp"
 #include "parts/part.hpp"
 #include "parts/part_run.hpp"
 #include "parts/peak_memory.hpp"
 #include "support/guard.hpp"
-#include "support/invalid.hpp"
 #include "support/try.hpp"
 
 namespace geodisk {
@@ -35,12 +34,7 @@ const Error* error_of(const Result<T>& result) {
 
 Result<std::vector<Bytes>> parts_of(const WholeSurface& whole, std::uint32_t processes) {
     return guarded([&]() -> Result<std::vector<Bytes>> {
-        const std::uint32_t faces = whole.mesh.face_count();
-        if (processes > faces) {
-            return invalid("there are " + std::to_string(processes) +
-                           " processes, but the mesh has " + std::to_string(faces) +
-                           " faces; start at most as many processes");
-        }
+        GEODISK_TRY(check_processes(whole.mesh, processes));
         // Before the cut, which relies on them.
         GEODISK_TRY(frame_of(whole.mesh, whole.params));
         const auto owners = whole.cut(whole.mesh, whole.params, processes);

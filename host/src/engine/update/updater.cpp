@@ -1,5 +1,3 @@
-#include <geodisk/update.hpp>
-
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -10,6 +8,7 @@
 #include <vector>
 
 #include <geodisk/domain.hpp>
+#include <geodisk/update.hpp>
 #include <geodisk/weld.hpp>
 
 #include "engine/domain/check_frame.hpp"

@@ -48,27 +48,6 @@ class Talk {
         return records;
     }
 
-    /// Returns the records that the first process has for this one. It gives some for each process,
-    /// the others nothing.
-    template <class Record>
-    std::vector<Record> scatter(const ByProcess<Record>& records) {
-        std::vector<Bytes> messages;
-        for (const auto& some : records) {
-            messages.push_back(bytes_of(std::span<const Record>(some)));
-        }
-        return records_of<Record>(value(exchange_.scatter(std::move(messages))));
-    }
-
-    /// Returns the records of each process at the first one, nothing elsewhere.
-    template <class Record>
-    ByProcess<Record> gather(std::span<const Record> own) {
-        ByProcess<Record> of_all;
-        for (const Bytes& message : value(exchange_.gather(bytes_of(own)))) {
-            of_all.push_back(records_of<Record>(message));
-        }
-        return of_all;
-    }
-
     /// Returns what each process gives.
     template <class Record>
     std::vector<Record> all(const Record& own) {
