@@ -2,7 +2,11 @@
 
 #include <algorithm>
 
+#include "geodisk/mpi.hpp"
 #include "parts/cut.hpp"
+#include "parts/halo.hpp"
+#include "support/guard.hpp"
+#include "support/try.hpp"
 
 namespace geodisk {
 namespace {
@@ -19,13 +23,36 @@ bool all_have_faces(std::span<const std::uint32_t> parts, std::uint32_t count) {
 
 Result<std::vector<std::uint32_t>> cut_surface(const PreparedMesh& mesh, const SampleParams& params,
                                                std::uint32_t processes) {
-    return cut_by_work(mesh, work_of_faces(mesh, params), processes);
+    return divide_faces(mesh, work_of_faces(mesh, params), processes);
 }
 
-Result<std::vector<std::uint32_t>>
-cut_by_work(const PreparedMesh& mesh, std::span<const double> work, std::uint32_t processes) {
-    std::vector<std::uint32_t> parts = metis_parts(mesh, work, processes);
-    return all_have_faces(parts, processes) ? parts : grown_parts(mesh, work, processes);
+Result<std::vector<std::uint32_t>> divide_faces(const PreparedMesh& mesh,
+                                                std::span<const double> work,
+                                                std::uint32_t processes) noexcept {
+    return guarded([&]() -> Result<std::vector<std::uint32_t>> {
+        GEODISK_TRY(check_processes(mesh, processes));
+        std::vector<std::uint32_t> parts = metis_parts(mesh, work, processes);
+        return all_have_faces(parts, processes) ? parts : grown_parts(mesh, work, processes);
+    });
+}
+
+Result<std::vector<std::uint32_t>> faces_within(const PreparedMesh& mesh,
+                                                std::span<const std::uint8_t> is_marked,
+                                                double reach) noexcept {
+    return guarded([&]() -> Result<std::vector<std::uint32_t>> {
+        std::vector<double> distances;
+        if (reach > 0) {
+            distances = distances_from(mesh, is_marked, reach);
+        }
+        std::vector<std::uint32_t> faces;
+        for (std::uint32_t face = 0; face < mesh.face_count(); ++face) {
+            if (is_marked[face] != 0 ||
+                (reach > 0 && nearest_corner(mesh, distances, face) <= reach)) {
+                faces.push_back(face);
+            }
+        }
+        return faces;
+    });
 }
 
 } // namespace geodisk

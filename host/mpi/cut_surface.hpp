@@ -16,10 +16,6 @@ namespace geodisk {
 Result<std::vector<std::uint32_t>> cut_surface(const PreparedMesh& mesh, const SampleParams& params,
                                                std::uint32_t processes);
 
-/// The same, where each face has this much work. It sums to 1.
-Result<std::vector<std::uint32_t>>
-cut_by_work(const PreparedMesh& mesh, std::span<const double> work, std::uint32_t processes);
-
 /// Returns the part of each face, as METIS chooses it. Empty if it has no answer, or is not there.
 std::vector<std::uint32_t> metis_parts(const PreparedMesh& mesh, std::span<const double> work,
                                        std::uint32_t parts);

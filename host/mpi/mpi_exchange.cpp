@@ -37,12 +37,6 @@ struct MpiExchange::Channel {
     std::uint64_t times = 0; ///< How often sums were complete.
 };
 
-Result<std::unique_ptr<MpiExchange>> MpiExchange::create(MPI_Comm communicator,
-                                                         const GoesOn& goes_on) {
-    auto lanes = create_lanes(communicator, 1, goes_on);
-    return lanes ? Result<std::unique_ptr<MpiExchange>>(std::move(lanes->front())) : lanes.error();
-}
-
 Result<std::vector<std::unique_ptr<MpiExchange>>>
 MpiExchange::create_lanes(MPI_Comm communicator, std::uint32_t lanes, const GoesOn& goes_on) {
     MPI_Comm own = MPI_COMM_NULL;

@@ -10,7 +10,7 @@
 
 #include <mpi.h>
 
-#include "parts/exchange.hpp"
+#include <geodisk/exchange.hpp>
 
 namespace geodisk {
 
@@ -21,14 +21,10 @@ class MpiExchange : public Exchange {
     /// Is asked while it waits. Returns false to stop with Status::cancelled.
     using GoesOn = std::function<bool()>;
 
-    /// All processes of the communicator make one.
-    static Result<std::unique_ptr<MpiExchange>> create(MPI_Comm communicator,
-                                                       const GoesOn& goes_on);
-    /// All processes make so many, up to kMaxLanes, each for a thread of its own. Several need
+    /// All processes of the communicator make so many, each for a thread of its own. Several need
     /// MPI_THREAD_SERIALIZED.
     static Result<std::vector<std::unique_ptr<MpiExchange>>>
     create_lanes(MPI_Comm communicator, std::uint32_t lanes, const GoesOn& goes_on);
-    static constexpr std::uint32_t kMaxLanes = 128;
 
     ~MpiExchange() override;
 

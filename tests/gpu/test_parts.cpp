@@ -34,13 +34,13 @@ Result<std::vector<std::uint32_t>> scattered(const PreparedMesh& mesh, const Sam
     return parts;
 }
 
-Result<PartsResult> in_parts(const PreparedMesh& mesh, const SampleParams& params,
-                             std::uint32_t count, const Cut& cut, double max_candidates,
-                             const Checkpoints* checkpoints = nullptr) {
+Result<SharedSamples> in_parts(const PreparedMesh& mesh, const SampleParams& params,
+                               std::uint32_t count, const Cut& cut, double max_candidates,
+                               const Checkpoints* checkpoints = nullptr) {
     static const auto sampler =
         std::make_shared<const Sampler>(expect(Sampler::create(shared_context().device())));
     const WholeSurface whole{mesh, params, cut, max_candidates, checkpoints};
-    std::vector<std::optional<Result<PartsResult>>> results(count);
+    std::vector<std::optional<Result<SharedSamples>>> results(count);
     run_threads(count, [&](Exchange& exchange) {
         auto runner = Runner::create(sampler, shared_context().queue());
         if (runner) {
@@ -64,7 +64,7 @@ void check_parts(const PreparedMesh& mesh, const SampleParams& params,
     const SampleSet whole = sample(mesh, params);
     for (const std::uint32_t count : counts) {
         CAPTURE(count);
-        const PartsResult result = expect(in_parts(mesh, params, count, cut, max_candidates));
+        const SharedSamples result = expect(in_parts(mesh, params, count, cut, max_candidates));
         CHECK(points_of(result.set) == points_of(whole));
         CHECK(result.set.existing == whole.existing);
         CHECK(result.set.report.guard == whole.report.guard);
@@ -86,7 +86,7 @@ void check_resumed(const PreparedMesh& mesh, const SampleParams& params, std::si
                                  saved.push_back(checkpoint);
                                  return Done{};
                              }};
-    const PartsResult first = expect(in_parts(mesh, params, 3, grown, 0x1p26, &saving));
+    const SharedSamples first = expect(in_parts(mesh, params, 3, grown, 0x1p26, &saving));
     CHECK(points_of(first.set) == points_of(whole));
     CHECK(saved.size() >= least);
     CHECK(saved.back().first_stage == kNoStage);
@@ -94,7 +94,7 @@ void check_resumed(const PreparedMesh& mesh, const SampleParams& params, std::si
     for (const Checkpoint& checkpoint : saved) {
         CAPTURE(checkpoint.first_stage);
         const Checkpoints resuming{&checkpoint, {}};
-        const PartsResult result =
+        const SharedSamples result =
             expect(in_parts(mesh, params, 1 + count++ % 4, grown, 0x1p26, &resuming));
         CHECK(points_of(result.set) == points_of(whole));
         CHECK(result.set.report.candidates == whole.report.candidates);

@@ -10,7 +10,9 @@
 #include <utility>
 #include <vector>
 
-#include "mesh/mesh_digest.hpp"
+#include <geodisk/checkpoint.hpp>
+#include <geodisk/mesh_range.hpp>
+
 #include "parts/mesh_turn.hpp"
 #include "parts/ranges/nearest_place.hpp"
 #include "parts/ranges/ranged_surface.hpp"
@@ -46,7 +48,7 @@ struct Sheet {
         MeshRange range;
         range.faces = {face_count(), processes};
         range.vertices = {positions.size() / 3, processes};
-        const auto copy = [process](const Blocks& blocks, const auto& from, auto& to) {
+        const auto copy = [process](const MeshBlocks& blocks, const auto& from, auto& to) {
             const auto first =
                 from.begin() + static_cast<std::ptrdiff_t>(3 * blocks.first(process));
             to.assign(first, first + static_cast<std::ptrdiff_t>(3 * blocks.size(process)));
@@ -83,7 +85,7 @@ struct Fields {
         }
     }
     void add_to(MeshRange& range, std::uint32_t process) const {
-        const auto copy = [process](const Blocks& blocks, const auto& from, auto& to) {
+        const auto copy = [process](const MeshBlocks& blocks, const auto& from, auto& to) {
             for (std::uint64_t i = 0; i < blocks.size(process) && !from.empty(); ++i) {
                 to.push_back(from[blocks.first(process) + i]);
             }
@@ -143,8 +145,8 @@ std::vector<Ranged> ranged(const Sheet& sheet, const Fields& fields, SampleParam
             return;
         }
         Ranged& found = all[exchange.rank()];
-        found.area = surface->effective_area();
-        found.borders = surface->borders();
+        found.area = surface->statistics().effective_area;
+        found.borders = surface->statistics().borders;
         found.min_factor = surface->radii() != nullptr ? surface->radii()->min_factor() : 1;
         found.digest = surface->statistics().digest;
         auto part = surface->part(exchange, params, *frame, 0x1p26, CheckpointTerms());
@@ -233,7 +235,7 @@ TEST_SUITE("parts") {
                         REQUIRE(found.part);
                         const Part& part = *found.part;
                         CHECK(part.frame == frame);
-                        CHECK(found.digest == mesh_digest(mesh) + fields_digest(params));
+                        CHECK(found.digest == surface_digest(mesh, params));
                         CHECK(found.area == effective_area(mesh, params));
                         CHECK(distance_for_count(found.area, found.borders, 200) ==
                               distance_for_count(mesh, params, 200));

@@ -9,7 +9,7 @@
 #include <mutex>
 #include <utility>
 
-#include "parts/exchange.hpp"
+#include <geodisk/exchange.hpp>
 
 namespace geodisk::test {
 

@@ -3,10 +3,10 @@
 
 #include <cstdint>
 
+#include <geodisk/checkpoint.hpp>
 #include <geodisk/job_frame.hpp>
 #include <geodisk/params.hpp>
 
-#include "parts/checkpoint.hpp"
 #include "program/path.hpp"
 
 namespace geodisk::tools {
@@ -14,7 +14,7 @@ namespace geodisk::tools {
 /// Digests of the job of a checkpoint. They are equal only if all that the samples depend on is
 /// equal.
 struct JobDigests {
-    std::uint64_t mesh = 0;    ///< mesh_digest() and fields_digest(), added up.
+    std::uint64_t mesh = 0;    ///< surface_digest().
     std::uint64_t options = 0; ///< job_digest().
 };
 

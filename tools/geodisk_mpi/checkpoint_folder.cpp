@@ -36,7 +36,8 @@ void add_checkpoint_options(Command command, CheckpointOptions& options) {
 }
 
 CheckpointFolder::CheckpointFolder(const CheckpointOptions& options, bool is_quiet)
-    : folder_(options.folder), resumes_(options.resumes), is_quiet_(is_quiet) {
+    : folder_(options.folder), stages_(options.stages), resumes_(options.resumes),
+      is_quiet_(is_quiet) {
     if (resumes_ && !is_there(path(1))) {
         fail_usage("--resume: " + options.folder +
                    " has no checkpoint; leave --resume out to begin");
@@ -52,46 +53,31 @@ CheckpointFolder::CheckpointFolder(const CheckpointOptions& options, bool is_qui
         fail_output(options.folder + ": cannot be made: " + error.message());
     }
     check_writable(path(1));
-    checkpoints_.stages = options.stages;
 }
 
 Path CheckpointFolder::path(std::uint32_t number) const {
     return folder_ / Path("geodisk-" + std::to_string(number) + ".checkpoint");
 }
 
-const Checkpoints& CheckpointFolder::begin(const JobDigests& job) {
+const Checkpoint* CheckpointFolder::begin(const JobDigests& job) {
     ++number_;
     job_ = job;
-    checkpoints_.save = [this](const Checkpoint& checkpoint) { return save(checkpoint); };
-    checkpoints_.from = nullptr;
-    if (resumes_ && is_there(path(number_))) {
-        last_ = read_checkpoint(path(number_), job_);
-        checkpoints_.from = &last_;
-        if (!is_quiet_) {
-            std::cerr << "going on from " << grouped(last_.samples.size()) << " samples of "
-                      << (last_.first_stage == kNoStage
-                              ? "all stages"
-                              : counted(last_.first_stage, "stage", "stages"))
-                      << '\n';
-        }
+    if (!resumes_ || !is_there(path(number_))) {
+        return nullptr;
     }
-    return checkpoints_;
+    last_ = read_checkpoint(path(number_), job_);
+    if (!is_quiet_) {
+        std::cerr << "going on from " << grouped(last_.samples.size()) << " samples of "
+                  << (last_.first_stage == kNoStage ? "all stages"
+                                                    : counted(last_.first_stage, "stage", "stages"))
+                  << '\n';
+    }
+    return &last_;
 }
 
-Result<Done> CheckpointFolder::save(const Checkpoint& checkpoint) {
-    try {
-        write_checkpoint(path(number_), job_, checkpoint);
-        return Done{};
-    } catch (const UserError& error) {
-        failure_ = error;
-        return Error{Status::internal, error.what()};
-    }
-}
-
-void CheckpointFolder::check() const {
-    if (failure_) {
-        throw *failure_;
-    }
+Done CheckpointFolder::save(const Checkpoint& checkpoint) const {
+    write_checkpoint(path(number_), job_, checkpoint);
+    return {};
 }
 
 void CheckpointFolder::remove() {

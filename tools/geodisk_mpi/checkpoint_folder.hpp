@@ -2,13 +2,13 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <string>
 
+#include <geodisk/checkpoint.hpp>
+#include <geodisk/status.hpp>
+
 #include "checkpoint_file.hpp"
-#include "parts/checkpoint.hpp"
 #include "program/command.hpp"
-#include "program/failure.hpp"
 #include "program/path.hpp"
 
 namespace geodisk::tools {
@@ -30,27 +30,26 @@ class CheckpointFolder {
     /// there but not to be resumed, or the other way round, and UserError(bad_output).
     CheckpointFolder(const CheckpointOptions& options, bool is_quiet);
 
-    /// Begins the next surface. Returns where it begins and how it is saved; valid until the next
-    /// call. Throws UserError, as read_checkpoint() does.
-    const Checkpoints& begin(const JobDigests& job);
-
-    /// Throws what saving threw, once all processes have ended by it.
-    void check() const;
+    /// Begins the next surface. Returns the checkpoint to continue from, or null; valid until the
+    /// next call. Throws UserError, as read_checkpoint() does.
+    const Checkpoint* begin(const JobDigests& job);
+    /// Saves a checkpoint of the surface. Throws UserError(bad_output).
+    Done save(const Checkpoint& checkpoint) const;
+    /// Returns the number of stages from one checkpoint to the next.
+    std::uint32_t stages() const { return stages_; }
 
     /// Removes all checkpoints, once their result is written.
     void remove();
 
   private:
     Path path(std::uint32_t number) const;
-    Result<Done> save(const Checkpoint& checkpoint);
 
     Path folder_;
+    std::uint32_t stages_;
     bool resumes_, is_quiet_;
     std::uint32_t number_ = 0; ///< Number of the current surface, from 1.
     JobDigests job_;
-    Checkpoint last_;
-    Checkpoints checkpoints_;
-    std::optional<UserError> failure_;
+    Checkpoint last_; ///< Checkpoint to continue from.
 };
 
 } // namespace geodisk::tools

@@ -12,7 +12,6 @@
 
 #include "files/meshes/ply_fields.hpp"
 #include "files/ply_file.hpp"
-#include "parts/ranges/talk.hpp"
 #include "program/failure.hpp"
 
 namespace geodisk::tools {
@@ -315,19 +314,10 @@ MeshRange read_range(const Path& path, const PlyLayout& layout, const RangeWants
     return range;
 }
 
-/// Raises factors to the floor, unless none is above 0, of which reading the whole tells.
-void raise_to_floor(Talk& talk, const RangeWants& wants, MeshRange& range) {
-    if (!wants.density || !wants.density->floor) {
-        return;
-    }
-    const double floor = *wants.density->floor;
-    const bool has_any = std::ranges::any_of(range.values, [](double g) { return g != 0; });
-    if (talk.sum(has_any ? 1 : 0) == 0) {
-        return;
-    }
-    for (double& g : range.values) {
-        g = g >= 0 ? std::max(g, floor) : g;
-    }
+/// Returns true if some value of a process is a factor that can be raised to the floor.
+bool has_factors(const RangeWants& wants, const MeshRange& range) {
+    return wants.density && wants.density->floor &&
+           std::ranges::any_of(range.values, [](double g) { return g != 0; });
 }
 
 } // namespace
@@ -341,32 +331,40 @@ std::uint64_t ply_faces(const Path& path) {
 }
 
 Result<MeshRange> read_ply_range(Exchange& exchange, const Path& path, const RangeWants& wants) {
-    return caught([&]() -> Result<MeshRange> {
-        Talk talk(exchange);
-        std::optional<Error> error;
-        const FileState before = state_of(path);
-        MeshRange range;
-        try {
-            range = read_range(path, layout_of(path, before.size, wants), wants, talk.rank(),
-                               talk.size());
-        } catch (const NeedsWhole& needs) {
-            error = Error{Status::mesh_rejected, needs.why};
+    std::optional<Error> needs_whole;
+    const FileState before = state_of(path);
+    MeshRange range;
+    try {
+        range = read_range(path, layout_of(path, before.size, wants), wants, exchange.rank(),
+                           exchange.size());
+    } catch (const NeedsWhole& needs) {
+        needs_whole = Error{Status::mesh_rejected, needs.why};
+    }
+    const std::array states{before, state_of(path)};
+    const auto all_states = exchange.all_gather(states);
+    if (!all_states) {
+        return all_states.error();
+    }
+    for (const auto& [first, last] : *all_states) {
+        if (first != states[0] || last != states[0]) {
+            return Error{Status::invalid_argument,
+                         "changed while it was read; sample it when nothing writes to it"};
         }
-        const std::array states{before, state_of(path)};
-        for (const auto& [first, last] : talk.all(states)) {
-            if (first != states[0] || last != states[0]) {
-                error = Error{Status::invalid_argument,
-                              "changed while it was read; sample it when nothing writes to it"};
-            }
+    }
+    if (auto well = exchange.check_all(needs_whole ? &*needs_whole : nullptr); !well) {
+        return well.error();
+    }
+    // Unless no factor is above 0, of which reading the whole tells.
+    const auto with_factors = exchange.sum(has_factors(wants, range) ? 1 : 0);
+    if (!with_factors) {
+        return with_factors.error();
+    }
+    if (*with_factors > 0) {
+        for (double& g : range.values) {
+            g = g >= 0 ? std::max(g, *wants.density->floor) : g;
         }
-        // All know of a change, but not of another's error.
-        if (error && error->status == Status::invalid_argument) {
-            return *error;
-        }
-        talk.check(error ? &*error : nullptr);
-        raise_to_floor(talk, wants, range);
-        return range;
-    });
+    }
+    return range;
 }
 
 } // namespace geodisk::tools

@@ -5,12 +5,12 @@
 #include <optional>
 #include <vector>
 
+#include <geodisk/exchange.hpp>
+#include <geodisk/mesh_range.hpp>
 #include <geodisk/status.hpp>
 
 #include "geodisk/options/density_options.hpp"
 #include "geodisk/options/mask_options.hpp"
-#include "parts/exchange.hpp"
-#include "parts/ranges/mesh_range.hpp"
 #include "program/path.hpp"
 
 namespace geodisk::tools {

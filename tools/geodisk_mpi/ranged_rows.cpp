@@ -1,16 +1,24 @@
 #include "ranged_rows.hpp"
 
 #include <algorithm>
-#include <exception>
+#include <cstddef>
+#include <filesystem>
+#include <numeric>
 #include <optional>
 #include <string>
 #include <system_error>
 #include <utility>
 
+#include <geodisk/exchange.hpp>
+#include <geodisk/mesh.hpp>
+#include <geodisk/mpi.hpp>
+
 #include "files/output/block_writer.hpp"
+#include "files/output/output_target.hpp"
 #include "files/samples/fingerprint.hpp"
 #include "geodisk/inputs/mesh_input.hpp"
-#include "parts/ranges/talk.hpp"
+#include "messages.hpp"
+#include "process.hpp"
 #include "shared_file.hpp"
 
 namespace geodisk::tools {
@@ -41,17 +49,15 @@ struct Block {
     RadiusRange radii;
 };
 
-/// Returns records of the first process at all, or at one alone.
+/// Returns records of the first process at one.
 template <class Record>
-std::vector<Record> heard(Talk& talk, std::span<const Record> of_first,
-                          std::optional<std::uint32_t> one = std::nullopt) {
-    ByProcess<Record> told(talk.rank() == 0 ? talk.size() : 0);
-    for (std::uint32_t process = 0; process < told.size(); ++process) {
-        if (!one || *one == process) {
-            told[process].assign(of_first.begin(), of_first.end());
-        }
+std::vector<Record> sent_to(Messages& messages, std::span<const Record> of_first,
+                            std::uint32_t process) {
+    std::vector<Bytes> told(messages.is_first() ? messages.size() : 0);
+    if (!told.empty()) {
+        told[process] = bytes_of(of_first);
     }
-    return talk.scatter(told);
+    return records_of<Record>(messages.scatter(std::move(told)));
 }
 
 std::vector<std::uint32_t> faces_of(std::span<const Sample> samples) {
@@ -67,12 +73,10 @@ std::vector<std::uint32_t> faces_of(std::span<const Sample> samples) {
 
 /// Appends the rows of samples on faces at these places, of a job with such a distance.
 void append_rows(std::vector<SampleRow>& rows, std::span<const Sample> samples,
-                 std::span<const std::uint32_t> faces, FacePlaces places,
-                 const RangedSurface& surface, double min_distance) {
-    MeshInput mesh{{}, surface.outline(), std::nullopt, {}, 1, {}, 0, 0};
-    if (surface.radii() != nullptr) {
-        mesh.radii = RadiusPieces::factors_on(places.triangles, places.radii);
-    }
+                 std::span<const std::uint32_t> faces, PlacedFaces places,
+                 const PreparedMesh& outline, double min_distance) {
+    MeshInput mesh{{}, outline, std::nullopt, {}, 1, {}, 0, 0};
+    mesh.radii = std::move(places.radii);
     mesh.file.positions = std::move(places.positions);
     mesh.file.triangles = std::move(places.triangles);
     const std::size_t first = rows.size();
@@ -97,95 +101,93 @@ std::string formatted(const RowFormat& format, std::span<const SampleRow> rows) 
     return bytes;
 }
 
-/// Writes the bytes of all behind each other by the first process. What that throws, it throws when
-/// it has heard all.
-void write_in_turn(Talk& talk, AtomicFile* file, const std::string& own) {
-    std::exception_ptr failure;
-    for (std::uint32_t process = 0; process < talk.size(); ++process) {
-        const std::span<const char> mine(own.data(), talk.rank() == process ? own.size() : 0);
-        const auto of_all = talk.gather(mine);
-        if (file == nullptr || failure) {
-            continue;
-        }
-        try {
-            file->write({of_all[process].data(), of_all[process].size()});
-        } catch (...) {
-            failure = std::current_exception();
+/// Writes the bytes of all behind each other by the first process.
+void write_in_turn(Messages& messages, AtomicFile* file, const std::string& own) {
+    Result<Done> written = Done{};
+    for (std::uint32_t process = 0; process < messages.size(); ++process) {
+        const std::span<const char> mine(own.data(), messages.rank() == process ? own.size() : 0);
+        const auto of_all = messages.gather(mine);
+        if (file != nullptr && written) {
+            written = messages.caught([&] {
+                file->write({of_all[process].data(), of_all[process].size()});
+                return Done{};
+            });
         }
     }
-    if (failure) {
-        std::rethrow_exception(failure);
-    }
+    messages.check(std::move(written));
+}
+
+RowFormat row_format(const SampleTarget& target, const RangedRows& rows) {
+    SampleLayout layout = layout_in(target.format, 3, float_is_enough(rows.box, 3));
+    layout.has_radius = rows.radii.do_vary();
+    return {target, layout};
 }
 
 } // namespace
 
-Result<RangedRows> RangedRows::make(Exchange& exchange, RangedParts& parts,
-                                    std::span<const Sample> samples, double min_distance,
-                                    bool divides) {
-    return geodisk::caught([&]() -> Result<RangedRows> {
-        Talk talk(exchange);
-        const Blocks given{samples.size(), min_distance, divides};
-        const Blocks blocks = heard(talk, std::span(&given, 1)).front();
-        RangedRows made;
-        made.count_ = blocks.count;
-        for (std::uint32_t process = 0; process < talk.size(); ++process) {
-            const std::uint64_t end = blocks.begin(process + 1, talk.size());
-            for (std::uint64_t begin = blocks.begin(process, talk.size()); begin < end;
-                 begin += kSamplesAtOnce) {
-                const auto some =
-                    samples.empty() ? samples
-                                    : samples.subspan(begin, std::min(end - begin, kSamplesAtOnce));
-                const std::vector<Sample> here = heard(talk, some, process);
-                const std::vector<std::uint32_t> wanted = faces_of(some);
-                const std::vector<std::uint32_t> faces =
-                    heard(talk, std::span(std::as_const(wanted)));
-                auto places = parts.places(faces, process);
-                if (!places) {
-                    return places.error();
-                }
-                append_rows(made.own_, here, faces, std::move(*places), parts.surface(),
-                            blocks.min_distance);
-            }
+RangedRows& make_ranged_rows(Process& process, const RowsCall* call) {
+    Messages& messages = process.messages;
+    const std::span<const Sample> samples =
+        call != nullptr ? call->samples : std::span<const Sample>();
+    const Blocks blocks = messages.broadcast(
+        call != nullptr ? Blocks{samples.size(), call->min_distance, call->divides} : Blocks());
+    RangedRows made;
+    made.count = blocks.count;
+    for (std::uint32_t other = 0; other < messages.size(); ++other) {
+        const std::uint64_t end = blocks.begin(other + 1, messages.size());
+        for (std::uint64_t begin = blocks.begin(other, messages.size()); begin < end;
+             begin += kSamplesAtOnce) {
+            const auto some = samples.empty()
+                                  ? samples
+                                  : samples.subspan(begin, std::min(end - begin, kSamplesAtOnce));
+            const std::vector<Sample> here = sent_to(messages, some, other);
+            const std::vector<std::uint32_t> wanted = faces_of(some);
+            const std::vector<std::uint32_t> faces =
+                messages.broadcast_all(std::span(std::as_const(wanted)));
+            append_rows(made.own, here, faces,
+                        messages.known(process.surface->places(faces, other)),
+                        process.surface->outline(), blocks.min_distance);
         }
-        const Block own{digest_number(made.own_), SampleBox(made.own_), RadiusRange(made.own_)};
-        for (const Block& block : talk.all(own)) {
-            made.digest_ += block.digest;
-            made.box_.add(block.box);
-            made.radii_.add(block.radii);
-        }
-        return made;
-    });
+    }
+    const Block own{digest_number(made.own), SampleBox(made.own), RadiusRange(made.own)};
+    for (const Block& block : messages.all_gather(own)) {
+        made.digest += block.digest;
+        made.box.add(block.box);
+        made.radii.add(block.radii);
+    }
+    return process.rows = std::move(made);
 }
 
-Result<Done> RangedRows::write(Exchange& exchange, const RowFormat& format, AtomicFile* file,
-                               const std::filesystem::path& path) const {
-    return geodisk::caught([&]() -> Result<Done> {
-        Talk talk(exchange);
-        std::error_code none;
-        const std::uint64_t head = path.empty() ? 0 : std::filesystem::file_size(path, none);
-        const std::string& text = path.native();
-        const std::vector<char> shared_path = heard(talk, std::span(text.data(), text.size()));
-        const std::uint64_t first = heard(talk, std::span(&head, 1)).front();
-        const SharedFile shared(std::string(shared_path.begin(), shared_path.end()), first);
-        const bool all_see = talk.sum(shared.is_open() ? 1 : 0) == talk.size();
-        const std::string bytes = formatted(format, own_);
-        if (!all_see) {
-            write_in_turn(talk, file, bytes);
-            return Done{};
+Done write_ranged_rows(Process& process, const WriteCall* call) {
+    Messages& messages = process.messages;
+    const RangedRows& rows = process.rows;
+    const SampleTarget target = call != nullptr ? call->target : process.job->out.target();
+    const RowFormat format = row_format(target, rows);
+    const std::filesystem::path of_first = messages.agree([&] {
+        if (call == nullptr) {
+            return std::filesystem::path();
         }
-        std::uint64_t offset = first;
-        const std::vector<std::uint64_t> sizes = talk.all(std::uint64_t{bytes.size()});
-        for (std::uint32_t process = 0; process < talk.rank(); ++process) {
-            offset += sizes[process];
-        }
-        std::optional<Error> error;
-        if (const int code = shared.write(offset, bytes); code != 0) {
-            error = Error{Status::internal, std::generic_category().message(code)};
-        }
-        talk.check(error ? &*error : nullptr);
-        return Done{};
+        call->file.write(format.head(call->header, rows.count));
+        return call->file.share();
     });
+    std::error_code none;
+    const std::string& text = of_first.native();
+    const auto path = messages.broadcast_all(std::span(text.data(), text.size()));
+    const std::uint64_t first = messages.broadcast<std::uint64_t>(
+        of_first.empty() ? 0 : std::filesystem::file_size(of_first, none));
+    const SharedFile shared(std::string(path.begin(), path.end()), first);
+    const auto sees = messages.all_gather<std::uint8_t>(shared.is_open() ? 1 : 0);
+    const std::string bytes = formatted(format, rows.own);
+    if (std::ranges::find(sees, 0) != sees.end()) {
+        write_in_turn(messages, call != nullptr ? &call->file : nullptr, bytes);
+        return {};
+    }
+    const std::vector<std::uint64_t> sizes = messages.all_gather<std::uint64_t>(bytes.size());
+    const std::uint64_t offset =
+        std::accumulate(sizes.begin(), sizes.begin() + messages.rank(), first);
+    messages.check(shared.write(offset, bytes),
+                   [&](const Error& error) { fail_to_write(target.path, error.message); });
+    return {};
 }
 
 } // namespace geodisk::tools

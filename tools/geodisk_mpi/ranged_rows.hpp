@@ -2,52 +2,48 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <span>
 #include <vector>
 
 #include <geodisk/sample.hpp>
 #include <geodisk/status.hpp>
 
+#include "files/output/output_file.hpp"
 #include "files/samples/row_format.hpp"
-#include "parts/exchange.hpp"
-#include "ranged_parts.hpp"
 
 namespace geodisk::tools {
 
-/// Each process has a block of the rows, in dart order. All processes make the same calls.
-class RangedRows {
-  public:
-    /// Makes the rows of `samples`. The first process has all of them, and the distance of the job;
-    /// the others give nothing. Blocks are equally long, or the first process has all if `divides`
-    /// is false there. Errors: those of the exchange.
-    static Result<RangedRows> make(Exchange& exchange, RangedParts& parts,
-                                   std::span<const Sample> samples, double min_distance,
-                                   bool divides);
+struct Process;
 
-    std::vector<SampleRow>& own() { return own_; }
+/// Each process has a block of the rows, in dart order.
+struct RangedRows {
+    std::vector<SampleRow> own;
 
     // Properties of all rows, the same on all processes.
 
-    std::uint64_t count() const { return count_; }
-    std::uint64_t digest() const { return digest_; }
-    const SampleBox& box() const { return box_; }
-    const RadiusRange& radii() const { return radii_; }
-
-    /// Writes all rows in dart order behind what `file` has, which is null but at the first
-    /// process, as is its `path` empty: AtomicFile::share(). Each process writes its own rows
-    /// there, but sends them to the first one if some process does not see the file, or it is a
-    /// stream. Errors, the same on all: `internal` with the reason why a process cannot write;
-    /// those of the exchange. Throws UserError at the first process as AtomicFile does, when all
-    /// have written.
-    Result<Done> write(Exchange& exchange, const RowFormat& format, AtomicFile* file,
-                       const std::filesystem::path& path) const;
-
-  private:
-    std::vector<SampleRow> own_;
-    std::uint64_t count_ = 0, digest_ = 0;
-    SampleBox box_;
-    RadiusRange radii_;
+    std::uint64_t count = 0, digest = 0;
+    SampleBox box;
+    RadiusRange radii;
 };
+
+struct RowsCall {
+    std::span<const Sample> samples; ///< All samples.
+    double min_distance;             ///< Minimum distance of the job.
+    bool divides;                    ///< Blocks are equally long; else the first process has all.
+};
+
+/// Makes the rows of samples on the surface that was read in ranges. Returns those of the process.
+RangedRows& make_ranged_rows(Process& process, const RowsCall* call);
+
+struct WriteCall {
+    AtomicFile& file;
+    const SampleTarget& target;
+    const SampleHeader& header;
+};
+
+/// Writes all rows in dart order. Each process writes its own rows to the file, but sends them to
+/// the first one if some process does not see the file, or it is a stream. Throws
+/// SharedError(bad_output) when all have written.
+Done write_ranged_rows(Process& process, const WriteCall* call);
 
 } // namespace geodisk::tools

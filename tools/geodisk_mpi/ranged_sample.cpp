@@ -57,10 +57,10 @@ bool is_unreadable(const Path& path) {
 }
 
 /// Returns a mesh of the statistics of all, whose file has no faces yet.
-MeshInput outline_of(const RangedSurface& surface, const SampleJob& job, double load_seconds) {
+MeshInput outline_of(const SharedSurface& surface, const SampleJob& job, double load_seconds) {
     const RangedStatistics& statistics = surface.statistics();
     MeshInput mesh{{}, surface.outline(), std::nullopt, {}, 1, {}, load_seconds, 0};
-    mesh.known = {surface.effective_area(), surface.borders(), surface.masked_faces()};
+    mesh.known = {statistics.effective_area, statistics.borders, statistics.masked_faces};
     if (const RadiusField* const radii = surface.radii()) {
         mesh.radii = *radii;
         mesh.distance_part = job.density.is_density() ? radii->min_factor() : 1;
@@ -101,7 +101,7 @@ struct StandIn {
     std::optional<RadiusField> radii;
     SampleParams params;
 
-    StandIn(const RangedSurface& surface, const SampleJob& job, const SampleParams& of_all)
+    StandIn(const SharedSurface& surface, const SampleJob& job, const SampleParams& of_all)
         : params(of_all) {
         const double edge =
             std::min(of_all.min_distance, surface.statistics().mesh.longest_edge) / 2;
@@ -119,7 +119,7 @@ struct StandIn {
 
 SampleResult sample_ranged(const SampleJob& job, MeshInput& mesh, Session& session,
                            ProgressLine& progress) {
-    const RangedSurface& surface = *session.ranges();
+    const SharedSurface& surface = *session.ranges();
     SampleParams params = params_on(mesh, job);
     std::optional<StandIn> triangle;
     std::optional<TakesWhole> needs;
@@ -159,11 +159,12 @@ SampleResult sample_ranged(const SampleJob& job, MeshInput& mesh, Session& sessi
     result.params = params;
     result.done = std::move(done);
     const bool divides = RowFormat::is_one(job.out.target().format);
-    RangedRows& rows = session.make_rows(set.samples, params.min_distance, divides);
+    RangedRows& rows =
+        session.call<make_ranged_rows>(RowsCall{set.samples, params.min_distance, divides});
     if (divides) {
-        result.all = AllRows{rows.count(), rows.digest(), rows.radii()};
+        result.all = AllRows{rows.count, rows.digest, rows.radii};
     } else {
-        result.rows = std::move(rows.own());
+        result.rows = std::move(rows.own);
     }
     result.classes.resize(result.rows.size());
     result.features.resize(result.rows.size());
@@ -192,7 +193,7 @@ bool sample_ranges_to_files(const SampleOptions& options, std::uint32_t parts, S
     ProgressLine progress(job.out.quiet);
     progress.begin_stage("reading the mesh");
     const Stopwatch watch;
-    const auto why = session.read_ranges(job, parts);
+    const auto why = session.call<read_ranges>(ReadCall{job, parts});
     progress.clear();
     if (why) {
         print_note(job, *why);
@@ -209,13 +210,15 @@ bool sample_ranges_to_files(const SampleOptions& options, std::uint32_t parts, S
         const SampleReport report(job, mesh, result);
         write_outputs(job.out, "the samples", progress, report, [&](AtomicFile& file) {
             if (result.all) {
-                session.write_rows(file, job.out.target(), report.header());
+                const SampleTarget target = job.out.target();
+                const SampleHeader header = report.header();
+                session.call<write_ranged_rows>(WriteCall{file, target, header});
             } else {
                 write_sample_file(file, job, mesh, result, report);
             }
         });
     } catch (const TakesWhole& needs) {
-        session.forget_ranges();
+        session.call<forget_ranges>(Done{});
         print_note(job, needs.why);
         return false;
     }

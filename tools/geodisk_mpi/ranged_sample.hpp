@@ -10,7 +10,7 @@ namespace geodisk::tools {
 class Session;
 
 /// Samples a mesh that all processes read in ranges, on the first process, as sample_to_files()
-/// does; see Session::read_ranges() for `parts`. Returns false, and has done nothing, if the
+/// does; see ReadCall for `parts`. Returns false, and has done nothing, if the
 /// options or the mesh need the first process to read the whole. Throws UserError.
 bool sample_ranges_to_files(const SampleOptions& options, std::uint32_t parts, Session& session);
 

@@ -65,7 +65,7 @@ void add_shared_sample_command(Command app, Session& session) {
                     "Parts of each process, of which it holds one mesh at a time, where a mesh is "
                     "read in ranges (default: one for each million faces)",
                     "Many processes")
-        .takes_range(1, MpiExchange::kMaxLanes);
+        .takes_range(1, SharedSurface::kMaxParts);
     command.calls([options, checkpoints, parts, &session] {
         check_shared(*options);
         if (session.is_first()) {

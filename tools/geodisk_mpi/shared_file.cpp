@@ -1,12 +1,20 @@
 #include "shared_file.hpp"
 
 #include <cerrno>
+#include <system_error>
 
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 namespace geodisk::tools {
+namespace {
+
+Error reason() {
+    return Error{Status::internal, std::generic_category().message(errno)};
+}
+
+} // namespace
 
 SharedFile::SharedFile(const std::filesystem::path& path, std::uint64_t size)
     : descriptor_(path.empty() ? -1 : ::open(path.c_str(), O_WRONLY | O_CLOEXEC)) {
@@ -24,19 +32,19 @@ SharedFile::~SharedFile() {
     }
 }
 
-int SharedFile::write(std::uint64_t offset, std::string_view bytes) const {
+Result<Done> SharedFile::write(std::uint64_t offset, std::string_view bytes) const {
     while (!bytes.empty()) {
         const ssize_t written =
             pwrite(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(offset));
         if (written < 0 && errno != EINTR) {
-            return errno;
+            return reason();
         }
         if (written > 0) {
             bytes.remove_prefix(static_cast<std::size_t>(written));
             offset += static_cast<std::uint64_t>(written);
         }
     }
-    return fsync(descriptor_) == 0 ? 0 : errno;
+    return fsync(descriptor_) == 0 ? Result<Done>(Done{}) : reason();
 }
 
 } // namespace geodisk::tools

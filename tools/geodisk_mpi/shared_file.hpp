@@ -5,6 +5,8 @@
 #include <filesystem>
 #include <string_view>
 
+#include <geodisk/status.hpp>
+
 namespace geodisk::tools {
 
 class SharedFile {
@@ -18,8 +20,9 @@ class SharedFile {
 
     bool is_open() const { return descriptor_ >= 0; }
 
-    /// Writes bytes from `offset` on, and brings them to the disk. Returns 0 or an errno value.
-    int write(std::uint64_t offset, std::string_view bytes) const;
+    /// Writes bytes from `offset` on, and brings them to the disk. Errors: `internal`, with the
+    /// reason alone.
+    Result<Done> write(std::uint64_t offset, std::string_view bytes) const;
 
   private:
     int descriptor_ = -1;

@@ -1,15 +1,18 @@
 #include "shared_pairs.hpp"
 
 #include <algorithm>
-#include <string>
+#include <cstddef>
+#include <cstdint>
+#include <span>
 #include <utility>
 
-#include "cut_surface.hpp"
-#include "parts/halo.hpp"
-#include "parts/part_bytes.hpp"
+#include <geodisk/exchange.hpp>
+#include <geodisk/mesh.hpp>
+#include <geodisk/mpi.hpp>
+
+#include "messages.hpp"
+#include "process.hpp"
 #include "program/failure.hpp"
-#include "program/interrupt.hpp"
-#include "status_of.hpp"
 
 namespace geodisk::tools {
 namespace {
@@ -83,8 +86,8 @@ void copy_row(std::span<const T> from, std::uint32_t row, std::vector<T>& to) {
 }
 
 /// Returns the message with the samples on the faces of a process, and all near them.
-Result<Bytes> part_message(const PairSearch& whole, std::span<const std::uint32_t> owners,
-                           std::uint32_t process) {
+Bytes part_message(const PairSearch& whole, std::span<const std::uint32_t> owners,
+                   std::uint32_t process) {
     PartSearch part;
     part.frame = whole.frame;
     part.longest = whole.longest;
@@ -104,16 +107,11 @@ Result<Bytes> part_message(const PairSearch& whole, std::span<const std::uint32_
     for (std::size_t face = 0; face < owners.size(); ++face) {
         is_own[face] = owners[face] == process ? 1 : 0;
     }
+    const std::vector<std::uint32_t> faces = take(faces_within(whole.mesh, is_own, reach));
     constexpr std::uint32_t kOutside = ~0u;
-    std::vector<std::uint32_t> faces, local(owners.size(), kOutside);
-    const std::vector<double> from_own =
-        reach > 0 ? distances_from(whole.mesh, is_own, reach) : std::vector<double>();
-    for (std::uint32_t face = 0; face < owners.size(); ++face) {
-        if (is_own[face] != 0 ||
-            (reach > 0 && nearest_corner(whole.mesh, from_own, face) <= reach)) {
-            local[face] = static_cast<std::uint32_t>(faces.size());
-            faces.push_back(face);
-        }
+    std::vector<std::uint32_t> local(owners.size(), kOutside);
+    for (std::uint32_t at = 0; at < faces.size(); ++at) {
+        local[faces[at]] = at;
     }
     for (std::uint32_t row = 0; row < whole.samples.size(); ++row) {
         Sample sample = whole.samples[row];
@@ -128,46 +126,24 @@ Result<Bytes> part_message(const PairSearch& whole, std::span<const std::uint32_
         copy_row(distances.radii, row, part.radii);
         copy_row(distances.classes, row, part.classes);
     }
-    auto mesh = whole.mesh.part(faces);
-    if (!mesh) {
-        return mesh.error();
-    }
-    const auto saved = mesh->save();
-    if (!saved) {
-        return saved.error();
-    }
     MessageWriter message;
-    message.put_all(*saved);
+    message.put_all(take(take(whole.mesh.part(faces)).save()));
     for_fields(
         part, [&](const auto& value) { message.put(value); },
         [&](const auto& values) { message.put_all(values); });
     return message.take();
 }
 
-Result<std::vector<Bytes>> part_messages(const PairSearch& whole, std::uint32_t processes) {
-    if (processes > whole.mesh.face_count()) {
-        return Error{Status::invalid_argument, "there are " + std::to_string(processes) +
-                                                   " processes, but the mesh has " +
-                                                   std::to_string(whole.mesh.face_count()) +
-                                                   " faces; start at most as many processes"};
-    }
-    const auto owners = cut_by_work(whole.mesh, work_of(whole), processes);
-    if (!owners) {
-        return owners.error();
-    }
+std::vector<Bytes> part_messages(const PairSearch& whole, std::uint32_t processes) {
+    const auto owners = take(divide_faces(whole.mesh, work_of(whole), processes));
     std::vector<Bytes> messages;
     for (std::uint32_t process = 0; process < processes; ++process) {
-        auto message = part_message(whole, *owners, process);
-        if (!message) {
-            return message.error();
-        }
-        messages.push_back(std::move(*message));
+        messages.push_back(part_message(whole, owners, process));
     }
     return messages;
 }
 
-Result<std::vector<NotedPair>> note_in_part(std::span<const std::byte> bytes,
-                                            ProgressLine& progress) {
+std::vector<NotedPair> note_in_part(std::span<const std::byte> bytes, ProgressLine& progress) {
     MessageReader message(bytes);
     std::vector<std::byte> mesh;
     PartSearch part;
@@ -176,13 +152,9 @@ Result<std::vector<NotedPair>> note_in_part(std::span<const std::byte> bytes,
         part, [&](auto& value) { message.get(value); },
         [&](auto& values) { message.get_all(values); });
     if (!message.is_complete()) {
-        return Error{Status::internal, "the part of the surface came incomplete"};
+        throw UserError(ExitCode::internal, "the part of the surface came incomplete");
     }
-    auto loaded = PreparedMesh::load(mesh);
-    if (!loaded) {
-        return loaded.error();
-    }
-    part.mesh = std::move(*loaded);
+    part.mesh = take(PreparedMesh::load(mesh));
     std::vector<NotedPair> noted = note_pairs(part.search(), progress);
     for (NotedPair& one : noted) {
         one.source = part.rows[one.source];
@@ -194,37 +166,21 @@ Result<std::vector<NotedPair>> note_in_part(std::span<const std::byte> bytes,
 
 } // namespace
 
-Result<std::vector<NotedPair>> note_together(Exchange& exchange, const PairSearch* search,
-                                             ProgressLine& progress) {
-    Result<std::vector<Bytes>> parts = std::vector<Bytes>();
-    if (search != nullptr) {
-        parts = caught([&] { return part_messages(*search, exchange.size()); });
-    }
-    if (auto well = exchange.check_all(parts ? nullptr : &parts.error()); !well) {
-        return well.error();
-    }
-    const auto part = exchange.scatter(std::move(*parts));
-    if (!part) {
-        return part.error();
-    }
-    const auto own = caught([&] { return note_in_part(*part, progress); });
-    if (auto well = exchange.check_all(own ? nullptr : &own.error()); !well) {
-        return well.error();
-    }
-    MessageWriter told;
-    told.put_all(*own);
-    const auto messages = exchange.gather(told.take());
-    if (!messages) {
-        return messages.error();
-    }
+std::vector<NotedPair> note_together(Process& process, const NoteCall* call) {
+    Messages& messages = process.messages;
+    std::vector<Bytes> parts = messages.agree([&] {
+        return call != nullptr ? part_messages(call->search, messages.size())
+                               : std::vector<Bytes>();
+    });
+    const Bytes part = messages.scatter(std::move(parts));
+    ProgressLine quiet(true);
+    const std::vector<NotedPair> own = messages.agree(
+        [&] { return note_in_part(part, call != nullptr ? call->progress : quiet); });
     std::vector<NotedPair> all;
-    for (const Bytes& message : *messages) {
-        MessageReader reader(message);
-        std::vector<NotedPair> some;
-        reader.get_all(some);
+    for (const auto& some : messages.gather(std::span(own))) {
         all.insert(all.end(), some.begin(), some.end());
     }
-    return search != nullptr ? merged_pairs(*search, std::move(all)) : all;
+    return call != nullptr ? merged_pairs(call->search, std::move(all)) : all;
 }
 
 } // namespace geodisk::tools

@@ -3,18 +3,20 @@
 
 #include <vector>
 
-#include <geodisk/status.hpp>
-
 #include "geodisk/checks/near_pairs.hpp"
 #include "geodisk/outputs/progress.hpp"
-#include "parts/exchange.hpp"
 
 namespace geodisk::tools {
 
-/// Does what note_pairs() does, by all processes; all call it. `search` is null on all but the
-/// first one, whose result alone has pairs. Errors, the same on all processes: `invalid_argument`
-/// for more processes than faces, and those of note_pairs().
-Result<std::vector<NotedPair>> note_together(Exchange& exchange, const PairSearch* search,
-                                             ProgressLine& progress);
+struct Process;
+
+struct NoteCall {
+    const PairSearch& search;
+    ProgressLine& progress;
+};
+
+/// Does what note_pairs() does, by all processes. The result of the first one alone has pairs.
+/// Throws SharedError: `usage` for more processes than faces, and what note_pairs() throws.
+std::vector<NotedPair> note_together(Process& process, const NoteCall* call);
 
 } // namespace geodisk::tools

@@ -33,7 +33,7 @@ void add_shared_verify_command(Command app, Session& session) {
             return;
         }
         verify_samples(*options, [&session](const PairSearch& search, ProgressLine& progress) {
-            return session.note(search, progress);
+            return session.call<note_together>(NoteCall{search, progress});
         });
     });
 }

@@ -5,10 +5,12 @@
 
 #include <geodisk/box.hpp>
 #include <geodisk/cells.hpp>
+#include <geodisk/checkpoint.hpp>
 #include <geodisk/context.hpp>
 #include <geodisk/count_search.hpp>
 #include <geodisk/device.hpp>
 #include <geodisk/domain.hpp>
+#include <geodisk/exchange.hpp>
 #include <geodisk/farthest.hpp>
 #include <geodisk/features.hpp>
 #include <geodisk/fields.hpp>
@@ -18,6 +20,7 @@
 #include <geodisk/kernel_report.hpp>
 #include <geodisk/levels.hpp>
 #include <geodisk/mesh.hpp>
+#include <geodisk/mesh_range.hpp>
 #include <geodisk/mesh_view.hpp>
 #include <geodisk/nearest.hpp>
 #include <geodisk/neighbours.hpp>

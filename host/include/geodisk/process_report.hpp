@@ -1,8 +1,11 @@
-// ProcessReport: the share of one process in sampling a surface together with others.
+// ProcessReport, SharedSamples: what many processes give that sample a surface together.
 // Experimental.
 #pragma once
 
 #include <cstdint>
+#include <vector>
+
+#include <geodisk/runner.hpp>
 
 namespace geodisk {
 
@@ -23,6 +26,14 @@ struct ProcessReport {
     std::uint64_t peak_bytes = 0;  ///< Peak memory of the process so far; 0 if the system does
                                    ///< not report it.
     std::uint32_t border_runs = 0; ///< Times it decided only those near its neighbours.
+};
+
+/// Samples of many processes, at process 0 of them. Empty on the others.
+struct SharedSamples {
+    /// Samples of the whole surface: the set that Runner::sample_and_wait() returns for it. In its
+    /// report, work adds up over all processes; seconds are those of process 0.
+    SampleSet set;
+    std::vector<ProcessReport> processes; ///< Share of each process.
 };
 
 } // namespace geodisk

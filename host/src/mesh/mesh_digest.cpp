@@ -25,16 +25,6 @@ std::uint64_t face_digest(std::uint64_t face, const std::uint32_t* corners,
     return digest;
 }
 
-std::uint64_t mesh_digest(const PreparedMesh& mesh) {
-    std::uint64_t sum = 0;
-    for (std::uint32_t face = 0; face < mesh.face_count(); ++face) {
-        const auto edges = mesh.half_edges().subspan(std::size_t{3} * face).first<3>();
-        const std::uint32_t corners[3] = {edges[0].origin, edges[1].origin, edges[2].origin};
-        sum += face_digest(face, corners, edges);
-    }
-    return sum;
-}
-
 std::uint64_t field_digest(std::uint64_t face, const RadiusField* radii, std::uint32_t in_radii,
                            bool takes_samples) {
     std::uint64_t digest = 0;
@@ -50,13 +40,16 @@ std::uint64_t field_digest(std::uint64_t face, const RadiusField* radii, std::ui
     return digest;
 }
 
-std::uint64_t fields_digest(const SampleParams& params) {
-    const std::size_t faces =
-        params.radii != nullptr ? params.radii->face_count() : params.face_mask.size();
+std::uint64_t surface_digest(const PreparedMesh& mesh, const SampleParams& params) {
     std::uint64_t sum = 0;
-    for (std::uint32_t face = 0; face < faces; ++face) {
-        const bool takes = params.face_mask.empty() || params.face_mask[face] != 0;
-        sum += field_digest(face, params.radii, face, takes);
+    for (std::uint32_t face = 0; face < mesh.face_count(); ++face) {
+        const auto edges = mesh.half_edges().subspan(std::size_t{3} * face).first<3>();
+        const std::uint32_t corners[3] = {edges[0].origin, edges[1].origin, edges[2].origin};
+        sum += face_digest(face, corners, edges);
+        if (params.radii != nullptr || !params.face_mask.empty()) {
+            const bool takes = params.face_mask.empty() || params.face_mask[face] != 0;
+            sum += field_digest(face, params.radii, face, takes);
+        }
     }
     return sum;
 }

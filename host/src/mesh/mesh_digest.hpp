@@ -1,4 +1,4 @@
-// Digests of meshes, which come out the same however faces are divided among processes.
+// Digests of faces, whose sum is the digest of a surface: surface_digest().
 #pragma once
 
 #include <cstdint>
@@ -15,16 +15,9 @@ namespace geodisk {
 std::uint64_t face_digest(std::uint64_t face, const std::uint32_t* corners,
                           std::span<const HalfEdge, 3> edges);
 
-/// Returns the digest of a mesh: the sum of those of its faces.
-GEODISK_API std::uint64_t mesh_digest(const PreparedMesh& mesh);
-
 /// Returns the digest of what a job has on a face: its number, its radii, which are those of a face
 /// of `radii`, or null; and whether it takes samples.
 std::uint64_t field_digest(std::uint64_t face, const RadiusField* radii, std::uint32_t in_radii,
                            bool takes_samples);
-
-/// Returns the digest of the radii and the mask of a job: the sum of those of all faces; 0 if it
-/// has neither.
-GEODISK_API std::uint64_t fields_digest(const SampleParams& params);
 
 } // namespace geodisk

@@ -11,11 +11,11 @@
 #include <cstdint>
 #include <functional>
 
+#include <geodisk/exchange.hpp>
 #include <geodisk/export.hpp>
 #include <geodisk/status.hpp>
 
 #include "parts/darts.hpp"
-#include "parts/exchange.hpp"
 #include "parts/part.hpp"
 
 namespace geodisk {

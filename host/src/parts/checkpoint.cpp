@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "engine/domain/drawn.hpp"
+#include "parts/darts.hpp"
 #include "support/guard.hpp"
 #include "support/try.hpp"
 

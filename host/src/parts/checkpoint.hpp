@@ -1,38 +1,14 @@
-// Checkpoints: what all processes have agreed upon, to go on from later.
+// Makes checkpoints together.
 #pragma once
 
 #include <cstdint>
-#include <functional>
-#include <limits>
 
+#include <geodisk/checkpoint.hpp>
+#include <geodisk/exchange.hpp>
 #include <geodisk/export.hpp>
 #include <geodisk/status.hpp>
 
-#include "parts/darts.hpp"
-#include "parts/exchange.hpp"
-
 namespace geodisk {
-
-/// Samples of the stages that are decided, of all processes.
-struct Checkpoint {
-    /// First stage that is not decided; kNoStage if all are.
-    std::uint32_t first_stage = 0;
-    /// Candidates of all processes in the stages before. Of a job that is done, those up to the
-    /// last sample.
-    std::uint64_t candidates = 0;
-    Darts samples; ///< In dart order, without those that were given.
-};
-inline constexpr std::uint32_t kNoStage = std::numeric_limits<std::uint32_t>::max();
-
-/// Saves a checkpoint. An error ends the work of all processes.
-using SaveCheckpoint = std::function<Result<Done>(const Checkpoint& checkpoint)>;
-
-/// Start of a job and the way it is saved, known to the first process alone.
-struct Checkpoints {
-    const Checkpoint* from = nullptr; ///< Checkpoint to continue from; null to begin.
-    SaveCheckpoint save;              ///< Null if it is not saved.
-    std::uint32_t stages = 1;         ///< Stages from one checkpoint to the next, at least 1.
-};
 
 /// Facts about checkpoints that all processes know.
 struct CheckpointTerms {

@@ -1,8 +1,10 @@
 #include "parts/cut.hpp"
 
 #include <deque>
+#include <string>
 
 #include "engine/domain/stages.hpp"
+#include "support/invalid.hpp"
 
 namespace geodisk {
 namespace {
@@ -32,6 +34,15 @@ std::vector<double> work_of_faces(const PreparedMesh& mesh, const SampleParams& 
             (expected_in_face(mesh, params, face, 1) / samples + 1.0 / mesh.face_count()) / 2;
     }
     return work;
+}
+
+Result<Done> check_processes(const PreparedMesh& mesh, std::uint32_t processes) {
+    const std::uint32_t faces = mesh.face_count();
+    if (processes > faces) {
+        return invalid("there are " + std::to_string(processes) + " processes, but the mesh has " +
+                       std::to_string(faces) + " faces; start at most as many processes");
+    }
+    return Done{};
 }
 
 std::vector<std::uint32_t> grown_parts(const PreparedMesh& mesh, std::span<const double> work,

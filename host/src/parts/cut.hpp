@@ -8,8 +8,12 @@
 #include <geodisk/export.hpp>
 #include <geodisk/mesh.hpp>
 #include <geodisk/params.hpp>
+#include <geodisk/status.hpp>
 
 namespace geodisk {
+
+/// Errors: `invalid_argument` for more processes than faces.
+GEODISK_API Result<Done> check_processes(const PreparedMesh& mesh, std::uint32_t processes);
 
 /// Returns the share of the work that each face is expected to take: by the samples it holds, and
 /// its memory. They sum to 1.

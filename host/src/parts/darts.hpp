@@ -4,8 +4,9 @@
 #include <cstddef>
 #include <span>
 
+#include <geodisk/exchange.hpp>
+
 #include "engine/domain/drawn.hpp"
-#include "parts/exchange.hpp"
 
 namespace geodisk {
 

@@ -3,11 +3,11 @@
 
 #include <cstdint>
 
+#include <geodisk/exchange.hpp>
 #include <geodisk/status.hpp>
 
 #include "parts/agree.hpp"
 #include "parts/checkpoint.hpp"
-#include "parts/exchange.hpp"
 #include "parts/part.hpp"
 #include "parts/part_run.hpp"
 

@@ -12,7 +12,6 @@
 #include "engine/request/check_fields.hpp"
 #include "parts/halo.hpp"
 #include "parts/part.hpp"
-#include "parts/part_bytes.hpp"
 #include "support/guard.hpp"
 #include "support/invalid.hpp"
 #include "support/try.hpp"

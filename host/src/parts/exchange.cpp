@@ -1,8 +1,8 @@
-#include "parts/exchange.hpp"
-
 #include <cstring>
 #include <string>
 #include <utility>
+
+#include <geodisk/exchange.hpp>
 
 #include "support/try.hpp"
 
@@ -37,6 +37,10 @@ std::vector<std::uint32_t> Exchange::all_others() const {
 Result<std::uint64_t> Exchange::sum(std::uint64_t value) {
     const auto all = sums({value});
     return all ? Result<std::uint64_t>(all->front()) : all.error();
+}
+
+Result<Bytes> Exchange::broadcast(const Bytes& message) {
+    return scatter(rank() == kRoot ? std::vector<Bytes>(size(), message) : std::vector<Bytes>());
 }
 
 Result<Bytes> Exchange::scatter(std::vector<Bytes> messages) {

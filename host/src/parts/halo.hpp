@@ -5,18 +5,19 @@
 #include <span>
 #include <vector>
 
+#include <geodisk/export.hpp>
 #include <geodisk/mesh.hpp>
 
 namespace geodisk {
 
 /// Returns for each vertex a lower bound on its geodesic distance from the faces that are marked,
 /// at most 5/4 of `reach`. Linear in faces, the values are lower bounds everywhere.
-std::vector<double> distances_from(const PreparedMesh& mesh,
-                                   std::span<const std::uint8_t> is_marked, double reach);
+GEODISK_API std::vector<double>
+distances_from(const PreparedMesh& mesh, std::span<const std::uint8_t> is_marked, double reach);
 
 /// Least value at a corner of a face, of distances_from().
-double nearest_corner(const PreparedMesh& mesh, std::span<const double> distances,
-                      std::uint32_t face);
+GEODISK_API double nearest_corner(const PreparedMesh& mesh, std::span<const double> distances,
+                                  std::uint32_t face);
 /// Largest value at a corner of a face.
 double farthest_corner(const PreparedMesh& mesh, std::span<const double> distances,
                        std::uint32_t face);

@@ -3,7 +3,8 @@
 
 #include <mutex>
 
-#include "parts/exchange.hpp"
+#include <geodisk/exchange.hpp>
+
 #include "parts/part.hpp"
 
 namespace geodisk {

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include <geodisk/exchange.hpp>
 #include <geodisk/job_frame.hpp>
 #include <geodisk/mesh.hpp>
 #include <geodisk/params.hpp>
@@ -16,7 +17,6 @@
 #include "engine/domain/drawn.hpp"
 #include "mesh/radius_pieces.hpp"
 #include "parts/checkpoint.hpp"
-#include "parts/exchange.hpp"
 
 namespace geodisk {
 
@@ -84,6 +84,9 @@ Part part_for(const SampleParams& params, const JobFrame& frame, double max_cand
 Result<std::vector<Bytes>> divide(const PreparedMesh& mesh, const SampleParams& params,
                                   std::span<const std::uint32_t> owners, std::uint32_t processes,
                                   double max_candidates, const Checkpoints* checkpoints);
+
+/// Returns a part as a message. Errors: those of PreparedMesh::save().
+Result<Bytes> message_of(const Part& part);
 
 /// Reads a part. Errors: those of PreparedMesh::load() and the like.
 Result<std::unique_ptr<Part>> part_of(std::span<const std::byte> bytes);

@@ -1,8 +1,7 @@
-#include "parts/part_bytes.hpp"
-
 #include <array>
 #include <utility>
 
+#include "parts/part.hpp"
 #include "support/guard.hpp"
 #include "support/try.hpp"
 

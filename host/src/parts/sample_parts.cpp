@@ -3,19 +3,18 @@
 #include <algorithm>
 #include <cstring>
 #include <optional>
-#include <string>
 #include <type_traits>
 #include <utility>
 
 #include "engine/domain/existing.hpp"
+#include "engine/domain/listed.hpp"
+#include "parts/cut.hpp"
 #include "parts/decide_stages.hpp"
 #include "parts/mesh_turn.hpp"
 #include "parts/part.hpp"
 #include "parts/part_run.hpp"
 #include "parts/peak_memory.hpp"
-#include "parts/ranges/talk.hpp"
 #include "support/guard.hpp"
-#include "support/invalid.hpp"
 #include "support/try.hpp"
 
 namespace geodisk {
@@ -35,12 +34,7 @@ const Error* error_of(const Result<T>& result) {
 
 Result<std::vector<Bytes>> parts_of(const WholeSurface& whole, std::uint32_t processes) {
     return guarded([&]() -> Result<std::vector<Bytes>> {
-        const std::uint32_t faces = whole.mesh.face_count();
-        if (processes > faces) {
-            return invalid("there are " + std::to_string(processes) +
-                           " processes, but the mesh has " + std::to_string(faces) +
-                           " faces; start at most as many processes");
-        }
+        GEODISK_TRY(check_processes(whole.mesh, processes));
         // Before the cut, which relies on them.
         GEODISK_TRY(frame_of(whole.mesh, whole.params));
         const auto owners = whole.cut(whole.mesh, whole.params, processes);
@@ -82,9 +76,9 @@ void add(ProcessReport& process, const ProcessReport& part) {
 }
 
 /// Puts together what the parts tell; the first of `darts` are samples.
-PartsResult put_together(const Exchange& exchange, const SampleParams& params,
-                         const std::vector<Bytes>& messages, Darts& darts) {
-    PartsResult result;
+SharedSamples put_together(const Exchange& exchange, const SampleParams& params,
+                           const std::vector<Bytes>& messages, Darts& darts) {
+    SharedSamples result;
     result.processes.resize(exchange.process_of(exchange.size() - 1) + 1);
     RunReport& run = result.set.report;
     for (std::uint32_t rank = 0; rank < exchange.size(); ++rank) {
@@ -118,18 +112,10 @@ Result<std::uint64_t> candidates_up_to(Exchange& exchange, const PartRun& run,
                                        const DrawnCandidate& last) {
     Bytes told;
     append(told, std::span(&last, 1));
-    const auto heard = exchange.scatter(std::vector<Bytes>(exchange.size(), told));
+    const auto heard = exchange.broadcast(told);
     GEODISK_TRY(heard);
     const DrawnCandidate end = darts_of(*heard).front();
     return exchange.sum(run.own_up_to(end.stage, end.priority));
-}
-
-/// Returns the terms that the first process has.
-Result<CheckpointTerms> agreed_terms(Exchange& exchange, const Checkpoints* checkpoints) {
-    return caught([&]() -> Result<CheckpointTerms> {
-        Talk talk(exchange);
-        return talk.all(CheckpointTerms(checkpoints)).front();
-    });
 }
 
 /// Gives each part the samples of the checkpoint that it goes on from, which the first process
@@ -145,7 +131,7 @@ Result<Done> settle(Exchange& exchange, Part& part, const Checkpoints* checkpoin
             append(told, std::span(checkpoints->from->samples)
                              .subspan(begin, std::min(at_once, count - begin)));
         }
-        const auto heard = exchange.scatter(std::vector<Bytes>(exchange.size(), told));
+        const auto heard = exchange.broadcast(told);
         GEODISK_TRY(heard);
         for (const DrawnCandidate& dart : darts_of(*heard)) {
             const auto at = std::ranges::lower_bound(part.faces, dart.point.face);
@@ -161,10 +147,10 @@ Result<Done> settle(Exchange& exchange, Part& part, const Checkpoints* checkpoin
 
 /// Samples the parts of all processes. `params` are those of the whole, null on all but the first
 /// process, and so are checkpoints, or for a job without any.
-Result<PartsResult> sample_all(Exchange& exchange, Runner& runner,
-                               const Result<std::unique_ptr<Part>>& part, std::uint64_t part_bytes,
-                               const SampleParams* params, const Checkpoints* given,
-                               const ProgressCallback& progress) {
+Result<SharedSamples> sample_all(Exchange& exchange, Runner& runner,
+                                 const Result<std::unique_ptr<Part>>& part,
+                                 std::uint64_t part_bytes, const SampleParams* params,
+                                 const Checkpoints* given, const ProgressCallback& progress) {
     Summary summary;
     summary.process.parts = 1;
     summary.process.part_bytes = part_bytes;
@@ -201,7 +187,7 @@ Result<PartsResult> sample_all(Exchange& exchange, Runner& runner,
     append(told, own);
     const auto all = exchange.gather(std::move(told));
     GEODISK_TRY(all);
-    PartsResult result;
+    SharedSamples result;
     Darts darts;
     if (params != nullptr) {
         result = put_together(exchange, *params, *all, darts);
@@ -223,8 +209,8 @@ Result<PartsResult> sample_all(Exchange& exchange, Runner& runner,
 
 } // namespace
 
-Result<PartsResult> sample_parts(Exchange& exchange, Runner& runner, const WholeSurface* whole,
-                                 const ProgressCallback& progress) {
+Result<SharedSamples> sample_parts(Exchange& exchange, Runner& runner, const WholeSurface* whole,
+                                   const ProgressCallback& progress) {
     Result<std::vector<Bytes>> parts = std::vector<Bytes>();
     if (whole != nullptr) {
         parts = parts_of(*whole, exchange.size());
@@ -239,14 +225,15 @@ Result<PartsResult> sample_parts(Exchange& exchange, Runner& runner, const Whole
                       whole != nullptr ? whole->checkpoints : nullptr, progress);
 }
 
-Result<PartsResult> sample_ranges(Exchange& exchange, Runner& runner, const RangedSurface& surface,
-                                  const SampleParams& params, const Checkpoints* checkpoints,
-                                  const ProgressCallback& progress, double max_candidates) {
+Result<SharedSamples> sample_ranges(Exchange& exchange, Runner& runner,
+                                    const RangedSurface& surface, const SampleParams& params,
+                                    const Checkpoints* checkpoints,
+                                    const ProgressCallback& progress, double max_candidates) {
     const auto frame = surface.frame(params);
     GEODISK_TRY(frame);
-    const auto terms = agreed_terms(exchange, checkpoints);
+    const auto terms = exchange.all_gather(CheckpointTerms(checkpoints));
     GEODISK_TRY(terms);
-    const auto part = surface.part(exchange, params, *frame, max_candidates, *terms);
+    const auto part = surface.part(exchange, params, *frame, max_candidates, terms->front());
     GEODISK_TRY(part);
     GEODISK_TRY(settle(exchange, **part, checkpoints));
     return sample_all(exchange, runner, part, 0, exchange.rank() == 0 ? &params : nullptr,

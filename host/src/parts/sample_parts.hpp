@@ -4,6 +4,7 @@
 #include <functional>
 #include <vector>
 
+#include <geodisk/exchange.hpp>
 #include <geodisk/export.hpp>
 #include <geodisk/mesh.hpp>
 #include <geodisk/params.hpp>
@@ -12,7 +13,6 @@
 #include <geodisk/status.hpp>
 
 #include "parts/checkpoint.hpp"
-#include "parts/exchange.hpp"
 #include "parts/ranges/ranged_surface.hpp"
 
 namespace geodisk {
@@ -33,25 +33,19 @@ struct WholeSurface {
     const Checkpoints* checkpoints = nullptr; ///< Null for a job without any.
 };
 
-/// Result, at the first process alone.
-struct PartsResult {
-    SampleSet set; ///< As one process gives it. RunReport::seconds are those of the first process.
-    std::vector<ProcessReport> processes;
-};
-
 /// Samples a surface together with the other processes; all call it. `whole` is null on all but the
 /// first one. Errors, the same on all processes: `invalid_argument` for more processes than faces,
 /// and for classes and maximal sets; those of frame_of() and
 /// Runner::sample_and_wait(). Throws std::bad_alloc.
-GEODISK_API Result<PartsResult> sample_parts(Exchange& exchange, Runner& runner,
-                                             const WholeSurface* whole,
-                                             const ProgressCallback& progress = {});
+GEODISK_API Result<SharedSamples> sample_parts(Exchange& exchange, Runner& runner,
+                                               const WholeSurface* whole,
+                                               const ProgressCallback& progress = {});
 
 /// Samples a surface that no process holds whole; all call it with the same parameters, of seed,
 /// distance and candidates alone. `checkpoints` is null on all but the first process, or for a job
 /// without any. Errors, the same on all: `mesh_rejected` for a job that needs the whole; those of
 /// sample_parts(). Throws std::bad_alloc.
-GEODISK_API Result<PartsResult>
+GEODISK_API Result<SharedSamples>
 sample_ranges(Exchange& exchange, Runner& runner, const RangedSurface& surface,
               const SampleParams& params, const Checkpoints* checkpoints = nullptr,
               const ProgressCallback& progress = {}, double max_candidates = kMaxAtOnce);

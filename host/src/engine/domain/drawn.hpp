@@ -4,31 +4,20 @@
 #include <cstdint>
 #include <vector>
 
+#include <geodisk/checkpoint.hpp>
 #include <geodisk/export.hpp>
 #include <geodisk/job_frame.hpp>
 #include <geodisk/mesh.hpp>
 #include <geodisk/params.hpp>
 
-#include "engine/domain/listed.hpp"
 #include "engine/domain/placed_surface.hpp"
 
 namespace geodisk {
-
-/// A candidate and its place in dart order: by stage, then priority, then as is_before() says.
-struct DrawnCandidate {
-    std::uint32_t stage, priority; ///< The priority has gpu::kPriorityBits.
-    ListedCandidate point;
-
-    friend bool operator==(const DrawnCandidate&, const DrawnCandidate&) = default;
-};
 
 /// Returns true if `a` comes before `b` in dart order. Among equal priorities, candidates are
 /// ordered by face and weights, or by weights if faces have keys, as kernels do.
 GEODISK_API bool is_before(const DrawnCandidate& a, const DrawnCandidate& b,
                            bool has_keys) noexcept;
-
-/// Candidates of a surface, whose faces are numbered in the whole.
-using Darts = std::vector<DrawnCandidate>;
 
 /// Dart order of a job whose faces have keys, or have none.
 struct DartOrder {

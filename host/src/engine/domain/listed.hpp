@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include <geodisk/checkpoint.hpp>
 #include <geodisk/domain.hpp>
 #include <geodisk/export.hpp>
 #include <geodisk/mesh.hpp>
@@ -17,17 +18,6 @@
 #include "engine/domain/placed_surface.hpp"
 
 namespace geodisk {
-
-/// The weight 1, in the units of candidates.
-inline constexpr std::uint32_t kOneWeight = 1u << 24;
-
-/// A candidate of the host: a point of a face.
-struct ListedCandidate {
-    std::uint32_t face;
-    std::uint32_t weight1, weight2; ///< Weights of the second and third corner, of kOneWeight.
-
-    friend bool operator==(const ListedCandidate&, const ListedCandidate&) = default;
-};
 
 /// Makes the domain of a surface whose only candidates are these, decided in the order of the list
 /// after the existing samples of `params`. Samples are the accepted ones in that order, behind the

@@ -1,5 +1,3 @@
-#include <geodisk/update.hpp>
-
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -10,10 +8,12 @@
 #include <vector>
 
 #include <geodisk/domain.hpp>
+#include <geodisk/update.hpp>
 #include <geodisk/weld.hpp>
 
 #include "engine/domain/check_frame.hpp"
 #include "engine/domain/existing.hpp"
+#include "engine/domain/listed.hpp"
 #include "engine/update/dart_set.hpp"
 #include "engine/update/face_set.hpp"
 #include "engine/update/live_mesh.hpp"

@@ -22,7 +22,7 @@ struct TakenEdge {
 };
 
 /// Finds the edges that no other one joins, and sorts them by the processes that read their faces.
-ByProcess<std::uint32_t> lone_edges(const Talk& talk, const Blocks& faces,
+ByProcess<std::uint32_t> lone_edges(const Talk& talk, const MeshBlocks& faces,
                                     std::vector<TakenEdge> edges) {
     std::sort(edges.begin(), edges.end());
     ByProcess<std::uint32_t> lone(talk.size());

@@ -4,9 +4,10 @@
 #include <cstdint>
 #include <span>
 
+#include <geodisk/mesh_range.hpp>
+
 #include "mesh/radius_pieces.hpp"
 #include "parts/ranges/examine.hpp"
-#include "parts/ranges/mesh_range.hpp"
 #include "parts/ranges/talk.hpp"
 
 namespace geodisk {

@@ -4,8 +4,9 @@
 #include <cstdint>
 #include <vector>
 
+#include <geodisk/mesh_range.hpp>
+
 #include "parts/ranges/examine.hpp"
-#include "parts/ranges/mesh_range.hpp"
 #include "parts/ranges/talk.hpp"
 
 namespace geodisk {

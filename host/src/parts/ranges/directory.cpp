@@ -72,7 +72,8 @@ void join(Talk& talk, std::vector<Contact> own, Components& components) {
 
 } // namespace
 
-Directory Directory::create(Talk& talk, const Blocks& vertices, std::span<const WholeFace> faces) {
+Directory Directory::create(Talk& talk, const MeshBlocks& vertices,
+                            std::span<const WholeFace> faces) {
     Directory directory;
     directory.first_ = vertices.first(talk.rank());
     const VertexNumbers numbers = vertices_of(faces);

@@ -5,7 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "parts/ranges/mesh_range.hpp"
+#include <geodisk/mesh_range.hpp>
+
 #include "parts/ranges/talk.hpp"
 #include "parts/ranges/vertex_numbers.hpp"
 
@@ -31,7 +32,8 @@ struct Components {
 class Directory {
   public:
     /// All processes enter the vertices of their faces that take part.
-    static Directory create(Talk& talk, const Blocks& vertices, std::span<const WholeFace> faces);
+    static Directory create(Talk& talk, const MeshBlocks& vertices,
+                            std::span<const WholeFace> faces);
 
     /// Returns for each of some vertices, of this home, the processes that hold it.
     std::span<const std::uint32_t> holders(std::uint32_t vertex) const {

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include <geodisk/mesh.hpp>
+#include <geodisk/mesh_range.hpp>
 
-#include "parts/ranges/mesh_range.hpp"
 #include "parts/ranges/talk.hpp"
 #include "parts/ranges/vertex_numbers.hpp"
 
@@ -24,7 +24,7 @@ struct RangeFindings {
     MeshStatistics statistics;      ///< As PreparedMesh::prepare() has them, to the bit.
     double low[3], high[3];         ///< Bounding box of the used vertices.
     std::uint64_t turned_edges = 0; ///< Edges of two faces that are turned over against each other.
-    std::uint64_t digest = 0;       ///< mesh_digest() of the whole.
+    std::uint64_t digest = 0;       ///< Sum of face_digest() over all faces.
 };
 
 /// Fetches the vertices of the faces of a range. Throws Stopped(mesh_rejected) for an index out of

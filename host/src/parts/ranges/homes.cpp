@@ -4,7 +4,7 @@
 
 namespace geodisk {
 
-ByProcess<std::uint32_t> by_home(const Blocks& blocks, std::span<const std::uint32_t> numbers) {
+ByProcess<std::uint32_t> by_home(const MeshBlocks& blocks, std::span<const std::uint32_t> numbers) {
     ByProcess<std::uint32_t> some(blocks.processes);
     auto first = numbers.begin();
     for (std::uint32_t home = 0; home < blocks.processes; ++home) {
@@ -23,7 +23,8 @@ std::uint64_t turns_of(Talk& talk, std::size_t numbers, std::size_t record_size)
     return turns_for(most * record_size);
 }
 
-std::vector<double> fetch_positions(Talk& talk, const Blocks& blocks, std::span<const double> own,
+std::vector<double> fetch_positions(Talk& talk, const MeshBlocks& blocks,
+                                    std::span<const double> own,
                                     std::span<const std::uint32_t> vertices) {
     using Position = std::array<double, 3>;
     std::vector<double> positions;

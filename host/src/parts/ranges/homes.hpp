@@ -7,13 +7,14 @@
 #include <utility>
 #include <vector>
 
-#include "parts/ranges/mesh_range.hpp"
+#include <geodisk/mesh_range.hpp>
+
 #include "parts/ranges/talk.hpp"
 
 namespace geodisk {
 
 /// Divides ascending numbers among their homes.
-ByProcess<std::uint32_t> by_home(const Blocks& blocks, std::span<const std::uint32_t> numbers);
+ByProcess<std::uint32_t> by_home(const MeshBlocks& blocks, std::span<const std::uint32_t> numbers);
 
 /// Returns in how many turns all processes send records of their numbers.
 std::uint64_t turns_of(Talk& talk, std::size_t numbers, std::size_t record_size);
@@ -21,8 +22,8 @@ std::uint64_t turns_of(Talk& talk, std::size_t numbers, std::size_t record_size)
 /// Passes the records of ascending numbers to `take`, in order, from their homes. All processes
 /// call it. `own(at)` returns the record at a place of this process's block.
 template <class Record, class Own, class Take>
-void fetch(Talk& talk, const Blocks& blocks, std::span<const std::uint32_t> numbers, const Own& own,
-           const Take& take) {
+void fetch(Talk& talk, const MeshBlocks& blocks, std::span<const std::uint32_t> numbers,
+           const Own& own, const Take& take) {
     const std::uint64_t first = blocks.first(talk.rank());
     const std::uint64_t turns = turns_of(talk, numbers.size(), sizeof(Record));
     for (std::uint64_t turn = 0; turn < turns; ++turn) {
@@ -45,7 +46,7 @@ void fetch(Talk& talk, const Blocks& blocks, std::span<const std::uint32_t> numb
 /// Passes records of ascending numbers to their homes, the other way round: `record(i)` of the
 /// number at i to `take(at, record)` there.
 template <class Record, class RecordAt, class Take>
-void tell_homes(Talk& talk, const Blocks& blocks, std::span<const std::uint32_t> numbers,
+void tell_homes(Talk& talk, const MeshBlocks& blocks, std::span<const std::uint32_t> numbers,
                 const RecordAt& record, const Take& take) {
     struct Told {
         std::uint32_t number;
@@ -69,7 +70,8 @@ void tell_homes(Talk& talk, const Blocks& blocks, std::span<const std::uint32_t>
 
 /// Returns the coordinates of vertices, in ascending order, from their homes: three each. All
 /// processes call it. `own` are the coordinates of this process's block.
-std::vector<double> fetch_positions(Talk& talk, const Blocks& blocks, std::span<const double> own,
+std::vector<double> fetch_positions(Talk& talk, const MeshBlocks& blocks,
+                                    std::span<const double> own,
                                     std::span<const std::uint32_t> vertices);
 
 } // namespace geodisk

@@ -238,7 +238,7 @@ RangedFields RangedFields::create(Talk& talk, const MeshRange& range, RangeFaces
     return fields;
 }
 
-VertexRadii RangedFields::radii_at(Talk& talk, const Blocks& blocks,
+VertexRadii RangedFields::radii_at(Talk& talk, const MeshBlocks& blocks,
                                    std::span<const std::uint32_t> vertices) const {
     std::vector<float> values, packing;
     if (kind_ == RadiusKind::same) {
@@ -258,7 +258,7 @@ VertexRadii RangedFields::radii_at(Talk& talk, const Blocks& blocks,
     return VertexRadii::of_density(std::move(values), std::move(packing));
 }
 
-std::vector<std::uint8_t> RangedFields::mask_of(Talk& talk, const Blocks& blocks,
+std::vector<std::uint8_t> RangedFields::mask_of(Talk& talk, const MeshBlocks& blocks,
                                                 std::span<const std::uint32_t> faces) const {
     std::vector<std::uint8_t> mask;
     if (masked_faces_) {

@@ -6,12 +6,12 @@
 #include <span>
 #include <vector>
 
+#include <geodisk/mesh_range.hpp>
 #include <geodisk/radius_field.hpp>
 
 #include "engine/domain/face_mask.hpp"
 #include "mesh/radius_pieces.hpp"
 #include "parts/ranges/examine.hpp"
-#include "parts/ranges/mesh_range.hpp"
 #include "parts/ranges/talk.hpp"
 
 namespace geodisk {
@@ -42,11 +42,11 @@ class RangedFields {
 
     /// Returns the radii at some vertices, in ascending order; empty if they do not vary. All
     /// processes call it.
-    VertexRadii radii_at(Talk& talk, const Blocks& blocks,
+    VertexRadii radii_at(Talk& talk, const MeshBlocks& blocks,
                          std::span<const std::uint32_t> vertices) const;
     /// Returns the mask of some faces, in ascending order; empty without one. All processes call
     /// it.
-    std::vector<std::uint8_t> mask_of(Talk& talk, const Blocks& blocks,
+    std::vector<std::uint8_t> mask_of(Talk& talk, const MeshBlocks& blocks,
                                       std::span<const std::uint32_t> faces) const;
 
   private:

@@ -6,10 +6,10 @@
 #include <vector>
 
 #include <geodisk/mesh.hpp>
+#include <geodisk/mesh_range.hpp>
 
 #include "parts/part.hpp"
 #include "parts/ranges/directory.hpp"
-#include "parts/ranges/mesh_range.hpp"
 #include "parts/ranges/ranged_fields.hpp"
 #include "parts/ranges/talk.hpp"
 
@@ -24,7 +24,7 @@ struct HaloFace {
 
 /// Surface as far as a process knows it.
 struct KnownSurface {
-    const Blocks& vertices;
+    const MeshBlocks& vertices;
     std::span<const double> positions;
     std::span<const WholeFace> faces;
     const Directory& directory;

@@ -88,10 +88,15 @@ Result<RangedSurface> RangedSurface::create(Exchange& exchange, MeshRange range)
             range.values = {};
             range.vertex_mask = {};
             range.face_mask = {};
-            surface.statistics_ = {findings.statistics, 0, findings.turned_edges,
-                                   findings.digest + surface.fields_.digest()};
-            const auto owners = divide_by_curve(talk, range, std::move(faces), findings,
-                                                surface.fields_.areas().taken);
+            RangedStatistics& statistics = surface.statistics_;
+            statistics.mesh = findings.statistics;
+            statistics.turned_edges = findings.turned_edges;
+            statistics.digest = findings.digest + surface.fields_.digest();
+            statistics.effective_area = surface.fields_.areas().taken;
+            statistics.borders = surface.fields_.borders();
+            statistics.masked_faces = surface.fields_.masked_faces();
+            const auto owners =
+                divide_by_curve(talk, range, std::move(faces), findings, statistics.effective_area);
             surface.faces_ = own_faces_of(talk, range, owners);
         }
         range.triangles = {};

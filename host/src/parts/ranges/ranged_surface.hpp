@@ -12,28 +12,19 @@
 #include <span>
 #include <vector>
 
+#include <geodisk/exchange.hpp>
 #include <geodisk/export.hpp>
 #include <geodisk/mesh.hpp>
+#include <geodisk/mesh_range.hpp>
 #include <geodisk/params.hpp>
 #include <geodisk/status.hpp>
 
-#include "parts/exchange.hpp"
 #include "parts/part.hpp"
 #include "parts/ranges/directory.hpp"
-#include "parts/ranges/mesh_range.hpp"
 #include "parts/ranges/ranged_fields.hpp"
 #include "parts/ranges/ranged_halo.hpp"
 
 namespace geodisk {
-
-/// Statistics of a mesh, from its ranges.
-struct RangedStatistics {
-    MeshStatistics mesh; ///< As those of PreparedMesh::prepare(), to the bit.
-    std::uint64_t unused_vertices = 0;
-    std::uint64_t turned_edges = 0; ///< Edges of two faces that are turned over against each other.
-    /// Sum of mesh_digest() and fields_digest() of the whole.
-    std::uint64_t digest = 0;
-};
 
 class GEODISK_API RangedSurface {
   public:
@@ -47,13 +38,6 @@ class GEODISK_API RangedSurface {
     const PreparedMesh& outline() const { return outline_; }
     /// Returns radii without faces, with bounds and sums of the whole; null if they do not vary.
     const RadiusField* radii() const { return fields_.radii(); }
-    /// Returns the number of faces that the mask leaves; nothing without one.
-    std::optional<std::uint64_t> masked_faces() const { return fields_.masked_faces(); }
-    /// Returns effective_area() of the whole.
-    double effective_area() const { return fields_.areas().taken; }
-    /// Returns the length of all borders as distance_for_count() takes it, if
-    /// MeshRange::needs_borders.
-    double borders() const { return fields_.borders(); }
     /// Returns the number of own faces.
     std::size_t own_faces() const { return faces_.size(); }
 
@@ -85,7 +69,7 @@ class GEODISK_API RangedSurface {
     RangedStatistics statistics_;
     PreparedMesh outline_;
     RangedFields fields_;
-    Blocks vertices_, face_blocks_;
+    MeshBlocks vertices_, face_blocks_;
     std::vector<double> positions_; ///< Positions of the vertices that are at home here.
     std::vector<WholeFace> faces_;
     Directory directory_;

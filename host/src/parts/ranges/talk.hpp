@@ -9,9 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include <geodisk/exchange.hpp>
 #include <geodisk/status.hpp>
-
-#include "parts/exchange.hpp"
 
 namespace geodisk {
 
@@ -38,7 +37,7 @@ class Talk {
     ByProcess<Record> all_to_all(ByProcess<Record> records) {
         std::vector<Bytes> messages(size());
         for (std::uint32_t other = 0; other < size(); ++other) {
-            messages[other] = bytes_of<Record>(records[other]);
+            messages[other] = bytes_of(std::span<const Record>(records[other]));
             records[other] = {};
         }
         std::vector<Bytes> received = value(exchange_.all_to_all(std::move(messages)));
@@ -49,40 +48,10 @@ class Talk {
         return records;
     }
 
-    /// Returns the records that the first process has for this one. It gives some for each process,
-    /// the others nothing.
-    template <class Record>
-    std::vector<Record> scatter(const ByProcess<Record>& records) {
-        std::vector<Bytes> messages;
-        for (const auto& some : records) {
-            messages.push_back(bytes_of<Record>(some));
-        }
-        return records_of<Record>(value(exchange_.scatter(std::move(messages))));
-    }
-
-    /// Returns the records of each process at the first one, nothing elsewhere.
-    template <class Record>
-    ByProcess<Record> gather(std::span<const Record> own) {
-        ByProcess<Record> of_all;
-        for (const Bytes& message : value(exchange_.gather(bytes_of(own)))) {
-            of_all.push_back(records_of<Record>(message));
-        }
-        return of_all;
-    }
-
-    /// Returns what each process gives, as the sum of arrays in which all else is zero.
+    /// Returns what each process gives.
     template <class Record>
     std::vector<Record> all(const Record& own) {
-        static_assert(std::is_trivially_copyable_v<Record>);
-        constexpr std::size_t kWords = (sizeof own + 7) / 8;
-        std::vector<std::uint64_t> words(size() * kWords);
-        std::memcpy(&words[rank() * kWords], &own, sizeof own);
-        words = sums(std::move(words));
-        std::vector<Record> of_all(size());
-        for (std::uint32_t other = 0; other < size(); ++other) {
-            std::memcpy(static_cast<void*>(&of_all[other]), &words[other * kWords], sizeof own);
-        }
-        return of_all;
+        return value(exchange_.all_gather(own));
     }
 
     std::uint64_t sum(std::uint64_t own) { return value(exchange_.sum(own)); }
@@ -114,23 +83,7 @@ class Talk {
         }
     }
 
-    /// Returns the records that a message consists of.
-    template <class Record>
-    static std::vector<Record> records_of(std::span<const std::byte> bytes) {
-        std::vector<Record> records(bytes.size() / sizeof(Record));
-        if (!records.empty()) {
-            std::memcpy(records.data(), bytes.data(), records.size() * sizeof(Record));
-        }
-        return records;
-    }
-
   private:
-    template <class Record>
-    static Bytes bytes_of(std::span<const Record> records) {
-        static_assert(std::is_trivially_copyable_v<Record>);
-        const auto bytes = std::as_bytes(records);
-        return {bytes.begin(), bytes.end()};
-    }
     template <class T>
     static T value(Result<T> result) {
         if (!result) {

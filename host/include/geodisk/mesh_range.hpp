@@ -1,15 +1,19 @@
-// MeshRange: the share of a mesh file that one process reads.
+// MeshRange: the share of a mesh file that one process reads, of a mesh that none reads whole.
+// Experimental.
 #pragma once
 
 #include <algorithm>
 #include <cstdint>
+#include <optional>
 #include <vector>
+
+#include <geodisk/mesh.hpp>
 
 namespace geodisk {
 
 /// Numbers 0 to `count` in blocks of equal size, one for each process. The last may be smaller, or
 /// empty.
-struct Blocks {
+struct MeshBlocks {
     std::uint64_t count = 0;
     std::uint32_t processes = 1;
 
@@ -32,7 +36,7 @@ enum class RadiusKind : std::uint8_t {
 
 /// The faces and the vertices of one process's blocks.
 struct MeshRange {
-    Blocks faces, vertices;               ///< Blocks of the whole mesh.
+    MeshBlocks faces, vertices;           ///< Blocks of the whole mesh.
     std::vector<std::uint32_t> triangles; ///< Three vertices of the whole per face.
     std::vector<double> positions;        ///< Three coordinates per vertex.
     RadiusKind radii = RadiusKind::same;
@@ -42,6 +46,17 @@ struct MeshRange {
     /// its corners do.
     std::vector<std::uint8_t> vertex_mask, face_mask;
     bool needs_borders = false; ///< Their length is wanted.
+};
+
+/// Statistics of a mesh and of the radii and the mask on it, from its ranges.
+struct RangedStatistics {
+    MeshStatistics mesh; ///< As those of PreparedMesh::prepare(), to the bit.
+    std::uint64_t unused_vertices = 0;
+    std::uint64_t turned_edges = 0; ///< Edges of two faces that are turned over against each other.
+    std::uint64_t digest = 0;       ///< surface_digest() of the whole.
+    double effective_area = 0;      ///< effective_area() of the whole.
+    double borders = 0;             ///< Length of all borders, for distance_for_count(), if wanted.
+    std::optional<std::uint64_t> masked_faces{}; ///< Faces that the mask leaves; none without one.
 };
 
 } // namespace geodisk
