@@ -34,10 +34,11 @@ def test_areas_of_masked_samples_sum_to_the_masked_area():
         np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1
     ) / 2
     mask = corners.mean(axis=1)[:, 2] > 0
-    samples = geodisk.sample(VERTICES, FACES, min_distance=0.4, face_mask=mask)
-    cells = geodisk.cells((VERTICES, FACES), samples, face_mask=mask)
+    mesh = geodisk.Mesh(VERTICES, FACES)
+    samples = geodisk.sample(mesh, min_distance=0.4, face_mask=mask)
+    cells = geodisk.cells(mesh, samples, face_mask=mask)
     assert np.isclose(cells.area.sum(), areas[mask].sum(), rtol=1e-6)
-    by_index = geodisk.cells((VERTICES, FACES), samples, face_mask=np.flatnonzero(mask))
+    by_index = geodisk.cells(mesh, samples, face_mask=np.flatnonzero(mask))
     assert np.array_equal(by_index.area, cells.area)
 
 
