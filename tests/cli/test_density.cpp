@@ -211,7 +211,7 @@ TEST_CASE("a density has samples in proportion, and none where it is 0") {
     CHECK(contains(told.out, "min distance  0.02 to 0.09797"));
 }
 
-TEST_CASE("options of earlier versions mean what they did, with a warning") {
+TEST_CASE("aliases of options for radius factors mean the same, with a warning") {
     const TemporaryFolder folder;
     write_square(folder);
     const auto set = [&](const std::string& mesh, const Arguments& density, std::string& warnings) {

@@ -2,27 +2,16 @@
 
 from __future__ import annotations
 
-import warnings
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from . import _errors as e
 from . import _library as c
 from . import _structs as s
 from ._mesh import Mesh
 from ._oddities import warn
-
-_MEANING = (
-    "density= is the density of samples now: more where it is larger, none where it is 0, and "
-    "min_distance is the least distance of all. For factors of the radius, as in earlier versions, "
-    "give radius_factor=. To silence this, multiply the density, such as by 1000: its unit does "
-    "not matter"
-)
-_has_warned = False
-
 
 @dataclass(frozen=True)
 class Radii:
@@ -54,7 +43,6 @@ def radii_of(
     create = "geodisk_radii_create"
     if name == "density":
         create = "geodisk_density_create"
-        _warn_of_meaning(values)
     handle = c.Handle(
         "radii",
         create,
@@ -68,12 +56,3 @@ def radii_of(
         warn([e.GeodiskWarning(text, "constant_density", 1)])
     part = c.radii_min_factor(handle.value) if name == "density" else 1.0
     return Radii(handle, part)
-
-
-def _warn_of_meaning(density: NDArray[Any]) -> None:
-    """Once, where the values may be meant as factors, which `density` took before."""
-    global _has_warned
-    if _has_warned or not ((density >= 0.001) & (density <= 1)).all() or (density == 1).all():
-        return
-    _has_warned = True
-    warnings.warn(_MEANING, e.GeodiskWarning, stacklevel=4)
