@@ -74,6 +74,10 @@ TEST_CASE("neighbours of vertices, points and each other") {
           "3,0,1\n3,2,1\n3,3,0\n");
     CHECK(found(folder, {"square.obj", "--within", "1.1", "--vertices", "3, 0-1", "--among",
                          "sources"}) == "source,target,distance\n3,0,1\n0,3,1\n0,1,1\n1,0,1\n");
+    // The four corners of the top, each with two others a side away.
+    CHECK(lines_of(found(folder, {"builtin:cube:1", "--within", "1.1", "--mask", "z>=0.5",
+                                  "--among", "sources"}))
+              .size() == 9);
     write(folder, "some.txt", "# vertices\r\n3,\n 0-1 # two\n");
     CHECK(found(folder, {"square.obj", "--within", "1.1", "--vertices", "@some.txt", "--among",
                          "sources"}) == "source,target,distance\n3,0,1\n0,3,1\n0,1,1\n1,0,1\n");
@@ -209,6 +213,10 @@ TEST_CASE("neighbours that cannot be found are refused, and no file is left") {
     refused(3, "empty.txt: names no vertex", {"--within", "1", "--vertices", "@empty.txt"});
     refused(3, "gone.txt", {"--within", "1", "--vertices", "@gone.txt"});
     refused(2, "--vertices: '3-1' is neither", {"--within", "1", "--vertices", "3-1"});
+    refused(2, "--mask: all sources are given by --vertices",
+            {"--within", "1", "--vertices", "1", "--mask", "x>=0"});
+    refused(2, "--only: all sources are given by POINTS",
+            {"points.csv", "--within", "1", "--only", "part:0"});
     refused(2, "--vertices contradicts POINTS", {"points.csv", "--within", "1", "--vertices", "1"});
     refused(2, "--nearest", {"--within", "1", "--nearest", "0"});
     refused(3, "points.csv: point 0: its reach is 0", {"points.csv", "--within", "reach"});

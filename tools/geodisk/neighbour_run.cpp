@@ -40,6 +40,26 @@ NumberedPoints vertices_of(const MeshInput& mesh, const std::vector<VertexRange>
     return found;
 }
 
+void keep_masked(const MeshInput& mesh, NumberedPoints& vertices) {
+    const auto place = [&](std::uint32_t vertex) {
+        return mesh.file.joined.empty() ? vertex : mesh.file.joined[vertex];
+    };
+    std::vector<std::uint8_t> is_used(mesh.prepared.vertex_count(), 0);
+    for (std::size_t corner = 0; corner < mesh.file.triangles.size(); ++corner) {
+        if (mesh.face_mask[corner / 3] != 0) {
+            is_used[place(mesh.file.triangles[corner])] = 1;
+        }
+    }
+    NumberedPoints kept;
+    for (std::size_t i = 0; i < vertices.points.size(); ++i) {
+        if (is_used[place(vertices.numbers[i])] != 0) {
+            kept.points.push_back(vertices.points[i]);
+            kept.numbers.push_back(vertices.numbers[i]);
+        }
+    }
+    vertices = std::move(kept);
+}
+
 NeighbourResult search_neighbours(const NeighbourJob& job, const MeshInput& mesh, RunDevice& device,
                                   bool is_bounded, ProgressLine& progress) {
     const Stopwatch watch;

@@ -34,6 +34,9 @@ NumberedPoints places_of(const MeshInput& mesh);
 /// or that no face uses.
 NumberedPoints vertices_of(const MeshInput& mesh, const std::vector<VertexRange>& wanted);
 
+/// Leaves out vertices that no face of the mesh's mask uses.
+void keep_masked(const MeshInput& mesh, NumberedPoints& vertices);
+
 /// Search to run.
 struct NeighbourJob {
     NumberedPoints sources;

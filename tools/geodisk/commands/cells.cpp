@@ -158,7 +158,7 @@ void add_cells_command(Command app) {
                        "triangle where three cells meet) or *.npz (arrays points,\n"
                        "edges, triangles)");
     add_mesh_options(command, options->mesh);
-    add_mask_options(command, options->mask, OptionUse::checking);
+    add_mask_options(command, options->mask, OptionUse::choosing);
     add_tolerance_option(command, options->tolerance);
     add_output_options(command, options->out);
     add_device_options(command, options->run.device);

@@ -15,6 +15,7 @@
 #include "geodisk/inputs/mesh_input.hpp"
 #include "geodisk/neighbour_run.hpp"
 #include "geodisk/opened_device.hpp"
+#include "geodisk/options/mask_options.hpp"
 #include "geodisk/options/mesh_options.hpp"
 #include "geodisk/options/run_options.hpp"
 #include "geodisk/options/tolerance_option.hpp"
@@ -38,6 +39,7 @@ constexpr const char* kNeighboursExamples[] = {
 
 struct NeighbourOptions {
     MeshOptions mesh;
+    MaskOptions mask;
     OutputOptions out;
     RunOptions run;
     std::string points, vertices, within, among = "vertices", nearest, max_pairs, tolerance;
@@ -139,6 +141,7 @@ std::vector<VertexRange> parsed_vertices(const NeighbourOptions& options) {
 void check_files(const NeighbourOptions& options) {
     std::vector<NamedFile> read;
     options.mesh.add_files(read, "the mesh");
+    options.mask.add_files(read);
     if (!options.points.empty()) {
         read.push_back({"the sources", options.points});
     }
@@ -192,6 +195,9 @@ NeighbourJob make_job(const NeighbourOptions& options, const Within& within,
     if (options.points.empty()) {
         job.sources = options.among == "sources" && vertices.empty() ? places_of(mesh)
                                                                      : vertices_of(mesh, vertices);
+        if (!mesh.face_mask.empty()) {
+            keep_masked(mesh, job.sources);
+        }
     } else {
         const SampleFile file =
             read_points(options, options.points, within.column, mesh, warnings, progress);
@@ -218,6 +224,10 @@ void run_neighbours(const NeighbourOptions& options) {
     if (!options.points.empty() && !options.vertices.empty()) {
         fail_usage("--vertices contradicts POINTS: sources are either");
     }
+    if (options.mask.is_given() && !(options.points.empty() && options.vertices.empty())) {
+        fail_usage(options.mask.names() + ": all sources are given by " +
+                   (options.points.empty() ? "--vertices" : "POINTS"));
+    }
     const std::vector<VertexRange> vertices = parsed_vertices(options);
     constexpr double kMax = 0xffffffffp0;
     const double nearest = options.nearest.empty() ? 0 : parse_count("--nearest", options.nearest);
@@ -228,7 +238,12 @@ void run_neighbours(const NeighbourOptions& options) {
     check_files(options);
 
     ProgressLine progress(options.out.quiet);
-    const MeshInput mesh = load_mesh(options.mesh, progress);
+    const MeshInput mesh = load_mesh(options.mesh, progress, {}, options.mask);
+    if (mesh.split) {
+        fail_usage(
+            "--mask: the image shows more than the corners of faces; split the faces where it "
+            "has detail");
+    }
     std::vector<MeshWarning> warnings;
     NeighbourJob job = make_job(options, within, vertices, mesh, warnings, progress);
     job.nearest = static_cast<std::uint32_t>(std::min(nearest, kMax));
@@ -281,6 +296,7 @@ void add_neighbours_command(Command app) {
     command.add_option("--most-pairs", options->max_pairs, "N",
                        "Stop if more than N pairs are expected (default 2^30)");
     add_mesh_options(command, options->mesh);
+    add_mask_options(command, options->mask, OptionUse::choosing);
     add_tolerance_option(command, options->tolerance);
     add_json_option(command, options->out);
     command.add_option("--format", options->out.format, "FORMAT",

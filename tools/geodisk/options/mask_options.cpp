@@ -191,10 +191,11 @@ HeaderEntries with_entries(HeaderEntries entries, const MaskOptions& options) {
 }
 
 void add_mask_options(Command command, MaskOptions& options, OptionUse use) {
-    const char* const group = "Where samples may lie";
+    const char* const group =
+        use == OptionUse::choosing ? "Part of the surface" : "Where samples may lie";
     command
         .add_option("--only", options.only, "PART",
-                    help_for(use, "Sample only", "Samples lie on") +
+                    help_for(use, "Sample only", "Samples lie on", "Take only") +
                         " material:NAME, group:NAME (OBJ group or object),\n"
                         "node:NAME (with the nodes below it) or part:N (no path joins\n"
                         "it to others). A number may replace NAME. Repeat to select\n"
@@ -203,7 +204,7 @@ void add_mask_options(Command command, MaskOptions& options, OptionUse use) {
         .takes_one_value();
     command
         .add_option("--mask", options.masks, "RULE",
-                    help_for(use, "Sample only", "Samples lie on") +
+                    help_for(use, "Sample only", "Samples lie on", "Take only") +
                         " faces where PROPERTY<VALUE (or <= > >= = !=) holds:\n"
                         "x, y, z (x0 to x7 in R^n) or a PLY property at all corners, or\n"
                         "of the face. map:FILE: what is white in an image, or\n"

@@ -13,6 +13,7 @@ from . import _structs as s
 from ._mesh import Mesh
 from ._oddities import warn
 
+
 @dataclass(frozen=True)
 class Radii:
     """The library's radii."""
