@@ -1,12 +1,11 @@
-#include <memory>
 #include <span>
 #include <utility>
 #include <vector>
 
 #include <geodisk/cells.hpp>
-#include <geodisk/nearest.hpp>
 
 #include "c/c_call.hpp"
+#include "c/c_cells.hpp"
 #include "c/c_mesh.hpp"
 #include "c/c_sampler.hpp"
 #include "support/try.hpp"
@@ -14,12 +13,6 @@
 /// Immutable.
 struct geodisk_cells {
     geodisk::SurfaceCells found;
-};
-
-/// Immutable.
-struct geodisk_nearest {
-    std::shared_ptr<const geodisk::c::Mesh> mesh; ///< Which outlives the disks.
-    geodisk::NearestSamples disks;
 };
 
 namespace geodisk::c {
