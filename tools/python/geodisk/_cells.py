@@ -110,14 +110,14 @@ def cells(
     [[0, 1]]
     """
     on = mesh_of(mesh, None, None, False)
-    points = points_of(on._surface, samples, "samples", is_needed=True)
+    points = points_of(on._handle, samples, "samples", is_needed=True)
     params = s.CellParams(
         samples=points.ctypes.data,
         sample_count=len(points),
         areas_only=int(not flag(dual, "dual")),
         max_records=integer(max_records, "max_records", 2**64 - 1, 1),
     )
-    handle = search("cells", "geodisk_find_cells", on, params, name_of(device), progress)
+    handle = search("cells", "geodisk_find_cells", on._handle, params, name_of(device), progress)
     told = s.CellArrays()
     c.call("geodisk_cells_describe", handle.value, byref(told))
 

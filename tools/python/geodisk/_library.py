@@ -13,6 +13,7 @@ from ._errors import BY_STATUS, Error
 from ._structs import (
     NO_ELEMENT,
     PROGRESS_FN,
+    TAKE_FN,
     BoxRequest,
     CellArrays,
     CellParams,
@@ -36,6 +37,7 @@ from ._structs import (
     SourceAttribute,
     SourceParams,
     SurfaceParams,
+    Task,
     UpdateInfo,
 )
 from ._wording import in_python
@@ -115,6 +117,14 @@ _FALLIBLE: dict[str, list[Any]] = {
         _HANDLE,
     ],
     "geodisk_cells_describe": [c_void_p, POINTER(CellArrays)],
+    "geodisk_nearest_create": [
+        c_void_p,
+        c_void_p,
+        POINTER(CellParams),
+        PROGRESS_FN,
+        c_void_p,
+        _HANDLE,
+    ],
     "geodisk_samples_copy": [c_void_p, c_int32, c_int32, c_void_p, c_size_t, c_size_t],
     "geodisk_samples_report": [c_void_p, POINTER(Report)],
     "geodisk_explain_no_device": [c_char_p, c_char_p, c_size_t],
@@ -123,6 +133,7 @@ _FALLIBLE: dict[str, list[Any]] = {
     "geodisk_source_get_attribute": [c_void_p, c_size_t, POINTER(SourceAttribute)],
     "geodisk_source_column": [c_void_p, c_size_t, POINTER(POINTER(c_uint32))],
     "geodisk_source_record": [c_void_p, POINTER(RecordParams)],
+    "geodisk_run_command": [c_char_p, POINTER(Task), TAKE_FN],
     "geodisk_warnings_list": [c_void_p, c_void_p, _HANDLE],
     "geodisk_warnings_of_set": [POINTER(SampledSet), _HANDLE],
     "geodisk_warnings_of_drivers": [_HANDLE],
@@ -137,6 +148,7 @@ _RELEASES = [
     "samples",
     "neighbours",
     "cells",
+    "nearest",
     "source",
     "updater",
     "warnings",
@@ -180,6 +192,8 @@ _library.geodisk_cancel.argtypes = [c_void_p]
 _library.geodisk_cancel.restype = None
 _library.geodisk_radii_min_factor.argtypes = [c_void_p]
 _library.geodisk_radii_min_factor.restype = c_double
+_library.geodisk_nearest_error.argtypes = [c_void_p]
+_library.geodisk_nearest_error.restype = c_double
 _library.geodisk_samples_count.argtypes = [c_void_p]
 _library.geodisk_samples_count.restype = c_size_t
 _library.geodisk_skip_exit_handlers.argtypes = []
@@ -225,6 +239,10 @@ def cancel(sampler: c_void_p) -> None:
 
 def radii_min_factor(radii: c_void_p) -> float:
     return float(_library.geodisk_radii_min_factor(radii))
+
+
+def nearest_error(nearest: c_void_p) -> float:
+    return float(_library.geodisk_nearest_error(nearest))
 
 
 def samples_count(samples: c_void_p) -> int:

@@ -51,23 +51,26 @@ def radii_of(
     given = density if name == "density" else radius_factor
     assert given is not None
     values = mesh._surface.vertex_values(given, name)
-    create = "geodisk_radii_create"
     if name == "density":
-        create = "geodisk_density_create"
         _warn_of_meaning(values)
+    radii = radii_on(mesh._handle, name, values)
+    if name == "density" and len(values) and (values == values[0]).all():
+        text = f"the density is {values[0]:g} everywhere, so it leaves out nothing"
+        warn([e.GeodiskWarning(text, "constant_density", 1)])
+    return radii
+
+
+def radii_on(mesh: c.Handle, name: str, values: NDArray[Any]) -> Radii:
+    """Returns the radii of a `density` or a `radius_factor`, whose values are of vertices."""
     handle = c.Handle(
         "radii",
-        create,
-        mesh._handle.value,
+        "geodisk_density_create" if name == "density" else "geodisk_radii_create",
+        mesh.value,
         values.ctypes.data,
         s.FLOAT32 if values.dtype == np.float32 else s.FLOAT64,
         len(values),
     )
-    if name == "density" and len(values) and (values == values[0]).all():
-        text = f"the density is {values[0]:g} everywhere, so it leaves out nothing"
-        warn([e.GeodiskWarning(text, "constant_density", 1)])
-    part = c.radii_min_factor(handle.value) if name == "density" else 1.0
-    return Radii(handle, part)
+    return Radii(handle, c.radii_min_factor(handle.value) if name == "density" else 1.0)
 
 
 def _warn_of_meaning(density: NDArray[Any]) -> None:

@@ -425,6 +425,26 @@ class SampledSet(_Sized):
     ]
 
 
+class Task(_Sized):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("options", c_char_p),
+        ("samples", c_void_p),
+        ("mesh", c_void_p),
+        ("to", c_void_p),
+        ("radii", c_void_p),
+        ("face_mask", c_void_p),
+        ("avoid", c_void_p),
+        ("avoid_radii", c_void_p),
+        ("source", c_void_p),
+        ("nearest", c_void_p),
+        ("stop", POINTER(c_int32)),
+    ]
+
+
+TAKE_FN = CFUNCTYPE(None, c_void_p, c_size_t)
+
+
 class Oddity(_Sized):
     _fields_ = [
         ("struct_size", c_size_t),

@@ -1,5 +1,5 @@
 /* Functions that the Python package needs besides geodisk/geodisk.h: meshes as the program reads
- * them, and the warnings that it prints. The conventions are those of geodisk.h.
+ * them, the warnings that it prints, and what it does with samples. The conventions are those of geodisk.h.
  *
  * This is no public interface. The library that has it is part of the package and changes with it.
  */
@@ -160,6 +160,40 @@ GEODISK_C_API size_t geodisk_warnings_count(const geodisk_warnings *warnings);
 GEODISK_C_API geodisk_status geodisk_warnings_get(const geodisk_warnings *warnings, size_t index,
                                                   geodisk_warning *warning, geodisk_error *error);
 GEODISK_C_API void geodisk_warnings_release(geodisk_warnings *warnings);
+
+/* Meshes, samples and arrays in memory for a command of the program. NULL where it needs none. */
+typedef struct geodisk_task {
+    size_t struct_size;
+    /* A JSON object. Of samples, it has their number `count`, the names of `columns`, the entries of
+     * the `header`, and a `tolerance` for points without faces; null for the default. */
+    const char *options;
+    const double *samples;      /* Values of all columns of each sample. */
+    const geodisk_mesh *mesh;   /* NULL for samples in a box. */
+    const geodisk_mesh *to;     /* Another mesh with the same faces. */
+    const geodisk_radii *radii;
+    const uint8_t *face_mask;   /* As in geodisk_surface_params. */
+    const geodisk_surface_point *avoid;
+    const double *avoid_radii;
+    const geodisk_source *source;
+    const geodisk_nearest *nearest;
+    /* Work ends with GEODISK_CANCELLED soon after this is no longer 0. May be NULL. */
+    const volatile int32_t *stop;
+} geodisk_task;
+
+/* Takes an array that a command made. */
+typedef void (*geodisk_take_fn)(const void *bytes, size_t size);
+
+/* Runs a command, and hands over what it makes:
+ *   verify    the report of the program, as JSON
+ *   place     faces and weights of samples on their mesh, as uint32_t and three float for each
+ *   transfer  the same, then their points as double with at least three coordinates and normals as
+ *             float on the mesh `to`, and the smallest distance there as double, NaN without one
+ *   bake      the nearest sample of each texel of `source` as int32_t, its distance as float, the
+ *             face as int32_t, and how many texels several faces cover as uint64_t
+ *   render    a PNG file
+ * Fails with GEODISK_INVALID_ARGUMENT for what the program refuses, in its words. */
+GEODISK_C_API geodisk_status geodisk_run_command(const char *name, const geodisk_task *task,
+                                                 geodisk_take_fn take, geodisk_error *error);
 
 /* Writes the message of a GEODISK_NO_DEVICE to `text`, with what variables of the environment keep
  * Vulkan's loader from finding a driver, if any do. */

@@ -1,11 +1,9 @@
-"""What the program geodisk does for the package: verify, transfer and render."""
+"""Verify, transfer and render."""
 
 import dataclasses
 import os
 import pickle
 import signal
-import stat
-import tempfile
 import threading
 
 import numpy as np
@@ -14,19 +12,10 @@ import pytest
 import geodisk
 from meshes import FACES, LENGTHS, SOUP, TETRAHEDRON, VERTICES, same, torus
 
-pytestmark = pytest.mark.skipif("GEODISK_COMMAND" not in os.environ, reason="needs the program")
-
 SAMPLES = geodisk.sample(VERTICES, FACES, min_distance=0.3, seed=5)
 ONES = np.ones(len(VERTICES))
 SQUARE = geodisk.sample_box([1, 1], min_distance=0.2)
 HEAVY = dataclasses.replace(SAMPLES, barycentric=2 * SAMPLES.barycentric)
-
-
-@pytest.fixture(autouse=True)
-def no_file_is_left(tmp_path, monkeypatch):
-    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
-    yield
-    assert not [name for name in os.listdir(tmp_path) if name.startswith("geodisk-")]
 
 
 def test_verify():
@@ -315,7 +304,7 @@ def test_threads():
     assert found == [expected] * 4
 
 
-def test_interruption(tmp_path):
+def test_interruption():
     # A thousand disks that each cover 90,000 faces take minutes.
     vertices, faces = torus(300, 150)
     places = np.arange(0, len(faces), len(faces) // 1000)
@@ -331,26 +320,3 @@ def test_interruption(tmp_path):
     with pytest.raises(KeyboardInterrupt):
         geodisk.verify(many, mesh)
     timer.join()
-    with pytest.raises(ChildProcessError):  # There is no child anymore.
-        os.waitpid(-1, os.WNOHANG)
-
-
-def test_the_program(tmp_path, monkeypatch):
-    def fails(text):
-        with pytest.raises(geodisk.NoProgram, match=text) as caught:
-            geodisk.verify(SAMPLES)
-        assert caught.value.status == "no_program"
-
-    program = os.environ["GEODISK_COMMAND"]
-    monkeypatch.setenv("GEODISK_COMMAND", str(tmp_path / "nowhere"))
-    fails("nowhere, which is no program")
-    other = tmp_path / "other"
-    other.write_text("#!/bin/sh\necho geodisk 9.9.9\n")
-    other.chmod(stat.S_IRWXU)
-    monkeypatch.setenv("GEODISK_COMMAND", str(other))
-    fails("geodisk 9.9.9, but this package is of geodisk 0")
-    monkeypatch.delenv("GEODISK_COMMAND")
-    monkeypatch.setenv("PATH", str(tmp_path))
-    fails("no program geodisk")
-    (tmp_path / "geodisk").symlink_to(program)
-    assert geodisk.verify(SAMPLES)
