@@ -113,7 +113,7 @@ def bake(
     params = s.CellParams(samples=points.ctypes.data, sample_count=len(points))
     nearest = search("nearest", "geodisk_nearest_create", on, params, name_of(None), False)
     arrays = {"source": source.handle, "nearest": nearest}
-    made = run("bake", arrays=arrays, width=width, height=height, path=path)
+    made = run("bake", arrays=arrays, width=width, height=height, path=os.fsencode(path).decode("utf-8", "replace"))
 
     def view(index: int, dtype: Any) -> NDArray[Any]:
         return np.frombuffer(made[index], dtype).reshape(height, width).copy()

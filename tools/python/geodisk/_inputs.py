@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-import ctypes
 import dataclasses
-import json
-from ctypes import c_int32
 from typing import Any, Mapping
 
 import numpy as np
@@ -13,7 +10,6 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _errors as e
 from . import _library as c
-from . import _structs as s
 from ._background import interruptible
 from ._mesh import mesh_of
 from ._protocols import Faces, MeshLike
@@ -69,20 +65,13 @@ def run(
         columns = columns_of(samples, as_box=mesh is None)
         given["samples"] = np.stack(list(columns.values()), axis=1).astype(np.float64, order="C")
         options.update(columns=list(columns), count=len(samples), header=header_of(samples))
-        options["tolerance"] = None if tolerance is None else number(tolerance, "tolerance")
-    task = s.Task(options=json.dumps(options).encode())
-    for name, one in given.items():
-        if one is not None:
-            setattr(task, name, one.value if isinstance(one, c.Handle) else one.ctypes.data)
-    made: list[bytes] = []
-    take = s.TAKE_FN(lambda data, size: made.append(ctypes.string_at(data, size)))
+        options["tolerance"] = option(tolerance, "tolerance")
+    return interruptible(lambda stop: c.run(command, given, stop, **options))
 
-    def work(stop: c_int32) -> None:
-        task.stop = ctypes.pointer(stop)
-        c.call("geodisk_run_command", command.encode(), ctypes.byref(task), take)
 
-    interruptible(work)
-    return made
+def option(value: float | None, name: str) -> str:
+    """Returns a number as options of the program have it; "" for None."""
+    return "" if value is None else repr(number(value, name))
 
 
 def places_of(faces: bytes, weights: bytes) -> tuple[NDArray[np.uint32], NDArray[np.float64]]:

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 from . import _errors as e
 from ._devices import DeviceLike, name_of, opening
 from ._files import complete
-from ._inputs import run, surface_of
+from ._inputs import option, run, surface_of
 from ._mesh import created
 from ._protocols import Faces, MeshLike
 from ._samples import Samples
@@ -128,7 +128,7 @@ def render(
         "views": _views(view),
         "cut": flag(cut, "cut"),
         "legend": flag(legend, "legend"),
-        "min_distance": None if min_distance is None else number(min_distance, "min_distance"),
+        "min_distance": option(min_distance, "min_distance"),
         "device": name_of(device),
     }
     with opening(name_of(device)):

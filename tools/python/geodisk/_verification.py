@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from . import _errors as e
 from . import _library as c
 from ._existing import POINT, AvoidLike, avoided_of
-from ._inputs import run, surface_of
+from ._inputs import option, run, surface_of
 from ._mesh import created, mask_of
 from ._protocols import Faces, MeshLike
 from ._radii import one_of, radii_on
@@ -241,7 +241,7 @@ def verify(
             "avoid": points,
             "avoid_radii": point_radii,
         },
-        min_distance=min_distance,
+        min_distance=option(min_distance, "min_distance"),
         maximal=maximal,
         distance_part=1.0 if radii is None else radii.distance_part,
         avoided=len(points),

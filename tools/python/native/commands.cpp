@@ -17,19 +17,21 @@
 #include "c/c_cells.hpp"
 #include "c/c_mesh.hpp"
 #include "files/samples/sample_rows.hpp"
+#include "files/vulkan_environment.hpp"
 #include "geodisk/checks/sample_input.hpp"
 #include "geodisk/checks/spacing.hpp"
 #include "geodisk/commands/verify.hpp"
 #include "geodisk/inputs/mesh_input.hpp"
 #include "geodisk/map_run.hpp"
+#include "geodisk/options/tolerance_option.hpp"
 #include "geodisk/outputs/progress.hpp"
 #include "geodisk/picture_run.hpp"
-#include "geodisk/reports/json_type.hpp"
+#include "geodisk/reports/json.hpp"
 #include "picture/png.hpp"
-#include "program/exact_text.hpp"
 #include "program/failure.hpp"
 #include "program/interrupt.hpp"
 #include "source.hpp"
+#include "warnings.hpp"
 
 using namespace geodisk;
 using namespace geodisk::tools;
@@ -51,9 +53,8 @@ struct RunningTask {
         const auto bytes = std::as_bytes(std::span(array));
         take(bytes.data(), bytes.size());
     }
-    /// Returns a length as the program's option has it; "" for null.
-    std::string length(const char* name) const {
-        return options.at(name).is_null() ? "" : exact_text(options.at(name).get<double>());
+    void hand_over(const std::vector<MeshWarning>& warnings) const {
+        hand_over(text_of(warnings_json(warnings)));
     }
 };
 
@@ -106,10 +107,11 @@ SampleFile sample_file(const geodisk_task& task, const Json& options) {
 
 /// Puts samples on `mesh`. Throws UserError for those that are not of it.
 SampleInput samples_on(const MeshInput& mesh, RunningTask& run) {
+    const std::string tolerance = run.options.at("tolerance");
+    check_tolerance(tolerance);
     SampleInput input{sample_file(run.task, run.options), {}};
     std::vector<MeshWarning> warnings; // Python has its own.
-    put_on_mesh(kSamplesName, kMeshName, mesh, nullptr, run.length("tolerance"), input, warnings,
-                run.progress);
+    put_on_mesh(kSamplesName, kMeshName, mesh, nullptr, tolerance, input, warnings, run.progress);
     return input;
 }
 
@@ -117,7 +119,7 @@ void verify(RunningTask& run) {
     VerifyOptions options;
     options.mesh.mesh = kMeshName;
     options.samples = kSamplesName;
-    options.min_distance = run.length("min_distance");
+    options.min_distance = run.options.at("min_distance");
     options.is_maximal = run.options.at("maximal");
     const geodisk_task& task = run.task;
     if (task.mesh == nullptr) {
@@ -208,7 +210,7 @@ void render(RunningTask& run) {
     options.views = run.options.at("views").get<std::vector<std::string>>();
     options.cuts = run.options.at("cut");
     options.legend = run.options.at("legend");
-    options.distance.min_distance = run.length("min_distance");
+    options.distance.min_distance = run.options.at("min_distance");
     const OpenContext open = [&] { return drawing_context(run.options.at("device")); };
     DrawnPicture drawn;
     if (run.task.mesh == nullptr) {
@@ -230,7 +232,14 @@ void run_named(std::string_view name, RunningTask& run) {
         {"place", [](RunningTask& one) { static_cast<void>(place(one)); }},
         {"transfer", &transfer},
         {"bake", &bake},
-        {"render", &render}};
+        {"render", &render},
+        {"warnings_of_mesh", [](RunningTask& one) { one.hand_over(warnings_of_mesh(one.task)); }},
+        {"warnings_of_set",
+         [](RunningTask& one) { one.hand_over(warnings_of_set(one.task, one.options)); }},
+        {"warnings_of_drivers", [](RunningTask& one) { one.hand_over(warnings_of_drivers()); }},
+        {"explain_no_device", [](RunningTask& one) {
+             one.hand_over(with_driver_fault(one.options.at("message").get<std::string>()));
+         }}};
     for (const auto& [known, body] : kCommands) {
         if (known == name) {
             body(run);
