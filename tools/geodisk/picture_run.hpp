@@ -53,7 +53,7 @@ DrawnPicture draw_content(const Context& context, const picture::PictureParams& 
                           const picture::Content& content, ProgressLine& progress);
 
 /// Draws samples on a mesh as `options` ask for, on a device that is opened once all is checked.
-/// Throws UserError.
+/// Adds warnings without printing them. Throws UserError.
 DrawnPicture draw_samples(const RenderOptions& options, const MeshInput& mesh,
                           const SampleFile& samples, std::vector<MeshWarning>& warnings,
                           const OpenContext& open, ProgressLine& progress);

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "files/samples/sample_file.hpp"
+#include "geodisk/checks/run_warnings.hpp"
 #include "geodisk/checks/sample_checks.hpp"
 #include "geodisk/checks/sample_input.hpp"
 #include "geodisk/commands/commands.hpp"
@@ -51,9 +52,12 @@ void render_samples(const RenderOptions& options) {
     const SampleFile samples =
         read_samples_exactly_on(options.samples, options.mesh.mesh, mesh, &additions,
                                 options.tolerance, warnings, progress);
+    std::vector<MeshWarning> of_disks;
     const DrawnPicture drawn = draw_samples(
-        options, mesh, samples, warnings,
+        options, mesh, samples, of_disks,
         [&] { return open_device(options.device, true, progress); }, progress);
+    print_warnings(of_disks);
+    warnings.insert(warnings.end(), of_disks.begin(), of_disks.end());
     const PictureSubject subject{
         options.samples,
         mesh_lines("mesh", options.mesh.mesh, options.mesh.additions(), mesh),
@@ -70,7 +74,8 @@ DrawnPicture draw_samples(const RenderOptions& options, const MeshInput& mesh,
     const picture::PictureParams params = surface_picture(options);
     check_visible(options.mesh.mesh, mesh);
     std::vector<SurfaceDisk> disks =
-        sample_disks(options.samples, samples, mesh, options.distance.parsed(), warnings, progress)
+        sample_disks_silently(options.samples, samples, mesh, options.distance.parsed(), warnings,
+                              progress)
             .disks;
     if (disks.empty()) {
         fail_input(options.samples, "has no samples to show");
