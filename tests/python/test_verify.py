@@ -152,6 +152,7 @@ def test_transfer():
     assert longer.points is None and longer.min_distance >= 0.6
     soup = geodisk.sample(*SOUP, min_distance=0.5, weld=True)
     assert geodisk.transfer(soup, 2 * SOUP[0]).min_distance >= 1
+    assert geodisk.transfer(SAMPLES[:0], 2 * VERTICES).points.shape == (0, 3)
     one = geodisk.sample(VERTICES, FACES, min_distance=0.5, stop_count=1)
     assert np.isnan(geodisk.transfer(one, VERTICES).min_distance)
 
@@ -243,6 +244,13 @@ def test_render(tmp_path):
         (lambda: geodisk.verify(SQUARE, maximal=True), ValueError, "box"),
         (lambda: geodisk.verify(SAMPLES, face_mask=[]), ValueError, "leaves out all faces"),
         (lambda: geodisk.verify(SAMPLES, avoid=1), TypeError, "avoid is a pair"),
+        (
+            lambda: geodisk.verify(SAMPLES, avoid=(([0], [[5, -3, -1]]), 1.0)),
+            ValueError,
+            "avoid: point 0: its weights",
+        ),
+        (lambda: geodisk.verify(SAMPLES, tolerance=-1), ValueError, "tolerance: '-1.0'"),
+        (lambda: geodisk.render(SAMPLES, min_distance=np.nan), ValueError, "min_distance: 'nan'"),
         (lambda: geodisk.verify(SAMPLES, avoid=(SAMPLES, 0)), ValueError, "point 0 has the radius 0"),
         (
             lambda: geodisk.verify(SAMPLES, avoid=(([9**6], [[1, 0, 0]]), 1)),

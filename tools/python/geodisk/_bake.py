@@ -106,14 +106,15 @@ def bake(
         source = interruptible(
             lambda stop: read_file(path, stop, allow_outside=allow_outside, has_uvs=True)
         )
-    except e.MeshRejected as error:
+    except (e.MeshRejected, OSError) as error:
         raise e.invalid(str(error)) from None
     on = created(surface_from(source, source.vertices, False))
     points = points_of(on, samples, "samples", is_needed=True)
     params = s.CellParams(samples=points.ctypes.data, sample_count=len(points))
     nearest = search("nearest", "geodisk_nearest_create", on, params, name_of(None), False)
     arrays = {"source": source.handle, "nearest": nearest}
-    made = run("bake", arrays=arrays, width=width, height=height, path=os.fsencode(path).decode("utf-8", "replace"))
+    name = os.fsencode(path).decode("utf-8", "replace")
+    made = run("bake", arrays=arrays, width=width, height=height, path=name)
 
     def view(index: int, dtype: Any) -> NDArray[Any]:
         return np.frombuffer(made[index], dtype).reshape(height, width).copy()

@@ -117,7 +117,7 @@ def transfer(
     placed: dict[str, Any] = {}
     if samples.face_index is None:
         placed["face_index"], placed["barycentric"] = places_of(*made[:2])
-    points = np.frombuffer(made[2]).reshape(len(samples), -1)[:, :dimension].copy()
+    points = np.frombuffer(made[2]).reshape(-1, max(dimension, 3))[:, :dimension].copy()
     directions = np.frombuffer(made[3], np.float32).reshape(-1, 3).astype(np.float64)
     distance = float(np.frombuffer(made[4])[0])
     transferred = dataclasses.replace(

@@ -18,6 +18,7 @@
 #include "c/c_mesh.hpp"
 #include "files/samples/sample_rows.hpp"
 #include "files/vulkan_environment.hpp"
+#include "geodisk/checks/sample_checks.hpp"
 #include "geodisk/checks/sample_input.hpp"
 #include "geodisk/checks/spacing.hpp"
 #include "geodisk/commands/verify.hpp"
@@ -139,9 +140,13 @@ void verify(RunningTask& run) {
     }
     Avoided avoided;
     avoided.points = run.options.at("avoided");
+    SampleFile places;
     for (std::size_t i = 0; i < avoided.points; ++i) {
         avoided.disks.push_back({c::sample_of(task.avoid[i]), task.avoid_radii[i]});
+        places.rows.emplace_back().face = task.avoid[i].face;
+        std::ranges::copy(task.avoid[i].weights, places.rows.back().bary);
     }
+    check_rows("avoid", places, kMeshName, mesh, "point");
     auto [samples, strays] = samples_on(mesh, run);
     run.hand_over(report_json(check_samples(options, mesh, samples, std::move(strays),
                                             wanted_spacing(options, samples, mesh), avoided, {},
