@@ -117,6 +117,8 @@ def test_what_cannot_be_baked(pipe, tmp_path):
     corner = geodisk.Samples([[0, 0, 0]])
     with pytest.raises(geodisk.InvalidArgument, match="no texture coordinates"):
         geodisk.bake(bare, corner)
+    with pytest.raises(geodisk.InvalidArgument, match="No such file"):
+        geodisk.bake(tmp_path / "nowhere.obj", corner)
     with pytest.raises(geodisk.InvalidArgument, match="size is 0, not from 1 to 16384"):
         geodisk.bake(pipe, samples, size=0)
     for size in (20000, (16, -1), (1, 2, 3)):

@@ -1,6 +1,7 @@
 #include "geodisk/map_run.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -70,21 +71,56 @@ std::vector<std::array<std::uint32_t, 2>> find_touching(const NearestSamples& di
     return take(std::move(cells)).edges;
 }
 
+/// Finds the texels that faces cover.
+Texels texels_of(const MeshFile& mesh, TextureSize size, const std::string& path,
+                 ProgressLine& progress) {
+    check_range(path, mesh, size);
+    progress.begin_stage("finding texels");
+    Texels texels(mesh, size);
+    if (texels.covered() == 0) {
+        fail_input(path, "no face covers the centre of a texel; give a larger --size");
+    }
+    return texels;
+}
+
+MapResult look_up_all(Texels texels, const NearestSamples& disks, ProgressLine& progress) {
+    const TextureSize size = texels.size();
+    MapResult result;
+    progress.begin_stage("finding nearest samples");
+    result.map = {size.width,
+                  size.height,
+                  std::vector<std::int32_t>(size.texels(), SampleMap::kNone),
+                  std::vector<float>(size.texels(), std::numeric_limits<float>::quiet_NaN()),
+                  {}};
+    for (std::size_t begin = 0; begin < size.texels(); begin += kTexelsAtOnce) {
+        check_interrupted();
+        look_up(disks, texels, begin, std::min(begin + kTexelsAtOnce, size.texels()), result);
+        progress.update(static_cast<double>(begin) / static_cast<double>(size.texels()), "");
+    }
+    progress.clear();
+    static_assert(SampleMap::kNoFace == Texels::kNone);
+    result.map.faces = std::move(texels).take_faces();
+    result.covered = texels.covered();
+    result.overlapping = texels.overlapping();
+    result.repeating = texels.repeating();
+    result.error = disks.error();
+    return result;
+}
+
 } // namespace
+
+MapResult look_up_map(const MeshFile& mesh, TextureSize size, const std::string& path,
+                      const NearestSamples& disks, ProgressLine& progress) {
+    return look_up_all(texels_of(mesh, size, path, progress), disks, progress);
+}
 
 MapResult run_map(std::span<const SampleRow> rows, TextureSize size, const std::string& path,
                   const MeshInput& mesh, bool has_touching, RunDevice& device, std::uint64_t bytes,
                   ProgressLine& progress) {
-    check_range(path, mesh.file, size);
-    progress.begin_stage("finding texels");
-    Texels texels(mesh.file, size);
-    if (texels.covered() == 0) {
-        fail_input(path, "no face covers the centre of a texel; give a larger --size");
-    }
-    const Stopwatch watch;
+    Texels texels = texels_of(mesh.file, size, path, progress);
+    Stopwatch watch;
     device.open(progress);
-    MapResult result;
-    result.done.open_seconds = watch.seconds();
+    const double open_seconds = watch.seconds();
     std::vector<Sample> samples;
     samples.reserve(rows.size());
     for (const SampleRow& row : rows) {
@@ -99,32 +135,18 @@ MapResult run_map(std::span<const SampleRow> rows, TextureSize size, const std::
         check_cells(nearest.error(), bytes);
     }
     const NearestSamples disks = take(std::move(nearest));
+    std::vector<std::array<std::uint32_t, 2>> touching;
     if (has_touching) {
-        result.touching = find_touching(disks, progress);
+        touching = find_touching(disks, progress);
     }
-    progress.begin_stage("finding nearest samples");
-    result.map = {size.width,
-                  size.height,
-                  std::vector<std::int32_t>(size.texels(), SampleMap::kNone),
-                  std::vector<float>(size.texels(), std::numeric_limits<float>::quiet_NaN()),
-                  {}};
-    const Stopwatch search;
-    for (std::size_t begin = 0; begin < size.texels(); begin += kTexelsAtOnce) {
-        check_interrupted();
-        look_up(disks, texels, begin, std::min(begin + kTexelsAtOnce, size.texels()), result);
-        progress.update(static_cast<double>(begin) / static_cast<double>(size.texels()), "");
-    }
-    progress.clear();
-    static_assert(SampleMap::kNoFace == Texels::kNone);
-    result.map.faces = std::move(texels).take_faces();
-    result.covered = texels.covered();
-    result.overlapping = texels.overlapping();
-    result.repeating = texels.repeating();
-    result.error = disks.error();
+    watch = Stopwatch();
+    MapResult result = look_up_all(std::move(texels), disks, progress);
+    result.touching = std::move(touching);
+    result.done.open_seconds = open_seconds;
     result.done.device = device.context().report();
     result.done.tuning = device.runner().sampler().tuning();
     result.done.run = disks.report();
-    result.done.run.seconds.sample += search.seconds();
+    result.done.run.seconds.sample += watch.seconds();
     return result;
 }
 

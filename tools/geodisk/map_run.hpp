@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include <geodisk/nearest.hpp>
+
 #include "files/samples/map_file.hpp"
 #include "files/samples/sample_file.hpp"
 #include "geodisk/device_run.hpp"
@@ -29,9 +31,13 @@ struct MapResult {
     DeviceRun done;
 };
 
-/// Opens the device where need be and finds the nearest of the samples in `rows`. The mesh must
-/// have been read with texture coordinates. Finds the pairs that touch if `has_touching`. Takes 12
-/// bytes for each texel besides what is the same for all sizes. Throws UserError.
+/// Looks up the texels of a mesh that was read with texture coordinates. Takes 12 bytes for each
+/// texel besides what is the same for all sizes. Throws UserError; `path` names the mesh.
+MapResult look_up_map(const MeshFile& mesh, TextureSize size, const std::string& path,
+                      const NearestSamples& disks, ProgressLine& progress);
+
+/// Opens the device where need be and finds the nearest of the samples in `rows`, for texels as
+/// look_up_map(). Finds the pairs that touch if `has_touching`. Throws UserError.
 MapResult run_map(std::span<const SampleRow> rows, TextureSize size, const std::string& path,
                   const MeshInput& mesh, bool has_touching, RunDevice& device, std::uint64_t bytes,
                   ProgressLine& progress);

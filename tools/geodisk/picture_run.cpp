@@ -22,8 +22,8 @@ namespace {
 class RenderReport {
   public:
     RenderReport(const RenderOptions& options, const PictureSubject& subject,
-                 const std::string& device, const DrawnPicture& drawn)
-        : options_(options), subject_(subject), device_(device), drawn_(drawn) {}
+                 const DrawnPicture& drawn)
+        : options_(options), subject_(subject), drawn_(drawn) {}
 
     std::string json(double write_seconds) const {
         Json views = Json::array();
@@ -41,7 +41,7 @@ class RenderReport {
                          {"up", up_name()},
                          {"views", views},
                          {"windows", drawn_.windows},
-                         {"device", device_},
+                         {"device", drawn_.device},
                          {"seconds",
                           {{"windows", drawn_.window_seconds},
                            {"draw", drawn_.draw_seconds},
@@ -62,7 +62,7 @@ class RenderReport {
         out << "time          " << seconds_text(drawn_.window_seconds) << " disks, "
             << seconds_text(drawn_.draw_seconds) << " drawing, " << seconds_text(write_seconds)
             << " writing\n"
-            << "device        " << device_ << '\n'
+            << "device        " << drawn_.device << '\n'
             << "file          " << one_line(options_.out.output) << '\n';
         return out.str();
     }
@@ -72,7 +72,6 @@ class RenderReport {
 
     const RenderOptions& options_;
     const PictureSubject& subject_;
-    const std::string& device_;
     const DrawnPicture& drawn_;
 };
 
@@ -84,6 +83,8 @@ PartDone show_progress(ProgressLine& progress) {
     };
 }
 
+} // namespace
+
 DrawnPicture draw_content(const Context& context, const picture::PictureParams& params,
                           const picture::Content& content, ProgressLine& progress) {
     progress.begin_stage("drawing");
@@ -94,18 +95,17 @@ DrawnPicture draw_content(const Context& context, const picture::PictureParams& 
     const picture::Gpu gpu(context.device(), context.queue());
     drawn.picture = picture::draw_picture(gpu, content, params, show_progress(progress));
     drawn.draw_seconds = watch.seconds();
+    drawn.device = context.report().name;
+    check_validation(context);
     return drawn;
 }
 
 void write_picture(const RenderOptions& options, const PictureSubject& subject,
-                   const Context& context, const DrawnPicture& drawn, ProgressLine& progress) {
-    check_validation(context);
-    const RenderReport report(options, subject, context.report().name, drawn);
+                   const DrawnPicture& drawn, ProgressLine& progress) {
+    const RenderReport report(options, subject, drawn);
     write_outputs(options.out, "the picture", progress, report,
                   [&](AtomicFile& file) { picture::write_png(file, drawn.picture.pixels); });
 }
-
-} // namespace
 
 void check_picture_path(const Path& path) {
     if (lower_extension(path) != ".png" && !output_stream(path)) {
@@ -141,26 +141,6 @@ DrawnPicture draw_surface(const Context& context, const picture::PictureParams& 
         draw_content(context, params, {scene, content.table, content.samples}, progress);
     drawn.window_seconds = window_seconds;
     return drawn;
-}
-
-void render_surface(const RenderOptions& options, const picture::PictureParams& params,
-                    const PictureSubject& subject, const PreparedMesh& mesh,
-                    const picture::Scene& scene, std::vector<SurfaceDisk> disks,
-                    ProgressLine& progress) {
-    if (disks.empty()) {
-        fail_input(subject.samples_file, "has no samples to show");
-    }
-    const Context context = open_device(options.device, true, progress);
-    write_picture(options, subject, context,
-                  draw_surface(context, params, mesh, scene, std::move(disks), progress), progress);
-}
-
-void render_content(const RenderOptions& options, const picture::PictureParams& params,
-                    const PictureSubject& subject, const picture::Content& content,
-                    ProgressLine& progress) {
-    const Context context = open_device(options.device, true, progress);
-    write_picture(options, subject, context, draw_content(context, params, content, progress),
-                  progress);
 }
 
 } // namespace geodisk::tools

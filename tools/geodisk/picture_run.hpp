@@ -1,12 +1,15 @@
 // Pictures made on a device, for the commands that draw.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
+#include <geodisk/box.hpp>
 #include <geodisk/context.hpp>
 #include <geodisk/mesh.hpp>
 
+#include "files/samples/sample_file.hpp"
 #include "geodisk/inputs/mesh_input.hpp"
 #include "geodisk/options/render_options.hpp"
 #include "geodisk/outputs/progress.hpp"
@@ -22,7 +25,11 @@ struct DrawnPicture {
     std::size_t samples = 0;
     std::size_t windows = 0;
     double window_seconds = 0, draw_seconds = 0;
+    std::string device; ///< Its name.
 };
+
+/// Opens a device that can draw.
+using OpenContext = std::function<Context()>;
 
 struct PictureSubject;
 
@@ -41,15 +48,26 @@ DrawnPicture draw_surface(const Context& context, const picture::PictureParams& 
                           const PreparedMesh& mesh, const picture::Scene& scene,
                           std::vector<SurfaceDisk> disks, ProgressLine& progress);
 
-/// Draws a surface as `options` ask for, and writes the picture. Throws UserError.
-void render_surface(const RenderOptions& options, const picture::PictureParams& params,
-                    const PictureSubject& subject, const PreparedMesh& mesh,
-                    const picture::Scene& scene, std::vector<SurfaceDisk> disks,
-                    ProgressLine& progress);
+/// Draws what needs no windows.
+DrawnPicture draw_content(const Context& context, const picture::PictureParams& params,
+                          const picture::Content& content, ProgressLine& progress);
 
-/// The same of what needs no windows.
-void render_content(const RenderOptions& options, const picture::PictureParams& params,
-                    const PictureSubject& subject, const picture::Content& content,
-                    ProgressLine& progress);
+/// Draws samples on a mesh as `options` ask for, on a device that is opened once all is checked.
+/// Adds warnings without printing them. Throws UserError.
+DrawnPicture draw_samples(const RenderOptions& options, const MeshInput& mesh,
+                          const SampleFile& samples, std::vector<MeshWarning>& warnings,
+                          const OpenContext& open, ProgressLine& progress);
+
+/// The same of samples in a box, which their header tells. `path` names them in errors.
+DrawnPicture draw_box(const RenderOptions& options, const std::string& path, const BoxParams& box,
+                      const SampleFile& samples, const OpenContext& open, ProgressLine& progress);
+
+/// Returns the box of samples to draw. Throws UserError for one that has not 2 or 3 dimensions.
+BoxParams box_to_draw(const RenderOptions& options, const std::string& path,
+                      const SampleFile& samples);
+
+/// Writes a picture, and reports it as `options` ask for. Throws UserError.
+void write_picture(const RenderOptions& options, const PictureSubject& subject,
+                   const DrawnPicture& drawn, ProgressLine& progress);
 
 } // namespace geodisk::tools

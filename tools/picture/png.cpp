@@ -1,6 +1,7 @@
 #include "picture/png.hpp"
 
 #include <exception>
+#include <utility>
 #include <vector>
 
 #include "program/failure.hpp"
@@ -25,14 +26,14 @@ namespace {
 
 /// Sink that stb calls with the file; an exception must not pass through it.
 struct Sink {
-    AtomicFile& file;
-    std::exception_ptr error;
+    std::string bytes{};
+    std::exception_ptr error{};
 };
 
 void take_bytes(void* context, void* data, int size) {
     Sink& sink = *static_cast<Sink*>(context);
     try {
-        sink.file.write({static_cast<const char*>(data), static_cast<std::size_t>(size)});
+        sink.bytes.append(static_cast<const char*>(data), static_cast<std::size_t>(size));
     } catch (...) {
         sink.error = std::current_exception();
     }
@@ -40,7 +41,7 @@ void take_bytes(void* context, void* data, int size) {
 
 } // namespace
 
-void write_png(AtomicFile& file, const Pixels& pixels) {
+std::string png_of(const Pixels& pixels) {
     const std::size_t count = std::size_t{pixels.width} * pixels.height;
     bool is_opaque = true;
     for (std::size_t i = 0; i < count; ++i) {
@@ -53,7 +54,7 @@ void write_png(AtomicFile& file, const Pixels& pixels) {
             rgb.insert(rgb.end(), &pixels.rgba[4 * i], &pixels.rgba[4 * i] + 3);
         }
     }
-    Sink sink{file, nullptr};
+    Sink sink;
     const int channels = is_opaque ? 3 : 4;
     const int written = stbi_write_png_to_func(take_bytes, &sink, static_cast<int>(pixels.width),
                                                static_cast<int>(pixels.height), channels,
@@ -64,6 +65,11 @@ void write_png(AtomicFile& file, const Pixels& pixels) {
     if (written == 0) {
         throw UserError(ExitCode::out_of_memory, "the host has too little memory for the picture");
     }
+    return std::move(sink.bytes);
+}
+
+void write_png(AtomicFile& file, const Pixels& pixels) {
+    file.write(png_of(pixels));
 }
 
 } // namespace geodisk::tools::picture

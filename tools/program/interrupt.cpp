@@ -21,6 +21,8 @@ std::atomic<int> uninterrupted = 0; ///< Number of threads that must not be ende
 static_assert(std::atomic<int>::is_always_lock_free);
 std::atomic<const char*> interrupted_program = nullptr; ///< Null until handlers are installed.
 
+thread_local const volatile std::int32_t* stop_flag = nullptr;
+
 const char* what_happened(int signal) {
     switch (signal) {
     case SIGINT:
@@ -109,13 +111,22 @@ bool handle_signal(int signal) {
 }
 
 bool is_interrupted() {
-    return received_signal != 0;
+    return received_signal != 0 || (stop_flag != nullptr && *stop_flag != 0);
 }
 
 void check_interrupted() {
-    if (received_signal != 0) {
-        throw UserError(ExitCode{128 + received_signal}, what_happened(received_signal));
+    if (is_interrupted()) {
+        const int signal = received_signal != 0 ? received_signal.load() : SIGINT;
+        throw UserError(ExitCode{128 + signal}, what_happened(signal));
     }
+}
+
+StopFlag::StopFlag(const volatile std::int32_t* stop) {
+    stop_flag = stop;
+}
+
+StopFlag::~StopFlag() {
+    stop_flag = nullptr;
 }
 
 Uninterrupted::Uninterrupted() {

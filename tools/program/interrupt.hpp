@@ -1,6 +1,8 @@
 // Stopping cleanly, and soon, on signals that ask for it.
 #pragma once
 
+#include <cstdint>
+
 namespace geodisk::tools {
 
 /// From now on SIGINT, SIGTERM, SIGHUP and SIGQUIT set a flag, which check_interrupted() turns into
@@ -18,6 +20,15 @@ bool is_interrupted();
 
 /// Throws UserError with the exit status 128 + signal if a signal came.
 void check_interrupted();
+
+/// While it lives, work on this thread is also interrupted once a number of the caller is not 0.
+class StopFlag {
+  public:
+    explicit StopFlag(const volatile std::int32_t* stop);
+    StopFlag(const StopFlag&) = delete;
+    StopFlag& operator=(const StopFlag&) = delete;
+    ~StopFlag();
+};
 
 /// While it lives, on any thread, no signal ends the program: files appear under their names.
 class Uninterrupted {

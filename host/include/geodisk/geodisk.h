@@ -855,6 +855,43 @@ GEODISK_C_API geodisk_status geodisk_cells_describe(const geodisk_cells *cells,
 /* Releases the cells. Experimental. */
 GEODISK_C_API void geodisk_cells_release(geodisk_cells *cells);
 
+/* Finds the sample nearest to any point of a mesh, from the disks of the samples. It keeps the data of
+ * the mesh, which may be released, and several threads may use it at a time. */
+typedef struct geodisk_nearest geodisk_nearest;
+
+/* Computes the disks of the samples of `params`, whose `areas_only` is ignored, and waits for the
+ * result. `progress` may be NULL, and counts samples as candidates; `user` is passed to it.
+ * Experimental. */
+GEODISK_C_API geodisk_status geodisk_nearest_create(geodisk_sampler *sampler,
+                                                    const geodisk_mesh *mesh,
+                                                    const geodisk_cell_params *params,
+                                                    geodisk_progress_fn progress, void *user,
+                                                    geodisk_nearest **nearest,
+                                                    geodisk_error *error);
+
+/* Sample that geodisk_nearest_find() gives points that no path leads to. */
+#define GEODISK_NO_SAMPLE UINT32_MAX
+
+/* Writes the nearest sample of each point, on the CPU, and its distance in mesh units. Where no path
+ * leads to a sample, writes GEODISK_NO_SAMPLE and an infinite distance. Ties up to rounding go to the
+ * first sample. `distances` may be NULL. The result is the same on every device. Experimental. */
+GEODISK_C_API geodisk_status geodisk_nearest_find(const geodisk_nearest *nearest,
+                                                  const geodisk_surface_point *points,
+                                                  size_t point_count, uint32_t *samples,
+                                                  float *distances, geodisk_error *error);
+
+/* Finds the cells of the samples as geodisk_find_cells() does, from the same disks: with the dual.
+ * `progress` may be NULL, counts samples twice as candidates, and begins halfway. Experimental. */
+GEODISK_C_API geodisk_status geodisk_nearest_cells(const geodisk_nearest *nearest,
+                                                   geodisk_progress_fn progress, void *user,
+                                                   geodisk_cells **cells, geodisk_error *error);
+
+/* Returns a bound on the error of distances, in mesh units. Experimental. */
+GEODISK_C_API double geodisk_nearest_error(const geodisk_nearest *nearest);
+
+/* Releases it. The cells found with it stay. Experimental. */
+GEODISK_C_API void geodisk_nearest_release(geodisk_nearest *nearest);
+
 /* How samples came to be in farthest-point order. */
 typedef struct geodisk_farthest_info {
     size_t struct_size;

@@ -5,6 +5,7 @@
 #include <geodisk/cells.hpp>
 
 #include "c/c_call.hpp"
+#include "c/c_cells.hpp"
 #include "c/c_mesh.hpp"
 #include "c/c_sampler.hpp"
 #include "support/try.hpp"
@@ -86,6 +87,79 @@ geodisk_status geodisk_cells_describe(const geodisk_cells* cells, geodisk_cell_a
 
 void geodisk_cells_release(geodisk_cells* cells) {
     delete cells;
+}
+
+geodisk_status geodisk_nearest_create(geodisk_sampler* sampler, const geodisk_mesh* mesh,
+                                      const geodisk_cell_params* params,
+                                      geodisk_progress_fn progress, void* user,
+                                      geodisk_nearest** nearest, geodisk_error* error) {
+    return with_sampler(sampler, error, [&](SamplerState& state) -> Result<Done> {
+        if (mesh == nullptr || nearest == nullptr) {
+            return wrong("mesh or nearest is NULL");
+        }
+        const auto wanted = taken(params, "params");
+        GEODISK_TRY(wanted);
+        if (wanted->face_mask != nullptr) {
+            return wrong("params->face_mask is for geodisk_find_cells");
+        }
+        const auto cell_params = params_of(*mesh, *wanted);
+        GEODISK_TRY(cell_params);
+        auto disks = search(state, progress, user, [&](const ProgressCallback& heard) {
+            return NearestSamples::create(state.runner, mesh->shared->prepared,
+                                          samples_of(wanted->samples, wanted->sample_count),
+                                          cell_params->max_records, heard);
+        });
+        GEODISK_TRY(disks);
+        *nearest = new geodisk_nearest{mesh->shared, std::move(*disks)};
+        return Done{};
+    });
+}
+
+geodisk_status geodisk_nearest_find(const geodisk_nearest* nearest,
+                                    const geodisk_surface_point* points, size_t point_count,
+                                    uint32_t* samples, float* distances, geodisk_error* error) {
+    return answer(error, [&]() -> Result<Done> {
+        if (nearest == nullptr) {
+            return wrong("nearest is NULL");
+        }
+        if (point_count != 0 && (points == nullptr || samples == nullptr)) {
+            return wrong("points or samples is NULL");
+        }
+        static_assert(NearestSample::kNone == GEODISK_NO_SAMPLE);
+        const auto found = nearest->disks.of(samples_of(points, point_count));
+        GEODISK_TRY(found);
+        for (std::size_t i = 0; i < point_count; ++i) {
+            samples[i] = (*found)[i].sample;
+            if (distances != nullptr) {
+                distances[i] = (*found)[i].distance;
+            }
+        }
+        return Done{};
+    });
+}
+
+geodisk_status geodisk_nearest_cells(const geodisk_nearest* nearest, geodisk_progress_fn progress,
+                                     void* user, geodisk_cells** cells, geodisk_error* error) {
+    return answer(error, [&]() -> Result<Done> {
+        if (nearest == nullptr || cells == nullptr) {
+            return wrong("nearest or cells is NULL");
+        }
+        auto found = nearest->disks.cells([&](const Progress& state) {
+            const geodisk_progress told = progress_of(state);
+            return progress == nullptr || progress(user, &told) == 0;
+        });
+        GEODISK_TRY(found);
+        *cells = new geodisk_cells{std::move(*found)};
+        return Done{};
+    });
+}
+
+double geodisk_nearest_error(const geodisk_nearest* nearest) {
+    return nearest == nullptr ? 0 : nearest->disks.error();
+}
+
+void geodisk_nearest_release(geodisk_nearest* nearest) {
+    delete nearest;
 }
 
 } // extern "C"

@@ -59,7 +59,6 @@ double closest_distance(const std::string& path, const SampleFile& samples, cons
          "its header has no minimum distance, so that of the closest pair is used, " +
              rounded(closest->distance, 6) + "; give --min-distance for another",
          path});
-    print_warnings({warnings.back()});
     return closest->distance;
 }
 
@@ -211,6 +210,17 @@ bool fits_digest(const SampleFile& samples) {
 SampleDisks sample_disks(const std::string& samples_path, const SampleFile& samples,
                          const MeshInput& mesh, const std::optional<Length>& min_distance,
                          std::vector<MeshWarning>& warnings, ProgressLine& progress) {
+    std::vector<MeshWarning> found;
+    SampleDisks disks =
+        sample_disks_silently(samples_path, samples, mesh, min_distance, found, progress);
+    print_warnings(found);
+    warnings.insert(warnings.end(), found.begin(), found.end());
+    return disks;
+}
+
+SampleDisks sample_disks_silently(const std::string& samples_path, const SampleFile& samples,
+                                  const MeshInput& mesh, const std::optional<Length>& min_distance,
+                                  std::vector<MeshWarning>& warnings, ProgressLine& progress) {
     if (min_distance) {
         return disks_of(samples.rows,
                         distance_on_mesh(*min_distance, mesh.prepared.statistics()) / 2);

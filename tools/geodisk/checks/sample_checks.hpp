@@ -66,6 +66,11 @@ SampleDisks sample_disks(const std::string& samples_path, const SampleFile& samp
                          const MeshInput& mesh, const std::optional<Length>& min_distance,
                          std::vector<MeshWarning>& warnings, ProgressLine& progress);
 
+/// The same, but leaves the warnings to the caller to print.
+SampleDisks sample_disks_silently(const std::string& samples_path, const SampleFile& samples,
+                                  const MeshInput& mesh, const std::optional<Length>& min_distance,
+                                  std::vector<MeshWarning>& warnings, ProgressLine& progress);
+
 /// The disk of each row, of this radius in mesh units, or of the row's own where that is 0.
 SampleDisks disks_of(std::span<const SampleRow> rows, double radius);
 

@@ -104,12 +104,22 @@ SampleInput read_silently(const std::string& path, const std::string& mesh_path,
                                    : read_samples(path, as.numbers),
                       {}};
     progress.clear();
+    put_on_mesh(path, mesh_path, mesh, additions, tolerance, input, warnings, progress, as.noun);
+    return input;
+}
+
+} // namespace
+
+void put_on_mesh(const std::string& path, const std::string& mesh_path, const MeshInput& mesh,
+                 const HeaderEntries* additions, const std::string& tolerance, SampleInput& input,
+                 std::vector<MeshWarning>& warnings, ProgressLine& progress,
+                 const std::string& noun) {
     for (MeshWarning& warning : input.file.warnings) {
         warning.file = path;
         warnings.push_back(std::move(warning));
     }
     input.file.warnings.clear();
-    check_columns(path, input.file, as.noun, warnings);
+    check_columns(path, input.file, noun, warnings);
     if (const std::string other = other_sampling_text(input.file.header); !other.empty()) {
         warnings.push_back({"other_sampling", 1, "", other, path});
     }
@@ -117,19 +127,17 @@ SampleInput read_silently(const std::string& path, const std::string& mesh_path,
     if (!input.file.has_faces) {
         input.strays =
             put_on_faces(path, mesh_path, mesh, tolerance, input.file, warnings, progress);
-        return input;
+        return;
     }
-    check_rows(path, input.file, mesh_path, mesh, as.noun);
+    check_rows(path, input.file, mesh_path, mesh, noun);
     if (additions != nullptr && !input.file.header.entries.empty()) {
         warn_of_other_surface(path, input.file, *additions, warnings);
     }
     input.strays = find_strays(input.file, mesh);
-    return input;
 }
 
-/// Throws UserError(bad_input) for strays.
 SampleFile without_strays(const std::string& path, const std::string& mesh_path, SampleInput input,
-                          const std::string& noun = "sample") {
+                          const std::string& noun) {
     if (input.strays.empty()) {
         return std::move(input.file);
     }
@@ -144,8 +152,6 @@ SampleFile without_strays(const std::string& path, const std::string& mesh_path,
                          rounded(first.offset, 3) +
                          " away. Give the mesh that the points were made on, or raise --tolerance");
 }
-
-} // namespace
 
 SampleInput read_samples_on(const std::string& path, const std::string& mesh_path,
                             const MeshInput& mesh, const HeaderEntries* additions,

@@ -35,6 +35,16 @@ SampleInput read_samples_on(const std::string& path, const std::string& mesh_pat
                             const std::string& tolerance, std::vector<MeshWarning>& warnings,
                             ProgressLine& progress);
 
+/// Does this with samples that were read, but prints no warnings. `noun` names a row in errors.
+void put_on_mesh(const std::string& path, const std::string& mesh_path, const MeshInput& mesh,
+                 const HeaderEntries* additions, const std::string& tolerance, SampleInput& input,
+                 std::vector<MeshWarning>& warnings, ProgressLine& progress,
+                 const std::string& noun = "sample");
+
+/// Returns the samples. Throws UserError(bad_input) for strays.
+SampleFile without_strays(const std::string& path, const std::string& mesh_path, SampleInput input,
+                          const std::string& noun = "sample");
+
 /// Warns of a file without samples.
 void warn_of_no_samples(const std::string& path, const SampleFile& file,
                         std::vector<MeshWarning>& warnings);

@@ -1,5 +1,6 @@
 #include <array>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -7,6 +8,7 @@
 #include "files/samples/sample_file.hpp"
 #include "geodisk/commands/commands.hpp"
 #include "geodisk/inputs/box_input.hpp"
+#include "geodisk/opened_device.hpp"
 #include "geodisk/options/box_options.hpp"
 #include "geodisk/outputs/outputs.hpp"
 #include "geodisk/picture_run.hpp"
@@ -42,8 +44,41 @@ void check_options(const RenderOptions& options) {
                   check_picture_path);
 }
 
-BoxParams read_box(const RenderOptions& options, const SampleFile& samples) {
-    const std::string& path = options.mesh.mesh;
+DrawnPicture draw_flat(const PictureParams& params, const BoxParams& box, const SampleFile& samples,
+                       const OpenContext& open, ProgressLine& progress) {
+    const picture::FlatBox flat(box);
+    std::vector<SurfaceDisk> disks;
+    for (const SampleRow& row : samples.rows) {
+        disks.push_back(flat.disk(row.position[0], row.position[1], box.min_distance / 2));
+    }
+    const picture::Scene scene = picture::make_scene(flat.positions(), 2, flat.triangles());
+    return draw_surface(open(), params, flat.mesh(), scene, std::move(disks), progress);
+}
+
+DrawnPicture draw_balls(const PictureParams& params, const BoxParams& box,
+                        const SampleFile& samples, const OpenContext& open,
+                        ProgressLine& progress) {
+    if (params.style != Style::automatic && params.style != Style::disks &&
+        params.style != Style::points) {
+        fail_usage("--style " + std::string(picture::to_string(params.style)) +
+                   " is for surfaces; samples in a box of 3 dimensions take --style disks (balls) "
+                   "or points");
+    }
+    const double radius = box.min_distance / 2 * (params.style == Style::points ? kPointPart : 1);
+    const picture::BoxFrame frame(box, radius);
+    std::vector<picture::BallRec> balls;
+    for (const SampleRow& row : samples.rows) {
+        const std::array<double, 3> at{row.position[0], row.position[1], row.position[2]};
+        balls.push_back(frame.ball(at, radius, picture::color_of(balls.size())));
+    }
+    return draw_content(open(), params, {frame.scene(), frame.table(), {}, balls, box.min_distance},
+                        progress);
+}
+
+} // namespace
+
+BoxParams box_to_draw(const RenderOptions& options, const std::string& path,
+                      const SampleFile& samples) {
     const std::optional<Length> distance = options.distance.parsed();
     BoxParams box = box_of(path, distance ? "1" : "", samples);
     if (distance) {
@@ -56,68 +91,40 @@ BoxParams read_box(const RenderOptions& options, const SampleFile& samples) {
     return box;
 }
 
-void render_flat(const RenderOptions& options, const PictureParams& params,
-                 const PictureSubject& subject, const BoxParams& box, const SampleFile& samples,
-                 ProgressLine& progress) {
-    const picture::FlatBox flat(box);
-    std::vector<SurfaceDisk> disks;
-    for (const SampleRow& row : samples.rows) {
-        disks.push_back(flat.disk(row.position[0], row.position[1], box.min_distance / 2));
-    }
-    const picture::Scene scene = picture::make_scene(flat.positions(), 2, flat.triangles());
-    render_surface(options, params, subject, flat.mesh(), scene, std::move(disks), progress);
-}
-
-void render_balls(const RenderOptions& options, const PictureParams& params,
-                  const PictureSubject& subject, const BoxParams& box, const SampleFile& samples,
-                  ProgressLine& progress) {
-    if (params.style != Style::automatic && params.style != Style::disks &&
-        params.style != Style::points) {
-        fail_usage("--style " + options.style +
-                   " is for surfaces; samples in a box of 3 dimensions take --style disks (balls) "
-                   "or points");
+DrawnPicture draw_box(const RenderOptions& options, const std::string& path, const BoxParams& box,
+                      const SampleFile& samples, const OpenContext& open, ProgressLine& progress) {
+    PictureParams params = parse_picture(options);
+    const bool is_flat = box.extents.size() == 2;
+    if (is_flat && params.cuts) {
+        fail_usage("--cut is for samples in a box of 3 dimensions");
     }
     if (samples.rows.empty()) {
-        fail_input(subject.samples_file, "has no samples to show");
+        fail_input(path, "has no samples to show");
     }
-    const double radius = box.min_distance / 2 * (params.style == Style::points ? kPointPart : 1);
-    const picture::BoxFrame frame(box, radius);
-    std::vector<picture::BallRec> balls;
-    for (const SampleRow& row : samples.rows) {
-        const std::array<double, 3> at{row.position[0], row.position[1], row.position[2]};
-        balls.push_back(frame.ball(at, radius, picture::color_of(balls.size())));
+    params.up = params.up.value_or(picture::Up::y);
+    for (std::optional<picture::View>& view : params.views) {
+        view = view.value_or(is_flat ? picture::View{0, 0} : picture::View{30, 20});
     }
-    render_content(options, params, subject,
-                   {frame.scene(), frame.table(), {}, balls, box.min_distance}, progress);
+    return is_flat ? draw_flat(params, box, samples, open, progress)
+                   : draw_balls(params, box, samples, open, progress);
 }
 
-} // namespace
-
 void render_box(const RenderOptions& options) {
-    PictureParams params = parse_picture(options);
+    static_cast<void>(parse_picture(options)); // Fails before reading anything.
     check_options(options);
     ProgressLine progress(options.out.quiet);
     progress.begin_stage("reading the samples");
     const std::string& path = options.mesh.mesh;
     const SampleFile samples = read_box_samples(path);
-    const BoxParams box = read_box(options, samples);
-    const bool is_flat = box.extents.size() == 2;
-    if (is_flat && params.cuts) {
-        fail_usage("--cut is for samples in a box of 3 dimensions");
-    }
+    const BoxParams box = box_to_draw(options, path, samples);
     const PictureSubject subject{
         path,
         "box           " + box_text(box) + '\n',
         {{"box", {{"extents", box.extents}, {"periodic", box.is_periodic}}}}};
-    params.up = params.up.value_or(picture::Up::y);
-    for (std::optional<picture::View>& view : params.views) {
-        view = view.value_or(is_flat ? picture::View{0, 0} : picture::View{30, 20});
-    }
-    if (is_flat) {
-        render_flat(options, params, subject, box, samples, progress);
-    } else {
-        render_balls(options, params, subject, box, samples, progress);
-    }
+    const DrawnPicture drawn = draw_box(
+        options, path, box, samples, [&] { return open_device(options.device, true, progress); },
+        progress);
+    write_picture(options, subject, drawn, progress);
 }
 
 } // namespace geodisk::tools

@@ -74,7 +74,59 @@ void warn_of_unknown_spacing(const VerifyOptions& options, std::vector<MeshWarni
     print_warning(options.samples + ": " + warnings.back().message);
 }
 
+/// Refuses to look for gaps without knowing all radii.
+void check_maximal(const WantedSpacing& spacing) {
+    if (!spacing.is_known) {
+        fail_usage("--maximal needs a minimum distance; give --min-distance");
+    }
+    if (!(spacing.min_distance > 0)) {
+        fail_usage("--maximal needs the radii of all points; give the --radius-factor option that "
+                   "the samples were made with");
+    }
+    if (spacing.classes.is_given()) {
+        fail_usage("--maximal is for samples without classes");
+    }
+}
+
 } // namespace
+
+SampleCheck check_samples(const VerifyOptions& options, const MeshInput& mesh,
+                          const SampleFile& samples, std::vector<StrayRow> strays,
+                          WantedSpacing spacing, const Avoided& avoided,
+                          std::vector<MeshWarning> warnings, ProgressLine& progress,
+                          const NotePairs& note) {
+    if (options.is_maximal) {
+        check_maximal(spacing);
+    }
+    ExistingSpacing found = measure_spacing(mesh, samples, spacing, progress, note);
+    std::vector<Intrusion> intrusions = find_intrusions(
+        mesh, samples.rows, samples.extra_values(kExistingColumn), avoided.disks, progress);
+    std::optional<GapCheck> gaps;
+    if (options.is_maximal) {
+        gaps = find_gaps(mesh, samples.rows, spacing.radii, spacing.min_distance, avoided.disks,
+                         progress);
+    }
+    std::vector<LevelSpacing> levels;
+    if (options.min_distance.empty() && spacing.is_known) {
+        levels = check_levels(options.samples, samples, mesh, spacing.radii, found.others, progress,
+                              note);
+    }
+    return {options,
+            samples,
+            mesh,
+            std::move(warnings),
+            std::move(spacing),
+            std::move(strays),
+            std::move(found.others),
+            std::move(found.among_existing),
+            masked_samples(samples, mesh),
+            avoided.points,
+            avoided.length,
+            std::move(intrusions),
+            std::move(gaps),
+            std::move(levels),
+            wrong_features(options.samples, samples, mesh)};
+}
 
 void verify_samples(const VerifyOptions& options, const NotePairs& note) {
     options.check();
@@ -92,20 +144,9 @@ void verify_samples(const VerifyOptions& options, const NotePairs& note) {
     warn_of_no_samples(options.samples, samples, warnings);
     warn_of_other_rows(options, samples, warnings);
     WantedSpacing spacing = wanted_spacing(options, samples, mesh);
-    if (options.is_maximal && !spacing.is_known) {
-        fail_usage("--maximal needs a minimum distance; give --min-distance");
-    }
-    if (options.is_maximal && !(spacing.min_distance > 0)) {
-        fail_usage("--maximal needs the radii of all points; give the --radius-factor option that "
-                   "the samples were made with");
-    }
-    if (options.is_maximal && spacing.classes.is_given()) {
-        fail_usage("--maximal is for samples without classes");
-    }
-    if (!spacing.is_known) {
+    if (!spacing.is_known && !options.is_maximal) {
         warn_of_unknown_spacing(options, warnings);
     }
-    ExistingSpacing found = measure_spacing(mesh, samples, spacing, progress, note);
     ConstraintOptions constraints = options.constraints;
     constraints.tolerance = options.tolerance;
     const std::size_t before = warnings.size();
@@ -113,33 +154,9 @@ void verify_samples(const VerifyOptions& options, const NotePairs& note) {
     for (std::size_t i = before; i < warnings.size(); ++i) {
         print_warning(warnings[i].file + ": " + warnings[i].message);
     }
-    std::vector<Intrusion> intrusions = find_intrusions(
-        mesh, samples.rows, samples.extra_values(kExistingColumn), avoided.disks, progress);
-    std::optional<GapCheck> gaps;
-    if (options.is_maximal) {
-        gaps = find_gaps(mesh, samples.rows, spacing.radii, spacing.min_distance, avoided.disks,
-                         progress);
-    }
-    std::vector<LevelSpacing> levels;
-    if (options.min_distance.empty() && spacing.is_known) {
-        levels = check_levels(options.samples, samples, mesh, spacing.radii, found.others, progress,
-                              note);
-    }
-    const SampleCheck check{options,
-                            samples,
-                            mesh,
-                            std::move(warnings),
-                            std::move(spacing),
-                            std::move(strays),
-                            std::move(found.others),
-                            std::move(found.among_existing),
-                            masked_samples(samples, mesh),
-                            avoided.points,
-                            avoided.length,
-                            std::move(intrusions),
-                            std::move(gaps),
-                            std::move(levels),
-                            wrong_features(options.samples, samples, mesh)};
+    const SampleCheck check =
+        check_samples(options, mesh, samples, std::move(strays), std::move(spacing), avoided,
+                      std::move(warnings), progress, note);
     publish(options.out, report_json(check), report_text(check));
     if (const std::string fault = fault_text(check); !fault.empty()) {
         throw UserError(ExitCode::violation, options.samples + ": " + fault);

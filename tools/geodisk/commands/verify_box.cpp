@@ -7,6 +7,7 @@
 #include "files/samples/sample_file.hpp"
 #include "geodisk/checks/spacing.hpp"
 #include "geodisk/commands/commands.hpp"
+#include "geodisk/commands/verify.hpp"
 #include "geodisk/inputs/box_input.hpp"
 #include "geodisk/outputs/outputs.hpp"
 #include "geodisk/outputs/progress.hpp"
@@ -29,8 +30,8 @@ std::size_t count_outside(const BoxParams& box, const SampleFile& samples) {
         }));
 }
 
-std::string result_text(const std::string& path, const BoxParams& box, const SampleFile& samples,
-                        const SpacingResult& result, std::size_t outside) {
+std::string result_text(const std::string& path, const SampleFile& samples, const BoxCheck& check) {
+    const auto& [box, outside, result] = check;
     std::ostringstream out;
     out << "box           " << box_text(box) << '\n'
         << "samples       " << grouped(samples.rows.size()) << " in " << one_line(path) << '\n'
@@ -43,8 +44,16 @@ std::string result_text(const std::string& path, const BoxParams& box, const Sam
     return out.str();
 }
 
-std::string report_text(const std::string& path, const BoxParams& box, const SampleFile& samples,
-                        const SpacingResult& result, std::size_t outside) {
+} // namespace
+
+BoxCheck check_box(const std::string& path, const std::string& min_distance,
+                   const SampleFile& samples, ProgressLine& progress) {
+    const BoxParams box = box_of(path, min_distance, samples);
+    return {box, count_outside(box, samples), check_box_spacing(box, samples.rows, progress)};
+}
+
+std::string report_json(const std::string& path, const SampleFile& samples, const BoxCheck& check) {
+    const auto& [box, outside, result] = check;
     return text_of(Json{{"version", GEODISK_VERSION_STRING},
                         {"box", {{"extents", box.extents}, {"periodic", box.is_periodic}}},
                         {"samples_file", path},
@@ -57,8 +66,6 @@ std::string report_text(const std::string& path, const BoxParams& box, const Sam
                         {"outside", outside}});
 }
 
-} // namespace
-
 void verify_box(const std::string& path, const std::string& min_distance,
                 const OutputOptions& out) {
     check_outputs(out, "", {{"the samples", path}});
@@ -66,11 +73,9 @@ void verify_box(const std::string& path, const std::string& min_distance,
     progress.begin_stage("reading the samples");
     const SampleFile samples = read_box_samples(path);
     progress.clear();
-    const BoxParams box = box_of(path, min_distance, samples);
-    const std::size_t outside = count_outside(box, samples);
-    const SpacingResult result = check_box_spacing(box, samples.rows, progress);
-    publish(out, report_text(path, box, samples, result, outside),
-            result_text(path, box, samples, result, outside));
+    const BoxCheck check = check_box(path, min_distance, samples, progress);
+    const auto& [box, outside, result] = check;
+    publish(out, report_json(path, samples, check), result_text(path, samples, check));
     std::string message = violation_text(result, rounded(box.min_distance, 9));
     if (outside > 0) {
         message += (message.empty() ? "" : ", and ") + counted(outside, "sample", "samples") +

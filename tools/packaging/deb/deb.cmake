@@ -61,7 +61,7 @@ library, CMake and pkg-config files, and examples.")
 set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-geodisk)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3 (>= 3.9), python3-numpy")
-set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "geodisk (= ${version}), ${vulkan}") # For verify, transfer and render.
+set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "${vulkan}")
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "python3-tqdm, python3-pandas")
 set(CPACK_DEBIAN_PYTHON_DESCRIPTION "Poisson-disk samples of triangle meshes, Python package
 ${about}

@@ -20,7 +20,6 @@ from ._errors import (
     MeshRejected,
     MeshWarning,
     NoDevice,
-    NoProgram,
     OutOfMemory,
 )
 from ._farthest import FarthestOrder, farthest_order
@@ -52,7 +51,6 @@ __all__ = [
     "MeshWarning",
     "Neighbours",
     "NoDevice",
-    "NoProgram",
     "OutOfMemory",
     "Picture",
     "Sample",

@@ -6,11 +6,11 @@ import os
 import subprocess
 import sys
 
-from . import _cpu, _program
+from . import _cpu, _place
 
 
 def main() -> int:
-    path = _program.bundled()
+    path = _place.find("bin/geodisk.exe" if sys.platform == "win32" else "bin/geodisk")
     if path is None:
         print("geodisk: this package was installed without the program geodisk", file=sys.stderr)
         return 127

@@ -2,16 +2,25 @@
 
 from __future__ import annotations
 
-import json
 import os
+import sys
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ._inputs import write_samples
-from ._program import folder, run
+from . import _errors as e
+from . import _library as c
+from . import _structs as s
+from ._background import interruptible
+from ._devices import name_of
+from ._existing import points_of
+from ._inputs import run
+from ._mesh import created, surface_from
 from ._samples import Samples
+from ._searching import search
+from ._source import read_file
 from ._values import flag, path_of, pixels
 
 
@@ -72,8 +81,8 @@ def bake(
     ------
     InvalidArgument
         For a file without texture coordinates, and samples that are not on the mesh.
-    TypeError, OutOfMemory, NoProgram, KeyboardInterrupt
-        As :func:`verify` does.
+    TypeError, OutOfMemory, NoDevice, KeyboardInterrupt
+        As :func:`sample` and :func:`verify` do.
 
     Examples
     --------
@@ -92,18 +101,28 @@ def bake(
         raise TypeError(f"samples are a geodisk.Samples, not {type(samples).__name__}")
     width, height = pixels(size if isinstance(size, (tuple, list, np.ndarray)) else (size, size))
     path = path_of(mesh, "mesh")
-    with folder() as place:
-        files = [os.path.abspath(path), write_samples(place, samples)]
-        options = ["--size", f"{width}x{height}", "--json", "report.json", "--output", "map.npz"]
-        if flag(allow_outside, "allow_outside"):
-            options.append("--allow-outside")
-        run(place, ["bake", *files, *options])
-        report = json.loads((place / "report.json").read_text("utf-8"))
-        with np.load(place / "map.npz") as arrays:
-            return SampleMap(
-                arrays["sample"],
-                arrays["distance"],
-                arrays["face"],
-                float(report["error"]),
-                int(report["texels"]["overlapping"]),
-            )
+    allow_outside = flag(allow_outside, "allow_outside")
+    try:
+        source = interruptible(
+            lambda stop: read_file(path, stop, allow_outside=allow_outside, has_uvs=True)
+        )
+    except (e.MeshRejected, OSError) as error:
+        raise e.invalid(str(error)) from None
+    on = created(surface_from(source, source.vertices, False))
+    points = points_of(on, samples, "samples", is_needed=True)
+    params = s.CellParams(samples=points.ctypes.data, sample_count=len(points))
+    nearest = search("nearest", "geodisk_nearest_create", on, params, name_of(None), False)
+    arrays = {"source": source.handle, "nearest": nearest}
+    name = os.fsencode(path).decode("utf-8", "replace")
+    made = run("bake", arrays=arrays, width=width, height=height, path=name)
+
+    def view(index: int, dtype: Any) -> NDArray[Any]:
+        return np.frombuffer(made[index], dtype).reshape(height, width).copy()
+
+    return SampleMap(
+        view(0, np.int32),
+        view(1, np.float32),
+        view(2, np.int32),
+        c.nearest_error(nearest.value),
+        int.from_bytes(made[3], sys.byteorder),
+    )

@@ -115,7 +115,7 @@ def cells(
     [[0, 1]]
     """
     on = mesh_of(mesh, None, None, False)
-    points = points_of(on._surface, samples, "samples", is_needed=True)
+    points = points_of(on._handle, samples, "samples", is_needed=True)
     mask = None if face_mask is None else mask_of(on._surface, face_mask)
     params = s.CellParams(
         samples=points.ctypes.data,
@@ -124,7 +124,7 @@ def cells(
         max_records=integer(max_records, "max_records", 2**64 - 1, 1),
         face_mask=None if mask is None else mask.ctypes.data,
     )
-    handle = search("cells", "geodisk_find_cells", on, params, name_of(device), progress)
+    handle = search("cells", "geodisk_find_cells", on._handle, params, name_of(device), progress)
     told = s.CellArrays()
     c.call("geodisk_cells_describe", handle.value, byref(told))
 

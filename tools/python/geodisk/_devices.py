@@ -108,22 +108,29 @@ _idle: dict[str, list[c.Handle]] = {}  # Samplers without a run, by name.
 _uses_drivers = False
 
 
-def _open(name: str) -> c.Handle:
-    """Returns the device, opened at the first call, which warns of drivers left out."""
+@contextlib.contextmanager
+def opening(name: str) -> Iterator[None]:
+    """Lets the library open a device, or raise NoDevice with what helps."""
     global _uses_drivers
     _uses_drivers = True
+    _cpu.provide()
+    try:
+        with _cpu.advice():
+            yield
+    except e.NoDevice as error:
+        if name and name == os.environ.get("GEODISK_DEVICE"):
+            raise e.NoDevice(f"{error} (GEODISK_DEVICE is {name})", error.status) from None
+        raise
+
+
+def _open(name: str) -> c.Handle:
+    """Returns the device, opened at the first call, which warns of drivers left out."""
     found: tuple[e.GeodiskWarning, ...] = ()
     with _lock:
         if name not in _opened:
-            _cpu.provide()
             options = s.DeviceOptions(device=name.encode())
-            try:
-                with _cpu.advice():
-                    _opened[name] = c.Handle("device", "geodisk_device_open", ctypes.byref(options))
-            except e.NoDevice as error:
-                if name and name == os.environ.get("GEODISK_DEVICE"):
-                    raise e.NoDevice(f"{error} (GEODISK_DEVICE is {name})", error.status) from None
-                raise
+            with opening(name):
+                _opened[name] = c.Handle("device", "geodisk_device_open", ctypes.byref(options))
             if not name and _is_cpu(_opened[name]):
                 found = _cpu.warnings_of_drivers()
         device = _opened[name]

@@ -43,11 +43,7 @@ class DeviceLost(Error):
 
 
 class Cancelled(Error):
-    """A progress callback asked to stop, or a signal ended the program ``geodisk``."""
-
-
-class NoProgram(Error):
-    """The program ``geodisk``, which some functions run, is missing or has another version."""
+    """A progress callback asked to stop."""
 
 
 #: Exceptions by status.

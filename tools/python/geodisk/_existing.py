@@ -8,10 +8,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _errors as e
+from . import _library as c
 from ._arrays import indices, real
-from ._placing import placed_on
+from ._inputs import places_of, run
 from ._samples import Samples
-from ._surface import Surface
 
 #: Samples of the mesh, points of other programs, or triangles and weights.
 ExistingLike = Union[Samples, Tuple[ArrayLike, ArrayLike]]
@@ -23,22 +23,22 @@ AvoidLike = Tuple[ExistingLike, ArrayLike]
 POINT = np.dtype([("face", np.uint32), ("weights", np.float32, 3)])
 
 
-def existing_of(surface: Surface, existing: ExistingLike | None) -> NDArray[Any]:
+def existing_of(mesh: c.Handle, existing: ExistingLike | None) -> NDArray[Any]:
     """Returns the samples to keep as the library takes them; none for None."""
     if existing is None:
         return np.empty(0, POINT)
-    return points_of(surface, existing, "existing")
+    return points_of(mesh, existing, "existing")
 
 
 def avoided_of(
-    surface: Surface, avoid: AvoidLike | None
+    mesh: c.Handle, avoid: AvoidLike | None
 ) -> tuple[NDArray[Any], NDArray[np.float64]]:
     """Returns points to avoid and their radii as the library takes them; none for None."""
     if avoid is None:
         return np.empty(0, POINT), np.empty(0)
     if not isinstance(avoid, (tuple, list)) or len(avoid) != 2:
         raise TypeError("avoid is a pair: points, as for existing, and their radius or radii")
-    points = points_of(surface, avoid[0], "avoid")
+    points = points_of(mesh, avoid[0], "avoid")
     radii = real(avoid[1], "avoid").astype(np.float64)
     if radii.ndim > 0 and radii.shape != points.shape:
         raise e.invalid(f"avoid has {len(points)} points and radii of the shape {radii.shape}")
@@ -46,14 +46,11 @@ def avoided_of(
 
 
 def points_of(
-    surface: Surface, given: ExistingLike, name: str, is_needed: bool = False
+    mesh: c.Handle, given: ExistingLike, name: str, is_needed: bool = False
 ) -> NDArray[Any]:
-    """Returns points as the library takes them."""
+    """Returns points as the library takes them. Those without faces get the nearest ones."""
     if isinstance(given, Samples):
-        given = placed_on(surface, given, name)
-        assert given.face_index is not None and given.barycentric is not None
-        faces, weights = given.face_index, given.barycentric
-        _check_places(surface, given, faces, weights, name)
+        faces, weights = _places_of(mesh, given, name)
     else:
         if not isinstance(given, (tuple, list)) or len(given) != 2:
             raise TypeError(
@@ -74,33 +71,20 @@ def points_of(
     return points
 
 
-def _check_places(
-    surface: Surface,
-    samples: Samples,
-    faces: NDArray[Any],
-    weights: NDArray[Any],
-    name: str,
-) -> None:
-    """Checks that positions are those of faces and weights, which those of another mesh are not."""
-    if samples.points is None or surface.edge_lengths is not None:
-        return
-    corners = surface.indices()
-    if len(faces) == 0 or faces.max() >= len(corners):
-        return  # The library refuses it.
-    vertices = np.asarray(surface.coordinates(), np.float64)
-    points = np.einsum("ij,ijk->ik", weights, vertices[corners[faces]])
-    if points.shape != samples.points.shape:
-        raise e.invalid(
-            f"{name}: points have {samples.points.shape[1]} coordinates, the vertices of the "
-            f"mesh {points.shape[1]}"
+def _places_of(
+    mesh: c.Handle, samples: Samples, name: str
+) -> tuple[NDArray[np.uint32], NDArray[np.float64]]:
+    if samples.face_index is None and samples.extents is not None:
+        raise e.invalid(f"{name}: samples in a box lie on no mesh")
+    if len(samples) == 0:
+        return np.empty(0, np.uint32), np.empty((0, 3))
+    if samples.points is None:
+        assert samples.face_index is not None and samples.barycentric is not None
+        return samples.face_index, samples.barycentric
+    try:
+        return places_of(*run("place", samples, mesh))
+    except e.InvalidArgument as error:
+        message = str(error).replace("samples: ", "", 1).replace(
+            "off mesh than tolerance allows", "off the mesh than a thousandth of its diagonal"
         )
-    used = vertices[corners.ravel()]
-    extent = float(np.linalg.norm(np.ptp(used, axis=0)))
-    allowed = 2.0**-22 * min(float(np.abs(used).max()), 16 * extent)
-    offsets = np.linalg.norm(points - samples.points, axis=1)
-    if not (offsets <= allowed).all():
-        first = int(np.argmax(~(offsets <= allowed)))
-        raise e.invalid(
-            f"{name}: sample {first} is {offsets[first]:.3g} from the point given by its face "
-            "and weights; are these samples of another mesh?"
-        )
+        raise e.invalid(f"{name}: {message}") from None

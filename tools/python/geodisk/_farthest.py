@@ -22,7 +22,6 @@ from ._protocols import Faces, MeshLike
 from ._running import ProgressCallback
 from ._samples import Samples
 from ._searching import searched
-from ._surface import Surface
 from ._values import integer
 
 
@@ -112,19 +111,18 @@ def farthest_order(
     if surface is None:
         raise e.invalid("samples in a box lie on no mesh")
     handle = vertices._handle if isinstance(vertices, Mesh) else created(surface)
-    return order_on(handle, surface, samples, count, device, progress)
+    return order_on(handle, samples, count, device, progress)
 
 
 def order_on(
     handle: c.Handle,
-    surface: Surface,
     samples: Samples,
     count: int | None,
     device: DeviceLike | None,
     progress: bool | ProgressCallback,
 ) -> FarthestOrder:
     """Returns the order of samples on the library's mesh."""
-    points = points_of(surface, samples, "samples", True)
+    points = points_of(handle, samples, "samples", True)
     if count is not None and not 1 <= integer(count, "count", 2**32 - 1) <= len(points):
         raise e.invalid(f"count is {count}, not from 1 to {len(points)}, the number of samples")
     size = len(points) if count is None else int(count)
@@ -152,7 +150,6 @@ def order_on(
 
 def put_farthest_first(
     handle: c.Handle,
-    surface: Surface,
     samples: Samples,
     device: DeviceLike | None,
     progress: bool | ProgressCallback,
@@ -160,7 +157,7 @@ def put_farthest_first(
     """Returns samples in farthest-point order, with the attribute cover."""
     if len(samples) == 0:
         return samples
-    order = order_on(handle, surface, samples, None, device, progress)
+    order = order_on(handle, samples, None, device, progress)
     chosen = samples[order.indices]
     cover = order.distances.astype(np.float64)
     return dataclasses.replace(chosen, attributes={**chosen.attributes, "cover": cover})

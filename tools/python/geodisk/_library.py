@@ -3,16 +3,20 @@
 from __future__ import annotations
 
 import ctypes
+import json
 import os
 import sys
-from ctypes import POINTER, byref, c_char_p, c_double, c_int32, c_size_t, c_uint32, c_void_p, sizeof
-from typing import Any
+from ctypes import POINTER, byref, c_char_p, c_double, c_int32, c_size_t, c_uint32, c_void_p, pointer, sizeof
+from typing import Any, Mapping
+
+from numpy.typing import NDArray
 
 from . import _place
 from ._errors import BY_STATUS, Error
 from ._structs import (
     NO_ELEMENT,
     PROGRESS_FN,
+    TAKE_FN,
     BoxRequest,
     CellArrays,
     CellParams,
@@ -25,17 +29,16 @@ from ._structs import (
     MeshRequest,
     NeighbourArrays,
     NeighbourParams,
-    Oddity,
     Progress,
     RecordParams,
     Report,
     Rule,
-    SampledSet,
     SamplerOptions,
     SourceArrays,
     SourceAttribute,
     SourceParams,
     SurfaceParams,
+    Task,
     UpdateInfo,
 )
 from ._wording import in_python
@@ -115,18 +118,22 @@ _FALLIBLE: dict[str, list[Any]] = {
         _HANDLE,
     ],
     "geodisk_cells_describe": [c_void_p, POINTER(CellArrays)],
+    "geodisk_nearest_create": [
+        c_void_p,
+        c_void_p,
+        POINTER(CellParams),
+        PROGRESS_FN,
+        c_void_p,
+        _HANDLE,
+    ],
     "geodisk_samples_copy": [c_void_p, c_int32, c_int32, c_void_p, c_size_t, c_size_t],
     "geodisk_samples_report": [c_void_p, POINTER(Report)],
-    "geodisk_explain_no_device": [c_char_p, c_char_p, c_size_t],
     "geodisk_source_read": [POINTER(SourceParams), _HANDLE],
     "geodisk_source_describe": [c_void_p, POINTER(SourceArrays)],
     "geodisk_source_get_attribute": [c_void_p, c_size_t, POINTER(SourceAttribute)],
     "geodisk_source_column": [c_void_p, c_size_t, POINTER(POINTER(c_uint32))],
     "geodisk_source_record": [c_void_p, POINTER(RecordParams)],
-    "geodisk_warnings_list": [c_void_p, c_void_p, _HANDLE],
-    "geodisk_warnings_of_set": [POINTER(SampledSet), _HANDLE],
-    "geodisk_warnings_of_drivers": [_HANDLE],
-    "geodisk_warnings_get": [c_void_p, c_size_t, POINTER(Oddity)],
+    "geodisk_run_command": [c_char_p, POINTER(Task), TAKE_FN],
 }
 _RELEASES = [
     "device",
@@ -137,9 +144,9 @@ _RELEASES = [
     "samples",
     "neighbours",
     "cells",
+    "nearest",
     "source",
     "updater",
-    "warnings",
 ]
 
 
@@ -180,12 +187,12 @@ _library.geodisk_cancel.argtypes = [c_void_p]
 _library.geodisk_cancel.restype = None
 _library.geodisk_radii_min_factor.argtypes = [c_void_p]
 _library.geodisk_radii_min_factor.restype = c_double
+_library.geodisk_nearest_error.argtypes = [c_void_p]
+_library.geodisk_nearest_error.restype = c_double
 _library.geodisk_samples_count.argtypes = [c_void_p]
 _library.geodisk_samples_count.restype = c_size_t
 _library.geodisk_skip_exit_handlers.argtypes = []
 _library.geodisk_skip_exit_handlers.restype = None
-_library.geodisk_warnings_count.argtypes = [c_void_p]
-_library.geodisk_warnings_count.restype = c_size_t
 _library.geodisk_samples_width.argtypes = [c_void_p, c_int32]
 _library.geodisk_samples_width.restype = c_uint32
 
@@ -213,9 +220,8 @@ def call(name: str, *arguments: Any) -> None:
         element = None if error.element == NO_ELEMENT else int(error.element)
         message = error.message.decode("utf-8", "replace")
         if status == _NO_DEVICE:
-            text = ctypes.create_string_buffer(2048)
-            call("geodisk_explain_no_device", error.message, text, len(text))
-            message = text.value.decode("utf-8", "replace")
+            (explained,) = run("explain_no_device", message=message)
+            message = explained.decode("utf-8", "replace")
         raise BY_STATUS.get(status, Error)(in_python(message), kind, element)
 
 
@@ -227,6 +233,10 @@ def radii_min_factor(radii: c_void_p) -> float:
     return float(_library.geodisk_radii_min_factor(radii))
 
 
+def nearest_error(nearest: c_void_p) -> float:
+    return float(_library.geodisk_nearest_error(nearest))
+
+
 def samples_count(samples: c_void_p) -> int:
     return int(_library.geodisk_samples_count(samples))
 
@@ -234,10 +244,6 @@ def samples_count(samples: c_void_p) -> int:
 def skip_exit_handlers() -> None:
     """Lets this process end without the handlers that were registered for its end so far."""
     _library.geodisk_skip_exit_handlers()
-
-
-def warnings_count(warnings: c_void_p) -> int:
-    return int(_library.geodisk_warnings_count(warnings))
 
 
 def samples_width(samples: c_void_p, attribute: int) -> int:
@@ -268,6 +274,23 @@ class Handle:
         value, self.value = getattr(self, "value", None), c_void_p()
         if value:
             self._release(value)
+
+
+def run(
+    command: str,
+    arrays: Mapping[str, Handle | NDArray[Any] | None] = {},
+    stop: c_int32 | None = None,
+    **options: Any,
+) -> list[bytes]:
+    """Runs a command of geodisk_run_command() with these fields of its task; returns what it makes."""
+    task = Task(options=json.dumps(options).encode(), stop=None if stop is None else pointer(stop))
+    for name, one in arrays.items():
+        if one is not None:
+            setattr(task, name, one.value if isinstance(one, Handle) else one.ctypes.data)
+    made: list[bytes] = []
+    take = TAKE_FN(lambda data, size: made.append(ctypes.string_at(data, size)))
+    call("geodisk_run_command", command.encode(), byref(task), take)
+    return made
 
 
 def list_devices() -> list[DeviceInfo]:

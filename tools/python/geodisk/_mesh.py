@@ -145,7 +145,7 @@ class Mesh:
                     has_materials=_record.has_materials(),
                 )
             )
-            surface = _surface_of(source, source.vertices, keep_seams)
+            surface = surface_from(source, source.vertices, keep_seams)
         else:
             if attributes or columns or mesh_format is not None:
                 raise TypeError("attributes, columns and mesh_format are for meshes from files")
@@ -158,7 +158,7 @@ class Mesh:
                     raise e.invalid("with edge lengths, all faces must be triangles")
                 polygons, points = given, Surface(vertices, None).coordinates()
                 source = interruptible(lambda stop: split(points, polygons, weld, keep_seams, stop))
-                surface = _surface_of(source, vertices, keep_seams)
+                surface = surface_from(source, vertices, keep_seams)
             else:
                 surface = Surface(vertices, given, edge_lengths, weld, keep_seams)
         _record.check(surface)
@@ -241,7 +241,7 @@ class Mesh:
         return copied
 
 
-def _surface_of(source: Source, vertices: Any, keep_seams: bool) -> Surface:
+def surface_from(source: Source, vertices: Any, keep_seams: bool) -> Surface:
     """Returns the surface that a source is, where `vertices` are. Its vertices are joined already."""
     return Surface(
         vertices,

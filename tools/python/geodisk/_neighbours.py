@@ -157,13 +157,13 @@ def neighbours(
     if isinstance(among, str):
         params.kind = s.AMONG[choice(among, "among", s.AMONG)]
     else:
-        points = points_of(mesh._surface, among, "among")
+        points = points_of(mesh._handle, among, "among")
         params.kind = s.AMONG_POINTS
         params.points, params.point_count = address(points), len(points)
     if mesh._surface.joined is not None:
         params.joined = address(np.ascontiguousarray(mesh._surface.joined, np.uint32))
     found = search(
-        "neighbours", "geodisk_find_neighbours", mesh, params, name_of(device), progress
+        "neighbours", "geodisk_find_neighbours", mesh._handle, params, name_of(device), progress
     )
     return _arrays_of(found)
 
@@ -176,7 +176,7 @@ def _set_sources(
         return None
     is_pair = isinstance(sources, tuple) and len(sources) == 2 and np.ndim(sources[1]) == 2
     if isinstance(sources, Samples) or is_pair:
-        points = points_of(mesh._surface, sources, "sources")
+        points = points_of(mesh._handle, sources, "sources")
         params.sources, params.source_count = address(points), len(points)
         return len(points)
     chosen = indices(sources, "sources").astype(np.uint32)

@@ -2,32 +2,30 @@
 
 from __future__ import annotations
 
-import ctypes
+import json
 import os
 import sys
 import warnings
-from typing import TYPE_CHECKING, Iterator, Sequence
+from typing import TYPE_CHECKING, Any, Sequence, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from . import _library as c
-from . import _structs as s
 from ._errors import GeodiskWarning, MeshWarning
 from ._wording import in_python
 
 if TYPE_CHECKING:
     from ._samples import Samples
 
+W = TypeVar("W", bound=GeodiskWarning)
+
 _PACKAGE = os.path.dirname(os.path.abspath(__file__))
 
 
 def oddities_of(mesh: c.Handle, source: c.Handle | None) -> tuple[MeshWarning, ...]:
     """Returns what the program prints about a mesh, which was made of `source` or of arrays."""
-    found = c.Handle(
-        "warnings", "geodisk_warnings_list", mesh.value, None if source is None else source.value
-    )
-    return tuple(MeshWarning(*one) for one in _listed(found))
+    return _listed(MeshWarning, "warnings_of_mesh", {"mesh": mesh, "source": source})
 
 
 def oddities_of_set(
@@ -43,36 +41,33 @@ def oddities_of_set(
 ) -> tuple[GeodiskWarning, ...]:
     """Returns what the program prints about samples on a mesh, or in a box."""
     faces = None if samples.face_index is None else np.ascontiguousarray(samples.face_index)
-    params = s.SampledSet(
-        mesh=None if mesh is None else mesh.value,
-        faces=None if faces is None else faces.ctypes.data,
+    return _listed(
+        GeodiskWarning,
+        "warnings_of_set",
+        {"mesh": mesh, "faces": faces, "face_mask": mask},
         count=len(samples),
         min_distance=samples.min_distance,
         cut=samples.report.get("cut", 0),
         wanted_count=0.0 if stop_count else float(count or 0),
         stop_count=stop_count,
-        darts=darts,
-        face_mask=None if mask is None else mask.ctypes.data,
+        has_darts=darts > 0,
         existing=existing,
-        avoids=int(avoids),
+        avoids=avoids,
         lacks_features=lacks_features,
     )
-    found = c.Handle("warnings", "geodisk_warnings_of_set", ctypes.byref(params))
-    return tuple(GeodiskWarning(*one) for one in _listed(found))
 
 
 def left_out_drivers() -> tuple[GeodiskWarning, ...]:
     """Returns what the program prints about drivers that do not load, where it uses a CPU."""
-    found = c.Handle("warnings", "geodisk_warnings_of_drivers")
-    return tuple(GeodiskWarning(*one) for one in _listed(found))
+    return _listed(GeodiskWarning, "warnings_of_drivers")
 
 
-def _listed(found: c.Handle) -> Iterator[tuple[str, str, int]]:
-    """Yields message, kind and count of each."""
-    for index in range(c.warnings_count(found.value)):
-        one = s.Oddity()
-        c.call("geodisk_warnings_get", found.value, index, ctypes.byref(one))
-        yield in_python(one.message.decode("utf-8", "replace")), one.kind.decode(), one.count
+def _listed(kind: type[W], *arguments: Any, **options: Any) -> tuple[W, ...]:
+    """Returns the warnings that a command lists."""
+    (told,) = c.run(*arguments, **options)
+    return tuple(
+        kind(in_python(one["message"]), one["kind"], one["count"]) for one in json.loads(told)
+    )
 
 
 def warn_of_whole_mask(mask: NDArray[np.uint8] | None) -> None:

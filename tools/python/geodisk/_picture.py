@@ -10,10 +10,10 @@ from typing import Any, Sequence
 from numpy.typing import ArrayLike
 
 from . import _errors as e
-from ._devices import DeviceLike, name_of
+from ._devices import DeviceLike, name_of, opening
 from ._files import complete
-from ._inputs import surface_of, write_subject
-from ._program import folder, run
+from ._inputs import option, run, surface_of
+from ._mesh import created
 from ._protocols import Faces, MeshLike
 from ._samples import Samples
 from ._values import flag, listed, number, path_of, pixels, text
@@ -108,7 +108,7 @@ def render(
     ------
     InvalidArgument
         For values out of range, and samples that are not on this mesh.
-    MeshRejected, TypeError, NoDevice, NoProgram, KeyboardInterrupt
+    MeshRejected, TypeError, NoDevice, KeyboardInterrupt
         As :func:`sample` and :func:`verify` do.
 
     Examples
@@ -120,35 +120,33 @@ def render(
     """
     surface = surface_of(samples, vertices, faces, None, weld, keep_seams)
     width, height = pixels(size)
-    options = ["--size", f"{width}x{height}", f"--style={text(style, 'style')}"]
-    options += [f"--background={text(background, 'background')}", *_views(view)]
-    if up is not None:
-        options.append(f"--up={text(up, 'up')}")
-    if flag(cut, "cut"):
-        options.append("--cut")
-    if flag(legend, "legend"):
-        options.append("--legend")
-    if min_distance is not None:
-        options += ["--min-distance", repr(number(min_distance, "min_distance"))]
-    if name_of(device):
-        options += ["--device", name_of(device)]
-    with folder() as place:
-        files = write_subject(place, samples, surface)
-        run(place, ["render", *files, *options, "--output", "picture.png"])
-        return Picture((place / "picture.png").read_bytes())
+    options: dict[str, Any] = {
+        "size": f"{width}x{height}",
+        "style": text(style, "style"),
+        "background": text(background, "background"),
+        "up": "" if up is None else text(up, "up"),
+        "views": _views(view),
+        "cut": flag(cut, "cut"),
+        "legend": flag(legend, "legend"),
+        "min_distance": option(min_distance, "min_distance"),
+        "device": name_of(device),
+    }
+    with opening(name_of(device)):
+        (png,) = run("render", samples, None if surface is None else created(surface), **options)
+    return Picture(png)
 
 
 def _views(view: Any) -> list[str]:
-    """Returns the options of one or several views."""
+    """Returns the names or angles of one or several views."""
     several = listed(view)
     if several is None or (len(several) == 2 and all(isinstance(x, Real) for x in several)):
         several = [view]
-    options = []
+    views = []
     for one in several:
         angles = one if isinstance(one, str) else listed(one)
         if angles is None or (angles is not one and len(angles) != 2):
             raise TypeError(f"view is {reprlib.repr(one)}, neither a name nor azimuth and elevation")
         if not isinstance(angles, str):
             angles = ",".join(repr(number(angle, "view")) for angle in angles)
-        options.append(f"--view={text(angles, 'view')}")
-    return options
+        views.append(text(angles, "view"))
+    return views

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from . import _errors as e
 from . import _library as c
@@ -41,19 +42,21 @@ def radii_of(
     given = density if name == "density" else radius_factor
     assert given is not None
     values = mesh._surface.vertex_values(given, name)
-    create = "geodisk_radii_create"
-    if name == "density":
-        create = "geodisk_density_create"
+    radii = radii_on(mesh._handle, name, values)
+    if name == "density" and len(values) and (values == values[0]).all():
+        text = f"the density is {values[0]:g} everywhere, so it leaves out nothing"
+        warn([e.GeodiskWarning(text, "constant_density", 1)])
+    return radii
+
+
+def radii_on(mesh: c.Handle, name: str, values: NDArray[Any]) -> Radii:
+    """Returns the radii of a `density` or a `radius_factor`, whose values are of vertices."""
     handle = c.Handle(
         "radii",
-        create,
-        mesh._handle.value,
+        "geodisk_density_create" if name == "density" else "geodisk_radii_create",
+        mesh.value,
         values.ctypes.data,
         s.FLOAT32 if values.dtype == np.float32 else s.FLOAT64,
         len(values),
     )
-    if name == "density" and len(values) and (values == values[0]).all():
-        text = f"the density is {values[0]:g} everywhere, so it leaves out nothing"
-        warn([e.GeodiskWarning(text, "constant_density", 1)])
-    part = c.radii_min_factor(handle.value) if name == "density" else 1.0
-    return Radii(handle, part)
+    return Radii(handle, c.radii_min_factor(handle.value) if name == "density" else 1.0)

@@ -11,7 +11,6 @@ from . import _library as c
 from . import _structs as s
 from ._background import interruptible
 from ._devices import forget, sampler_on
-from ._mesh import Mesh
 from ._running import STOPPED, Bar, ProgressCallback, listener_of, stops
 
 T = TypeVar("T")
@@ -57,14 +56,14 @@ def searched(
 def search(
     kind: str,
     function: str,
-    mesh: Mesh,
+    mesh: c.Handle,
     params: Any,
     device: str,
     progress: bool | ProgressCallback,
 ) -> c.Handle:
-    """Returns what the function of the library finds on the mesh: an object of this kind."""
+    """Returns what the function of the library finds on its mesh: an object of this kind."""
 
     def call(sampler: ctypes.c_void_p, hear: Any) -> c.Handle:
-        return c.Handle(kind, function, sampler, mesh._handle.value, byref(params), hear, None)
+        return c.Handle(kind, function, sampler, mesh.value, byref(params), hear, None)
 
     return searched(device, progress, call)

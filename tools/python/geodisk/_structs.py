@@ -408,28 +408,22 @@ class SourceAttribute(_Sized):
     ]
 
 
-class SampledSet(_Sized):
+class Task(_Sized):
     _fields_ = [
         ("struct_size", c_size_t),
-        ("mesh", c_void_p),
+        ("options", c_char_p),
+        ("samples", c_void_p),
         ("faces", c_void_p),
-        ("count", c_size_t),
-        ("min_distance", c_double),
-        ("wanted_count", c_double),
-        ("cut", c_uint64),
-        ("stop_count", c_uint32),
-        ("darts", c_uint32),
+        ("mesh", c_void_p),
+        ("to", c_void_p),
+        ("radii", c_void_p),
         ("face_mask", c_void_p),
-        ("existing", c_size_t),
-        ("avoids", c_int32),
-        ("lacks_features", c_double),
+        ("avoid", c_void_p),
+        ("avoid_radii", c_void_p),
+        ("source", c_void_p),
+        ("nearest", c_void_p),
+        ("stop", POINTER(c_int32)),
     ]
 
 
-class Oddity(_Sized):
-    _fields_ = [
-        ("struct_size", c_size_t),
-        ("kind", c_char_p),
-        ("count", c_uint64),
-        ("message", c_char_p),
-    ]
+TAKE_FN = CFUNCTYPE(None, c_void_p, c_size_t)

@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import dataclasses
-import json
-import math
 import os
 from typing import Any, Sequence
 
@@ -13,14 +11,12 @@ from numpy.typing import ArrayLike
 
 from . import _errors as e
 from ._inherited import Wanted
-from ._inputs import surface_of, write_samples, write_surface
-from ._mesh import Mesh, is_mesh, mesh_of
-from ._program import folder, run
+from ._inputs import places_of, run, surface_of
+from ._mesh import Mesh, created, is_mesh, mesh_of
 from ._protocols import Faces, MeshLike
-from ._reading import read
 from ._record import Record, recorded
 from ._samples import Samples
-from ._values import number, path_of
+from ._surface import Surface
 
 _OF_ONE_POSE = frozenset({"cover", "frames"})
 
@@ -80,7 +76,7 @@ def transfer(
     ------
     InvalidArgument
         For samples that are not on their mesh, and for different faces.
-    MeshRejected, TypeError, NoProgram, KeyboardInterrupt
+    MeshRejected, TypeError, KeyboardInterrupt
         As :func:`verify` does.
 
     Warns
@@ -102,7 +98,6 @@ def transfer(
     if source is None:
         raise e.invalid("samples in a box have no mesh")
     wanted = Wanted(texture, normals, frames, attributes, has_colours=True)
-    path = _path_of(to)
     own_faces, own_weld, own_seams = source.faces, source.weld, source.keep_seams
 
     def make(record: Record, read: Sequence[str]) -> Mesh:
@@ -116,35 +111,20 @@ def transfer(
 
     mesh, record = wanted.mesh(samples, (), make)
     target = mesh._surface
-    with folder() as place:
-        # A file has the corners from before vertices were joined.
-        corners = None if path is None else source.own_corners()
-        from_mesh, from_options = write_surface(place, source, "mesh", "-a", corners=corners)
-        to_mesh, to_options = (
-            write_surface(place, target, "pose", "-b")
-            if path is None
-            else (path, ["--allow-outside-b"] if allow_outside else [])
-        )
-        files = [write_samples(place, samples), from_mesh, to_mesh]
-        outputs = ["--output", "there.npz", "--json", "report.json"]
-        if tolerance is not None:
-            outputs += ["--tolerance", repr(number(tolerance, "tolerance"))]
-        run(place, ["transfer", *files, *from_options, *to_options, *outputs])
-        there = read(place / "there.npz")
-        closest = json.loads((place / "report.json").read_text("utf-8"))["smallest"]
+    _check_faces(source, target)
     dimension = target.dimension()
-    points = there.points
-    if points is not None:  # The program has three coordinates in the plane.
-        points = np.ascontiguousarray(points[:, :dimension])
-    distance = math.nan if closest is None else float(closest["distance"])
-    placed = {}
+    made = run("transfer", samples, created(source), tolerance, {"to": mesh._handle})
+    placed: dict[str, Any] = {}
     if samples.face_index is None:
-        placed = {"face_index": there.face_index, "barycentric": there.barycentric}
-    moved = dataclasses.replace(
+        placed["face_index"], placed["barycentric"] = places_of(*made[:2])
+    points = np.frombuffer(made[2]).reshape(-1, max(dimension, 3))[:, :dimension].copy()
+    directions = np.frombuffer(made[3], np.float32).reshape(-1, 3).astype(np.float64)
+    distance = float(np.frombuffer(made[4])[0])
+    transferred = dataclasses.replace(
         samples,
         **placed,
-        points=points,
-        normals=there.normals if dimension == 3 else None,
+        points=points if dimension > 0 else None,
+        normals=directions if dimension == 3 else None,
         radius=np.full(len(samples), distance / 2),
         min_distance=distance,
         class_distances=None,  # Those of the other pose.
@@ -154,21 +134,24 @@ def transfer(
         _told={},
         _frame=None,
     )
-    assert moved.face_index is not None and moved.barycentric is not None
+    assert transferred.face_index is not None and transferred.barycentric is not None
     found = {
-        name: one.at(moved.face_index, moved.barycentric)
+        name: one.at(transferred.face_index, transferred.barycentric)
         for name, one in target.attributes.items()
     }
     kept = {name: one for name, one in samples.attributes.items() if name not in _OF_ONE_POSE}
-    moved = dataclasses.replace(moved, attributes={**kept, **found})
-    moved = recorded(moved, mesh, record)
-    wanted.warn_of_lost(samples, moved)
-    return moved
+    transferred = dataclasses.replace(transferred, attributes={**kept, **found})
+    transferred = recorded(transferred, mesh, record)
+    wanted.warn_of_lost(samples, transferred)
+    return transferred
 
 
-def _path_of(mesh: Any) -> str | None:
-    """Returns the path of a mesh file as the program takes it in any folder; None for others."""
-    if not isinstance(mesh, (str, os.PathLike)):
-        return None
-    path = path_of(mesh, "to")
-    return path if path.startswith("builtin:") else os.path.abspath(path)
+def _check_faces(source: Surface, target: Surface) -> None:
+    """Checks that a face and weights mean the same place, whichever vertices are joined."""
+    needs = "transfer needs two meshes with identical faces"
+    here, there = source.own_corners(), target.own_corners()
+    if len(here) != len(there):
+        raise e.invalid(f"pose: has {len(there)} triangles, but mesh has {len(here)}; {needs}")
+    differing = np.flatnonzero((here != there).any(axis=1))
+    if differing.size and (source.indices() != target.indices()).any():
+        raise e.invalid(f"pose: face {differing[0]} has other corners than in mesh; {needs}")

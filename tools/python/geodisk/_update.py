@@ -154,7 +154,7 @@ def update(
     mesh, record, is_moved = _edited_mesh(samples, old.mesh, to, to_faces, allow_outside, wanted)
     _check_inherited(old.mesh, mesh, job, chosen)
     new = _Side(mesh, edited, samples, old)
-    points = points_of(old.mesh._surface, samples, "samples", True)
+    points = points_of(old.mesh._handle, samples, "samples", True)
     info = s.UpdateInfo()
     frames_of_run: list[JobFrame] = []
 
@@ -214,8 +214,8 @@ class _Side:
         radii = radii_of(mesh, job.density, job.radius_factor)
         keys = None if job.face_keys is None else keys_of(mesh, job.face_keys)
         mask = None if job.face_mask is None else mask_of(mesh._surface, job.face_mask)
-        kept = _existing(mesh._surface, job.existing)
-        avoided, avoid_radii = _avoided(mesh._surface, job.avoid)
+        kept = _existing(mesh._handle, job.existing)
+        avoided, avoid_radii = _avoided(mesh._handle, job.avoid)
         #: By faces and weights, since positions are those before an edit.
         self.existing = None if job.existing is None else (kept["face"], kept["weights"])
         self.avoid: AvoidLike | None = None
@@ -301,20 +301,20 @@ def _is_empty(points: ExistingLike) -> bool:
     return faces is not None and len(faces) == 0
 
 
-def _existing(surface: Surface, existing: ExistingLike | None) -> NDArray[Any]:
+def _existing(mesh: c.Handle, existing: ExistingLike | None) -> NDArray[Any]:
     """Returns existing samples as the library takes them; none for an empty pair or set."""
     if existing is not None and _is_empty(existing):
         return np.empty(0, POINT)
-    return existing_of(surface, existing)
+    return existing_of(mesh, existing)
 
 
 def _avoided(
-    surface: Surface, avoid: AvoidLike | None
+    mesh: c.Handle, avoid: AvoidLike | None
 ) -> tuple[NDArray[Any], NDArray[np.float64]]:
     """Returns points to avoid and radii as the library takes them; none for empty points."""
     if isinstance(avoid, (tuple, list)) and len(avoid) == 2 and _is_empty(avoid[0]):
-        return avoided_of(surface, None)
-    return avoided_of(surface, avoid)
+        return avoided_of(mesh, None)
+    return avoided_of(mesh, avoid)
 
 
 def _check_radii(job: Job, density: ArrayLike | None, radius_factor: ArrayLike | None) -> None:

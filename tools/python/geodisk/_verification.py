@@ -11,13 +11,14 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _errors as e
-from ._existing import AvoidLike, avoided_of
-from ._inputs import surface_of, write_avoided, write_density, write_subject
-from ._mesh import mask_of
-from ._program import folder, run
+from . import _library as c
+from ._existing import POINT, AvoidLike, avoided_of
+from ._inputs import option, run, surface_of
+from ._mesh import created, mask_of
 from ._protocols import Faces, MeshLike
-from ._radii import one_of
+from ._radii import one_of, radii_on
 from ._samples import Samples
+from ._surface import Surface
 from ._values import flag, number
 from ._writing import has_own_radii
 
@@ -150,7 +151,7 @@ def verify(
 ) -> Verification:
     """Computes the distances of samples again, on the CPU in double precision.
 
-    This is a separate implementation in the program ``geodisk``, which is run for it.
+    This is a separate implementation, the one of ``geodisk verify``.
 
     Parameters
     ----------
@@ -186,8 +187,6 @@ def verify(
         For samples that are not on this mesh, or without a mesh or distance.
     MeshRejected, TypeError
         As for :func:`sample`.
-    NoProgram
-        If the program ``geodisk`` is missing.
     KeyboardInterrupt
         Ctrl-C ends it at once.
 
@@ -220,21 +219,34 @@ def verify(
     mask = None if surface is None or face_mask is None else mask_of(surface, face_mask)
     if mask is not None and not mask.any():
         raise e.invalid("face_mask leaves out all faces")
-    with folder() as place:
-        arguments = [*write_subject(place, samples, surface, mask), "--json", "report.json"]
-        if surface is not None and avoid is not None:
-            arguments += write_avoided(place, surface, *avoided_of(surface, avoid))
-        if maximal:
-            arguments.append("--maximal")
-        if tolerance is not None:
-            arguments += ["--tolerance", repr(number(tolerance, "tolerance"))]
-        values = radius_factor if density is None else density
-        if varying and surface is not None and values is not None:
-            arguments += write_density(place, surface, varying, values)
-        if min_distance is not None:
-            arguments += ["--min-distance", repr(min_distance)]
-        run(place, ["verify", *arguments], accepted=(0, 1))
-        report = json.loads((place / "report.json").read_text("utf-8"))
+    handle = None if surface is None else created(surface)
+    radii = None
+    given = radius_factor if density is None else density
+    if varying and surface is not None and handle is not None and given is not None:
+        values = surface.vertex_values(given, varying)
+        corners = surface.indices()
+        small = corners[values[corners] < 0.001]
+        if varying == "radius_factor" and small.size > 0:
+            raise e.invalid(f"the {varying} of vertex {small[0]} is {values[small[0]]}, below 0.001")
+        radii = radii_on(handle, varying, values)
+    points, point_radii = _avoided_on(handle, surface, avoid)
+    (told,) = run(
+        "verify",
+        samples,
+        handle,
+        tolerance,
+        {
+            "radii": None if radii is None else radii.handle,
+            "face_mask": mask,
+            "avoid": points,
+            "avoid_radii": point_radii,
+        },
+        min_distance=option(min_distance, "min_distance"),
+        maximal=maximal,
+        distance_part=1.0 if radii is None else radii.distance_part,
+        avoided=len(points),
+    )
+    report = json.loads(told)
     violations, closest = report["violations"], report["smallest"]
     existing, gaps = report.get("existing"), report.get("maximal")
     intrusions = (report.get("avoided") or {}).get("intrusions", {})
@@ -262,6 +274,25 @@ def verify(
         is_maximal=None if gaps is None else gaps["certificate"],
         largest_gap=math.nan if gap is None else gap,
     )
+
+
+def _avoided_on(
+    mesh: c.Handle | None, surface: Surface | None, avoid: AvoidLike | None
+) -> tuple[NDArray[Any], NDArray[np.float64]]:
+    """Returns points to avoid and their radii, which have to be right."""
+    if mesh is None or surface is None or avoid is None:
+        return np.empty(0, POINT), np.empty(0)
+    points, radii = avoided_of(mesh, avoid)
+    count = len(surface.indices())
+    if (outside := points["face"] >= count).any():
+        first = int(np.argmax(outside))
+        raise e.invalid(
+            f"avoid: point {first} is in face {points['face'][first]}, the mesh has {count}"
+        )
+    if (wrong := ~((radii > 0) & np.isfinite(radii))).any():
+        first = int(np.argmax(wrong))
+        raise e.invalid(f"avoid: point {first} has the radius {radii[first]}, not a positive one")
+    return points, radii
 
 
 def _pairs(violations: dict[str, Any]) -> NDArray[np.int64]:

@@ -99,8 +99,8 @@ class Wanted:
         keys = None if face_keys is None else keys_of(mesh, face_keys)
         mask = None if face_mask is None else mask_of(mesh._surface, face_mask)
         warn_of_whole_mask(mask)
-        kept = existing_of(mesh._surface, existing)
-        points, point_radii = avoided_of(mesh._surface, avoid)
+        kept = existing_of(mesh._handle, existing)
+        points, point_radii = avoided_of(mesh._handle, avoid)
         if count is not None and len(kept) >= count:
             raise e.invalid(f"count is {count}, but {len(kept)} existing samples count too")
         part = 1.0 if radii is None else radii.distance_part
@@ -203,9 +203,7 @@ class Wanted:
         )
         samples.report["options"] = self._options
         if self._is_farthest:
-            samples = put_farthest_first(
-                self.mesh._handle, self.mesh._surface, samples, device, progress
-            )
+            samples = put_farthest_first(self.mesh._handle, samples, device, progress)
         return samples
 
     def _frame_at(self, run_distance: float) -> JobFrame | None:

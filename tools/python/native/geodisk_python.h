@@ -1,5 +1,5 @@
 /* Functions that the Python package needs besides geodisk/geodisk.h: meshes as the program reads
- * them, and the warnings that it prints. The conventions are those of geodisk.h.
+ * them, the warnings that it prints, and what it does with samples. The conventions are those of geodisk.h.
  *
  * This is no public interface. The library that has it is part of the package and changes with it.
  */
@@ -114,57 +114,46 @@ GEODISK_C_API geodisk_status geodisk_source_record(const geodisk_source *source,
 
 GEODISK_C_API void geodisk_source_release(geodisk_source *source);
 
-/* Everything odd about a mesh. */
-typedef struct geodisk_warnings geodisk_warnings;
-
-/* One oddity. The texts live as long as the list. */
-typedef struct geodisk_warning {
+/* Meshes, samples and arrays in memory for a command. NULL where it needs none. */
+typedef struct geodisk_task {
     size_t struct_size;
-    const char *kind;    /* "duplicate_faces" and so on. */
-    uint64_t count;
-    const char *message; /* A sentence of the program. */
-} geodisk_warning;
+    /* A JSON object. Of samples, it has their number `count`, the names of `columns`, the entries of
+     * the `header`, and the option `tolerance` for points without faces, or "". */
+    const char *options;
+    const double *samples;      /* Values of all columns of each sample. */
+    const uint32_t *faces;      /* Of each sample. */
+    const geodisk_mesh *mesh;   /* NULL for samples in a box. */
+    const geodisk_mesh *to;     /* Another mesh with the same faces. */
+    const geodisk_radii *radii;
+    const uint8_t *face_mask;   /* As in geodisk_surface_params. */
+    const geodisk_surface_point *avoid;
+    const double *avoid_radii;
+    const geodisk_source *source;
+    const geodisk_nearest *nearest;
+    /* Work ends with GEODISK_CANCELLED soon after this is no longer 0. May be NULL. */
+    const volatile int32_t *stop;
+} geodisk_task;
 
-/* Lists what the program prints about `mesh`, open seams first. `source` is what it was made of, or
- * NULL for arrays of the caller. */
-GEODISK_C_API geodisk_status geodisk_warnings_list(const geodisk_mesh *mesh,
-                                                   const geodisk_source *source,
-                                                   geodisk_warnings **warnings,
-                                                   geodisk_error *error);
-/* A set of samples on a mesh or in a box, and what was asked for. */
-typedef struct geodisk_sampled_set {
-    size_t struct_size;
-    const geodisk_mesh *mesh; /* NULL for a box. */
-    const uint32_t *faces;    /* Of each sample on the mesh. */
-    size_t count;
-    double min_distance;
-    double wanted_count;      /* Samples that the distance was chosen for, or 0. */
-    uint64_t cut;             /* Samples of the run that an exact count left out. */
-    uint32_t stop_count;      /* As in geodisk_surface_params. */
-    uint32_t darts;
-    const uint8_t *face_mask; /* As in geodisk_surface_params. */
-    size_t existing;          /* Those of the samples that existed before, the first. */
-    int32_t avoids;           /* Not 0 if there are points to avoid. */
-    double lacks_features;    /* Angle in degrees of features that were not found, or 0. */
-} geodisk_sampled_set;
+/* Takes an array that a command made. */
+typedef void (*geodisk_take_fn)(const void *bytes, size_t size);
 
-/* Lists what the program prints about the samples. */
-GEODISK_C_API geodisk_status geodisk_warnings_of_set(const geodisk_sampled_set *set,
-                                                     geodisk_warnings **warnings,
-                                                     geodisk_error *error);
-/* Lists the Vulkan drivers that the loader finds and leaves out, each with the reason, in the words of
- * the program where it uses a CPU. */
-GEODISK_C_API geodisk_status geodisk_warnings_of_drivers(geodisk_warnings **warnings,
-                                                         geodisk_error *error);
-GEODISK_C_API size_t geodisk_warnings_count(const geodisk_warnings *warnings);
-GEODISK_C_API geodisk_status geodisk_warnings_get(const geodisk_warnings *warnings, size_t index,
-                                                  geodisk_warning *warning, geodisk_error *error);
-GEODISK_C_API void geodisk_warnings_release(geodisk_warnings *warnings);
-
-/* Writes the message of a GEODISK_NO_DEVICE to `text`, with what variables of the environment keep
- * Vulkan's loader from finding a driver, if any do. */
-GEODISK_C_API geodisk_status geodisk_explain_no_device(const char *message, char *text,
-                                                       size_t capacity, geodisk_error *error);
+/* Runs a command of the program or of this list, and hands over what it makes:
+ *   verify    the report of the program, as JSON
+ *   place     faces and weights of samples on their mesh, as uint32_t and three float for each
+ *   transfer  the same, then their points as double with at least three coordinates and normals as
+ *             float on the mesh `to`, and the smallest distance there as double, NaN without one
+ *   bake      the nearest sample of each texel of `source` as int32_t, its distance as float, the
+ *             face as int32_t, and how many texels several faces cover as uint64_t
+ *   render    a PNG file
+ *   warnings_of_mesh     what the program prints about `mesh`, made of `source` or else of arrays of
+ *                        the caller, as a JSON list: open seams first
+ *   warnings_of_set      the same about samples on `mesh` or in a box
+ *   warnings_of_drivers  the same about drivers that the Vulkan loader leaves out
+ *   explain_no_device    the `message` of a GEODISK_NO_DEVICE, with what keeps the loader from finding
+ *                        a driver
+ * Fails with GEODISK_INVALID_ARGUMENT for what the program refuses, in its words. */
+GEODISK_C_API geodisk_status geodisk_run_command(const char *name, const geodisk_task *task,
+                                                 geodisk_take_fn take, geodisk_error *error);
 
 /* For a child of fork() whose parent has used a driver: the threads of the driver are not there, and
  * its exit handler would wait for them forever. Lets exit() end the process without the handlers that

@@ -2,10 +2,12 @@
 #include <iterator>
 #include <span>
 #include <string>
-#include <utility>
 #include <vector>
 
-#include "c/c_call.hpp"
+#include <nlohmann/json.hpp>
+
+#include "warnings.hpp"
+
 #include "c/c_mesh.hpp"
 #include "files/vulkan_environment.hpp"
 #include "geometry/set_warnings.hpp"
@@ -14,12 +16,7 @@
 #include "source.hpp"
 
 using namespace geodisk;
-using namespace geodisk::c;
 using namespace geodisk::tools;
-
-struct geodisk_warnings {
-    std::vector<MeshWarning> list;
-};
 
 namespace {
 
@@ -46,105 +43,48 @@ std::vector<MeshWarning> array_warnings(const c::Mesh& mesh) {
     return warnings;
 }
 
-std::vector<MeshWarning> warnings_of(const c::Mesh& mesh, const geodisk_source* source) {
+} // namespace
+
+std::vector<MeshWarning> geodisk::tools::warnings_of_mesh(const geodisk_task& task) {
+    const c::Mesh& mesh = *task.mesh->shared;
     std::vector<MeshWarning> warnings;
-    if (source == nullptr) {
+    if (task.source == nullptr) {
         warnings = array_warnings(mesh);
     } else {
-        warnings = source->mesh.warnings;
-        std::ranges::move(surface_warnings(source->mesh, mesh.prepared),
+        warnings = task.source->mesh.warnings;
+        std::ranges::move(surface_warnings(task.source->mesh, mesh.prepared),
                           std::back_inserter(warnings));
     }
     std::stable_partition(warnings.begin(), warnings.end(), is_about_seams);
     return warnings;
 }
 
-std::vector<MeshWarning> warnings_of_set(const geodisk_sampled_set& given) {
-    SampledSet set{.samples = given.count,
-                   .existing = given.existing,
-                   .avoids = given.avoids != 0,
-                   .min_distance = given.min_distance,
-                   .wanted_count = given.wanted_count,
-                   .cut = given.cut,
-                   .stop_count = given.stop_count,
-                   .has_darts = given.darts > 0,
-                   .lacks_features = given.lacks_features};
-    if (given.mesh == nullptr) {
+std::vector<MeshWarning> geodisk::tools::warnings_of_set(const geodisk_task& task,
+                                                         const Json& options) {
+    SampledSet set{.samples = options.at("count"),
+                   .existing = options.at("existing"),
+                   .avoids = options.at("avoids"),
+                   .min_distance = options.at("min_distance"),
+                   .wanted_count = options.at("wanted_count"),
+                   .cut = options.at("cut"),
+                   .stop_count = options.at("stop_count"),
+                   .has_darts = options.at("has_darts"),
+                   .lacks_features = options.at("lacks_features")};
+    if (task.mesh == nullptr) {
         set.domain = "box";
         return set_warnings(set);
     }
-    const PreparedMesh& mesh = given.mesh->shared->prepared;
-    const std::size_t masked = given.face_mask != nullptr ? mesh.face_count() : 0;
-    set.bare = parts_without(mesh, std::span(given.faces, given.count),
-                             std::span(given.face_mask, masked));
+    const PreparedMesh& mesh = task.mesh->shared->prepared;
+    const std::size_t masked = task.face_mask != nullptr ? mesh.face_count() : 0;
+    set.bare =
+        parts_without(mesh, std::span(task.faces, set.samples), std::span(task.face_mask, masked));
     return set_warnings(set);
 }
 
-} // namespace
-
-extern "C" {
-
-geodisk_status geodisk_warnings_list(const geodisk_mesh* mesh, const geodisk_source* source,
-                                     geodisk_warnings** warnings, geodisk_error* error) {
-    return answer(error, [&]() -> Result<Done> {
-        if (mesh == nullptr || warnings == nullptr) {
-            return wrong("mesh or warnings is NULL");
-        }
-        *warnings = new geodisk_warnings{warnings_of(*mesh->shared, source)};
-        return Done{};
-    });
+std::vector<MeshWarning> geodisk::tools::warnings_of_drivers() {
+    std::vector<MeshWarning> list;
+    for (const std::string& driver : left_out_drivers()) {
+        list.push_back({"left_out_driver", 1, "", left_out_warning(driver), {}});
+    }
+    return list;
 }
-
-geodisk_status geodisk_warnings_of_set(const geodisk_sampled_set* set, geodisk_warnings** warnings,
-                                       geodisk_error* error) {
-    return answer(error, [&]() -> Result<Done> {
-        const auto given = taken(set, "set");
-        if (!given) {
-            return given.error();
-        }
-        if (warnings == nullptr) {
-            return wrong("warnings is NULL");
-        }
-        *warnings = new geodisk_warnings{warnings_of_set(*given)};
-        return Done{};
-    });
-}
-
-geodisk_status geodisk_warnings_of_drivers(geodisk_warnings** warnings, geodisk_error* error) {
-    return answer(error, [&]() -> Result<Done> {
-        if (warnings == nullptr) {
-            return wrong("warnings is NULL");
-        }
-        std::vector<MeshWarning> list;
-        for (const std::string& driver : left_out_drivers()) {
-            list.push_back({"left_out_driver", 1, "", left_out_warning(driver), {}});
-        }
-        *warnings = new geodisk_warnings{std::move(list)};
-        return Done{};
-    });
-}
-
-size_t geodisk_warnings_count(const geodisk_warnings* warnings) {
-    return warnings == nullptr ? 0 : warnings->list.size();
-}
-
-geodisk_status geodisk_warnings_get(const geodisk_warnings* warnings, size_t index,
-                                    geodisk_warning* warning, geodisk_error* error) {
-    return answer(error, [&]() -> Result<Done> {
-        if (warnings == nullptr || index >= warnings->list.size()) {
-            return wrong("there is no such warning");
-        }
-        const MeshWarning& found = warnings->list[index];
-        geodisk_warning value{};
-        value.kind = found.kind.c_str();
-        value.count = found.count;
-        value.message = found.message.c_str();
-        return give(warning, "warning", value);
-    });
-}
-
-void geodisk_warnings_release(geodisk_warnings* warnings) {
-    delete warnings;
-}
-
-} // extern "C"

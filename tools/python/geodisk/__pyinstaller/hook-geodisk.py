@@ -1,4 +1,4 @@
-"""PyInstaller's hook for geodisk: its libraries, its program and, if installed, geodisk_cpu."""
+"""PyInstaller's hook for geodisk: its libraries and, if installed, geodisk_cpu."""
 
 import pathlib
 from importlib.util import find_spec
@@ -17,5 +17,5 @@ for package in ("geodisk", "geodisk_cpu"):
             paths = [path for pattern in patterns for path in folder.glob(pattern)]
             return [(str(path), str(path.parent.relative_to(folder.parent))) for path in paths]
 
-        binaries += collect("*.so*", "*.dylib", "*.dll", "bin/*")
+        binaries += collect("*.so*", "*.dylib", "*.dll")
         datas += collect("*.json")

@@ -1,11 +1,9 @@
-"""What the program geodisk does for the package: verify, transfer and render."""
+"""Verify, transfer and render."""
 
 import dataclasses
 import os
 import pickle
 import signal
-import stat
-import tempfile
 import threading
 
 import numpy as np
@@ -14,19 +12,10 @@ import pytest
 import geodisk
 from meshes import FACES, LENGTHS, SOUP, TETRAHEDRON, VERTICES, same, torus
 
-pytestmark = pytest.mark.skipif("GEODISK_COMMAND" not in os.environ, reason="needs the program")
-
 SAMPLES = geodisk.sample(VERTICES, FACES, min_distance=0.3, seed=5)
 ONES = np.ones(len(VERTICES))
 SQUARE = geodisk.sample_box([1, 1], min_distance=0.2)
 HEAVY = dataclasses.replace(SAMPLES, barycentric=2 * SAMPLES.barycentric)
-
-
-@pytest.fixture(autouse=True)
-def no_file_is_left(tmp_path, monkeypatch):
-    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
-    yield
-    assert not [name for name in os.listdir(tmp_path) if name.startswith("geodisk-")]
 
 
 def test_verify():
@@ -163,6 +152,7 @@ def test_transfer():
     assert longer.points is None and longer.min_distance >= 0.6
     soup = geodisk.sample(*SOUP, min_distance=0.5, weld=True)
     assert geodisk.transfer(soup, 2 * SOUP[0]).min_distance >= 1
+    assert geodisk.transfer(SAMPLES[:0], 2 * VERTICES).points.shape == (0, 3)
     one = geodisk.sample(VERTICES, FACES, min_distance=0.5, stop_count=1)
     assert np.isnan(geodisk.transfer(one, VERTICES).min_distance)
 
@@ -254,6 +244,13 @@ def test_render(tmp_path):
         (lambda: geodisk.verify(SQUARE, maximal=True), ValueError, "box"),
         (lambda: geodisk.verify(SAMPLES, face_mask=[]), ValueError, "leaves out all faces"),
         (lambda: geodisk.verify(SAMPLES, avoid=1), TypeError, "avoid is a pair"),
+        (
+            lambda: geodisk.verify(SAMPLES, avoid=(([0], [[5, -3, -1]]), 1.0)),
+            ValueError,
+            "avoid: point 0: its weights",
+        ),
+        (lambda: geodisk.verify(SAMPLES, tolerance=-1), ValueError, "tolerance: '-1.0'"),
+        (lambda: geodisk.render(SAMPLES, min_distance=np.nan), ValueError, "min_distance: 'nan'"),
         (lambda: geodisk.verify(SAMPLES, avoid=(SAMPLES, 0)), ValueError, "point 0 has the radius 0"),
         (
             lambda: geodisk.verify(SAMPLES, avoid=(([9**6], [[1, 0, 0]]), 1)),
@@ -315,7 +312,7 @@ def test_threads():
     assert found == [expected] * 4
 
 
-def test_interruption(tmp_path):
+def test_interruption():
     # A thousand disks that each cover 90,000 faces take minutes.
     vertices, faces = torus(300, 150)
     places = np.arange(0, len(faces), len(faces) // 1000)
@@ -331,26 +328,3 @@ def test_interruption(tmp_path):
     with pytest.raises(KeyboardInterrupt):
         geodisk.verify(many, mesh)
     timer.join()
-    with pytest.raises(ChildProcessError):  # There is no child anymore.
-        os.waitpid(-1, os.WNOHANG)
-
-
-def test_the_program(tmp_path, monkeypatch):
-    def fails(text):
-        with pytest.raises(geodisk.NoProgram, match=text) as caught:
-            geodisk.verify(SAMPLES)
-        assert caught.value.status == "no_program"
-
-    program = os.environ["GEODISK_COMMAND"]
-    monkeypatch.setenv("GEODISK_COMMAND", str(tmp_path / "nowhere"))
-    fails("nowhere, which is no program")
-    other = tmp_path / "other"
-    other.write_text("#!/bin/sh\necho geodisk 9.9.9\n")
-    other.chmod(stat.S_IRWXU)
-    monkeypatch.setenv("GEODISK_COMMAND", str(other))
-    fails("geodisk 9.9.9, but this package is of geodisk 0")
-    monkeypatch.delenv("GEODISK_COMMAND")
-    monkeypatch.setenv("PATH", str(tmp_path))
-    fails("no program geodisk")
-    (tmp_path / "geodisk").symlink_to(program)
-    assert geodisk.verify(SAMPLES)

@@ -1,0 +1,287 @@
+// Commands of the program on meshes and samples in memory.
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <iterator>
+#include <limits>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "c/c_call.hpp"
+#include "c/c_cells.hpp"
+#include "c/c_mesh.hpp"
+#include "files/samples/sample_rows.hpp"
+#include "files/vulkan_environment.hpp"
+#include "geodisk/checks/sample_checks.hpp"
+#include "geodisk/checks/sample_input.hpp"
+#include "geodisk/checks/spacing.hpp"
+#include "geodisk/commands/verify.hpp"
+#include "geodisk/inputs/mesh_input.hpp"
+#include "geodisk/map_run.hpp"
+#include "geodisk/options/tolerance_option.hpp"
+#include "geodisk/outputs/progress.hpp"
+#include "geodisk/picture_run.hpp"
+#include "geodisk/reports/json.hpp"
+#include "picture/png.hpp"
+#include "program/failure.hpp"
+#include "program/interrupt.hpp"
+#include "source.hpp"
+#include "warnings.hpp"
+
+using namespace geodisk;
+using namespace geodisk::tools;
+
+namespace {
+
+/// Names of samples and their mesh in messages.
+constexpr const char *kSamplesName = "samples", *kMeshName = "mesh";
+
+/// A task while it runs.
+struct RunningTask {
+    const geodisk_task& task;
+    Json options;
+    geodisk_take_fn take;
+    ProgressLine progress{true};
+
+    template <class Array>
+    void hand_over(const Array& array) const {
+        const auto bytes = std::as_bytes(std::span(array));
+        take(bytes.data(), bytes.size());
+    }
+    void hand_over(const std::vector<MeshWarning>& warnings) const {
+        hand_over(text_of(warnings_json(warnings)));
+    }
+};
+
+/// Returns the library's mesh as commands take it. One in the plane lies in that of z = 0.
+MeshInput mesh_input(const geodisk_mesh& given) {
+    const c::Mesh& mesh = *given.shared;
+    MeshFile file;
+    file.dimension = std::max(mesh.dimension, 3u);
+    file.positions = mesh.positions;
+    if (mesh.dimension == 2) {
+        file.positions.clear();
+        for (std::size_t i = 0; i < mesh.positions.size(); i += 2) {
+            file.positions.insert(file.positions.end(),
+                                  {mesh.positions[i], mesh.positions[i + 1], 0});
+        }
+    }
+    std::ranges::transform(mesh.prepared.half_edges(), std::back_inserter(file.triangles),
+                           &HalfEdge::origin);
+    return {std::move(file), mesh.prepared, {}, {}, 1, {}};
+}
+
+/// Returns samples as a reader of files does. Throws UserError.
+SampleFile sample_file(const geodisk_task& task, const Json& options) {
+    const auto names = options.at("columns").get<std::vector<std::string>>();
+    const auto place_of = [&](std::string_view name) -> std::optional<std::size_t> {
+        const auto found = std::ranges::find(names, name);
+        return found == names.end() ? std::nullopt : std::optional(found - names.begin());
+    };
+    const ColumnPlaces places = find_places(
+        kSamplesName, task.mesh != nullptr ? SampleDomain::surface : SampleDomain::box, place_of);
+    ExtraReader extra(kSamplesName, place_of, "");
+    SampleFile samples;
+    samples.dimension = places.dimension();
+    samples.has_faces = places.has_faces;
+    for (std::size_t i = 0; i < options.at("count").get<std::size_t>(); ++i) {
+        const auto value_at = [&](std::size_t place) {
+            return task.samples[i * names.size() + place];
+        };
+        samples.rows.push_back(make_row(places, value_at, [&](const std::string& message) {
+            fail_input(kSamplesName, "sample " + std::to_string(i) + ": " + message);
+        }));
+        extra.add_row([&](std::size_t place) { return std::optional(value_at(place)); });
+    }
+    std::move(extra).move_to(samples);
+    for (const auto& [key, value] : options.at("header").items()) {
+        samples.header.entries.emplace_back(key, value);
+    }
+    return samples;
+}
+
+/// Puts samples on `mesh`. Throws UserError for those that are not of it.
+SampleInput samples_on(const MeshInput& mesh, RunningTask& run) {
+    const std::string tolerance = run.options.at("tolerance");
+    check_tolerance(tolerance);
+    SampleInput input{sample_file(run.task, run.options), {}};
+    std::vector<MeshWarning> warnings; // Python has its own.
+    put_on_mesh(kSamplesName, kMeshName, mesh, nullptr, tolerance, input, warnings, run.progress);
+    return input;
+}
+
+void verify(RunningTask& run) {
+    VerifyOptions options;
+    options.mesh.mesh = kMeshName;
+    options.samples = kSamplesName;
+    options.min_distance = run.options.at("min_distance");
+    options.is_maximal = run.options.at("maximal");
+    const geodisk_task& task = run.task;
+    if (task.mesh == nullptr) {
+        const SampleFile samples = sample_file(task, run.options);
+        run.hand_over(
+            report_json(kSamplesName, samples,
+                        check_box(kSamplesName, options.min_distance, samples, run.progress)));
+        return;
+    }
+    MeshInput mesh = mesh_input(*task.mesh);
+    if (task.radii != nullptr) {
+        mesh.radii = task.radii->shared->field;
+        mesh.distance_part = run.options.at("distance_part");
+    }
+    if (task.face_mask != nullptr) {
+        mesh.face_mask.assign(task.face_mask, task.face_mask + mesh.prepared.face_count());
+    }
+    Avoided avoided;
+    avoided.points = run.options.at("avoided");
+    SampleFile places;
+    for (std::size_t i = 0; i < avoided.points; ++i) {
+        avoided.disks.push_back({c::sample_of(task.avoid[i]), task.avoid_radii[i]});
+        places.rows.emplace_back().face = task.avoid[i].face;
+        std::ranges::copy(task.avoid[i].weights, places.rows.back().bary);
+    }
+    check_rows("avoid", places, kMeshName, mesh, "point");
+    auto [samples, strays] = samples_on(mesh, run);
+    run.hand_over(report_json(check_samples(options, mesh, samples, std::move(strays),
+                                            wanted_spacing(options, samples, mesh), avoided, {},
+                                            run.progress)));
+}
+
+/// Returns the samples on their mesh, after handing over where that is.
+SampleFile place(RunningTask& run) {
+    const MeshInput mesh = mesh_input(*run.task.mesh);
+    SampleFile samples = without_strays(kSamplesName, kMeshName, samples_on(mesh, run));
+    std::vector<std::uint32_t> faces;
+    std::vector<float> weights;
+    for (const SampleRow& row : samples.rows) {
+        faces.push_back(row.face);
+        weights.insert(weights.end(), row.bary, row.bary + 3);
+    }
+    run.hand_over(faces);
+    run.hand_over(weights);
+    return samples;
+}
+
+void transfer(RunningTask& run) {
+    std::vector<SampleRow> rows = place(run).rows;
+    const MeshInput to = mesh_input(*run.task.to);
+    std::vector<double> points;
+    std::vector<float> normals;
+    for (SampleRow& row : rows) {
+        to.place(row);
+        points.insert(points.end(), row.position, row.position + to.dimension());
+        normals.insert(normals.end(), row.normal, row.normal + 3);
+    }
+    const std::optional<ClosePair> closest = find_closest(to, rows, run.progress);
+    run.hand_over(points);
+    run.hand_over(normals);
+    run.hand_over(
+        std::array{closest ? closest->distance : std::numeric_limits<double>::quiet_NaN()});
+}
+
+void bake(RunningTask& run) {
+    const TextureSize size{run.options.at("width"), run.options.at("height")};
+    const MapResult found = look_up_map(run.task.source->mesh, size, run.options.at("path"),
+                                        run.task.nearest->disks, run.progress);
+    run.hand_over(found.map.samples);
+    run.hand_over(found.map.distances);
+    run.hand_over(found.map.faces);
+    run.hand_over(std::array{found.overlapping});
+}
+
+/// Opens a device that draws. Python warns of missing drivers.
+Context drawing_context(const std::string& device) {
+    ContextOptions wanted;
+    wanted.device = device;
+    wanted.graphics = true;
+    wanted.keep_pipelines = true;
+    return take(Context::create(wanted));
+}
+
+void render(RunningTask& run) {
+    RenderOptions options;
+    options.mesh.mesh = kMeshName;
+    options.samples = kSamplesName;
+    options.size = run.options.at("size");
+    options.style = run.options.at("style");
+    options.background = run.options.at("background");
+    options.up.axis = run.options.at("up");
+    options.views = run.options.at("views").get<std::vector<std::string>>();
+    options.cuts = run.options.at("cut");
+    options.legend = run.options.at("legend");
+    options.distance.min_distance = run.options.at("min_distance");
+    const OpenContext open = [&] { return drawing_context(run.options.at("device")); };
+    DrawnPicture drawn;
+    if (run.task.mesh == nullptr) {
+        const SampleFile samples = sample_file(run.task, run.options);
+        const BoxParams box = box_to_draw(options, kSamplesName, samples);
+        drawn = draw_box(options, kSamplesName, box, samples, open, run.progress);
+    } else {
+        const MeshInput mesh = mesh_input(*run.task.mesh);
+        const SampleFile samples = without_strays(kSamplesName, kMeshName, samples_on(mesh, run));
+        std::vector<MeshWarning> warnings;
+        drawn = draw_samples(options, mesh, samples, warnings, open, run.progress);
+    }
+    run.hand_over(picture::png_of(drawn.picture.pixels));
+}
+
+void run_named(std::string_view name, RunningTask& run) {
+    constexpr std::pair<std::string_view, void (*)(RunningTask&)> kCommands[] = {
+        {"verify", &verify},
+        {"place", [](RunningTask& one) { static_cast<void>(place(one)); }},
+        {"transfer", &transfer},
+        {"bake", &bake},
+        {"render", &render},
+        {"warnings_of_mesh", [](RunningTask& one) { one.hand_over(warnings_of_mesh(one.task)); }},
+        {"warnings_of_set",
+         [](RunningTask& one) { one.hand_over(warnings_of_set(one.task, one.options)); }},
+        {"warnings_of_drivers", [](RunningTask& one) { one.hand_over(warnings_of_drivers()); }},
+        {"explain_no_device", [](RunningTask& one) {
+             one.hand_over(with_driver_fault(one.options.at("message").get<std::string>()));
+         }}};
+    for (const auto& [known, body] : kCommands) {
+        if (known == name) {
+            body(run);
+        }
+    }
+}
+
+Error error_of(const UserError& failure) {
+    switch (failure.code()) {
+    case ExitCode::usage:
+    case ExitCode::bad_input:
+        return c::wrong(failure.what());
+    case ExitCode::no_device:
+        return {Status::no_device, failure.what()};
+    case ExitCode::out_of_memory:
+        return {Status::out_of_host_memory, failure.what()};
+    default:
+        return {is_interrupted() ? Status::cancelled : Status::internal, failure.what()};
+    }
+}
+
+} // namespace
+
+extern "C" geodisk_status geodisk_run_command(const char* name, const geodisk_task* task,
+                                              geodisk_take_fn take, geodisk_error* error) {
+    return c::answer(error, [&]() -> Result<Done> {
+        const auto given = c::taken(task, "task");
+        if (!given) {
+            return given.error();
+        }
+        const StopFlag flag(given->stop);
+        try {
+            RunningTask run{*given, Json::parse(given->options), take};
+            run_named(name, run);
+        } catch (const UserError& failure) {
+            return error_of(failure);
+        }
+        return Done{};
+    });
+}
