@@ -114,12 +114,17 @@ def _components(name: str, width: int) -> tuple[str, ...] | None:
     return _COMPONENTS.get((name, width))
 
 
+def is_colour(name: str, array: NDArray[Any]) -> bool:
+    """Returns True for an attribute of colours from 0 to 1, or of bytes."""
+    is_wide = array.ndim == 2 and array.shape[1] in (3, 4) and array.dtype.kind in "fui"
+    return is_wide and _COLOUR.fullmatch(name) is not None
+
+
 def with_bytes(attributes: dict[str, NDArray[Any]]) -> dict[str, NDArray[Any]]:
     """Returns attributes with colours as integers from 0 to 255, as viewers expect them in PLY."""
     found = dict(attributes)
     for name, array in attributes.items():
-        is_colour = array.ndim == 2 and array.shape[1] in (3, 4) and _COLOUR.fullmatch(name)
-        if not is_colour or array.dtype.kind not in "fui":
+        if not is_colour(name, array):
             continue
         if array.dtype.kind == "f" and not np.isfinite(array).all():
             raise e.invalid(f"attributes[{name!r}] has a colour that is not finite")

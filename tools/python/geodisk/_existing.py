@@ -13,8 +13,8 @@ from ._arrays import indices, real
 from ._inputs import places_of, run
 from ._samples import Samples
 
-#: Samples of the mesh, points of other programs, or triangles and weights.
-ExistingLike = Union[Samples, Tuple[ArrayLike, ArrayLike]]
+#: Samples of the mesh, coordinates of points, or triangles and weights.
+ExistingLike = Union[Samples, ArrayLike, Tuple[ArrayLike, ArrayLike]]
 
 #: Points, as of ExistingLike, and their radius or radii.
 AvoidLike = Tuple[ExistingLike, ArrayLike]
@@ -49,12 +49,16 @@ def points_of(
     mesh: c.Handle, given: ExistingLike, name: str, is_needed: bool = False
 ) -> NDArray[Any]:
     """Returns points as the library takes them. Those without faces get the nearest ones."""
+    if are_points(given):
+        coordinates: Any = given
+        given = Samples(real(coordinates, name).astype(np.float64))
     if isinstance(given, Samples):
         faces, weights = _places_of(mesh, given, name)
     else:
         if not isinstance(given, (tuple, list)) or len(given) != 2:
             raise TypeError(
-                f"{name}: points are a geodisk.Samples, or a pair of face_index and barycentric"
+                f"{name}: points are a geodisk.Samples, an array of coordinates, or a pair of "
+                "face_index and barycentric"
             )
         faces = indices(given[0], "face_index").astype(np.uint32)
         weights = real(given[1], "barycentric").astype(np.float64)
@@ -69,6 +73,18 @@ def points_of(
         message = "there is no sample" if is_needed else f"{name} has no samples; leave it out"
         raise e.invalid(message)
     return points
+
+
+def are_points(given: Any) -> bool:
+    """Returns True for coordinates of points. A tuple of two is a pair of faces and weights."""
+    if isinstance(given, Samples) or (isinstance(given, tuple) and len(given) == 2):
+        return False
+    if isinstance(given, list) and len(given) == 2 and np.ndim(given[0]) != np.ndim(given[1]):
+        return False
+    try:
+        return np.asarray(given).ndim == 2
+    except ValueError:  # Rows of several lengths.
+        return False
 
 
 def _places_of(

@@ -30,7 +30,7 @@ def sample_many(
     radius: float | Sequence[float] | None = None,
     count: float | Sequence[float] | None = None,
     exact: bool = False,
-    seed: int | Sequence[int] = 0,
+    seed: int | None | Sequence[int | None] = 0,
     density: Sequence[ArrayLike | None] | None = None,
     radius_factor: Sequence[ArrayLike | None] | None = None,
     face_keys: Sequence[ArrayLike | None] | None = None,

@@ -12,9 +12,9 @@ from numpy.typing import ArrayLike, NDArray
 from . import _errors as e
 from . import _library as c
 from . import _structs as s
-from ._arrays import indices, real
+from ._arrays import array_of, indices, real
 from ._devices import DeviceLike, name_of
-from ._existing import ExistingLike, points_of
+from ._existing import ExistingLike, are_points, points_of
 from ._mesh import Mesh, mesh_of
 from ._protocols import Faces, MeshLike
 from ._running import ProgressCallback
@@ -98,9 +98,10 @@ def neighbours(
     ----------
     vertices, faces, edge_lengths, weld, keep_seams, mesh_format, allow_outside
         The mesh, as for :class:`Mesh`.
-    sources : array_like of int, Samples, or a pair of face_index and barycentric, optional
-        Vertices by their indices, or points. By default all vertices that a triangle uses. Samples
-        without `face_index` are put on the nearest triangles; they must not be farther off the mesh
+    sources : array_like of int or bool, Samples, coordinates, or faces and weights, optional
+        Vertices by their indices or a mask, or points: Samples, an array of shape (n, d), or a pair
+        of face_index and barycentric. By default all vertices that a triangle uses. Points without
+        `face_index` are put on the nearest triangles; they must not be farther off the mesh
         than a thousandth of its bounding-box diagonal.
     within : float, or array_like of float, shape (n,), optional
         Distance in units of the mesh: one, or one for each source. Without it, the `nearest` ones
@@ -175,10 +176,18 @@ def _set_sources(
     if sources is None:
         return None
     is_pair = isinstance(sources, tuple) and len(sources) == 2 and np.ndim(sources[1]) == 2
-    if isinstance(sources, Samples) or is_pair:
+    if isinstance(sources, Samples) or is_pair or are_points(sources):
         points = points_of(mesh._handle, sources, "sources")
         params.sources, params.source_count = address(points), len(points)
         return len(points)
+    mask = array_of(sources, "sources")
+    if mask.dtype == bool:
+        if mask.shape != (mesh._surface.vertex_count(),):
+            raise e.invalid(
+                f"sources is a mask of the shape {mask.shape}, and the mesh has "
+                f"{mesh._surface.vertex_count()} vertices"
+            )
+        sources = np.flatnonzero(mask)
     chosen = indices(sources, "sources").astype(np.uint32)
     if chosen.ndim != 1 or chosen.size == 0:
         raise e.invalid(f"sources have the shape {chosen.shape}, not (n,) with n of at least 1")

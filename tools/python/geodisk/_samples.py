@@ -22,7 +22,9 @@ from ._sample import Sample
 from ._surface import Surface
 from ._values import choice, flag, integer, number, numbers_of, path_of
 from ._writing import (
+    OTHER_FORMATS,
     WHOLE_COLUMNS,
+    bytes_as,
     check_names,
     columns_of,
     digest_of,
@@ -476,7 +478,9 @@ class Samples:
         ----------
         path : str or path-like
             ``*.npz`` for ``numpy.load``, ``*.csv``, or ``*.ply`` for viewers. :func:`read` reads
-            all of them, ``geodisk verify`` and the other commands CSV and PLY.
+            all of them, ``geodisk verify`` and the other commands CSV and PLY. Also ``*.pcd``,
+            ``*.obj`` and ``*.xyz`` for point clouds, and ``*.glb``, ``*.gltf`` and ``*.usda`` for
+            scenes, as the program writes them.
 
         Raises
         ------
@@ -492,10 +496,24 @@ class Samples:
         letter, digit, "_", "." or "-".
         """
         path = path_of(path)
-        writers = {".npz": write_npz, ".csv": write_csv, ".ply": write_ply}
-        write = writers.get(os.path.splitext(path)[1].lower())
-        if write is None:
-            raise e.invalid(f"{path}: samples are saved as *.npz, *.csv or *.ply")
+        suffix = os.path.splitext(path)[1].lower()
         samples = self._checked()
-        with complete(path) as file:
-            write(file, samples, header_of(samples))
+        writers = {".npz": write_npz, ".csv": write_csv, ".ply": write_ply}
+        if suffix in writers:
+            with complete(path) as file:
+                writers[suffix](file, samples, header_of(samples))
+        elif suffix in OTHER_FORMATS:
+            written = bytes_as(suffix, samples)
+            with complete(path) as file:
+                file.write(written)
+        else:
+            known = ", ".join(f"*{name}" for name in (*writers, *OTHER_FORMATS))
+            raise e.invalid(f"{path}: samples are saved as one of {known}")
+
+    def __array__(self, dtype: Any = None, copy: bool | None = None) -> NDArray[Any]:
+        """Returns the points, for numpy and what takes arrays."""
+        if self.points is None:
+            raise e.invalid("samples on a mesh of edge lengths have no points")
+        if copy:
+            return np.array(self.points, dtype)
+        return np.asarray(self.points, dtype)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import numbers
 import ctypes
 import os
 from ctypes import c_double, pointer
@@ -24,7 +25,7 @@ from ._results import samples_of
 from ._rules import check_fields
 from ._running import ProgressCallback, Runs
 from ._samples import Samples
-from ._values import check_exact, check_pool, distance_of, flag, integer
+from ._values import check_exact, check_pool, distance_of, flag, integer, seed_of
 from ._wanted import Wanted
 
 
@@ -36,7 +37,7 @@ def sample(
     radius: float | None = None,
     count: float | None = None,
     exact: bool = False,
-    seed: int = 0,
+    seed: int | None = 0,
     density: ArrayLike | None = None,
     radius_factor: ArrayLike | None = None,
     pool_ratio: float = 20,
@@ -81,8 +82,9 @@ def sample(
     exact : bool
         Return exactly `count` samples: the first ones of a run that has up to 1 % more. The search
         for its distance takes 1 to 6 runs, at most 12.
-    seed : int
-        A 64-bit number. Equal seeds give equal samples, on every device.
+    seed : int or None
+        A 64-bit number. Equal seeds give equal samples, on every device. None for a random one, which
+        ``samples.seed`` tells.
     density : array_like of float, shape (v,), optional
         Density of samples at each vertex, in any unit; 0 for none. The distance applies where the
         density is largest.
@@ -192,6 +194,8 @@ def sample(
     >>> bool(samples.face_index.max() < 4)
     True
     """
+    if isinstance(faces, numbers.Real):
+        raise TypeError(f"faces is {faces!r}; for about so many samples give count={faces!r}")
     record = Record(texture, normals, frames)
 
     def read_mesh() -> Mesh:
@@ -239,7 +243,7 @@ def sample_box(
     radius: float | None = None,
     count: float | None = None,
     exact: bool = False,
-    seed: int = 0,
+    seed: int | None = 0,
     pool_ratio: float = 20,
     darts: int = 0,
     stop_count: int = 0,
@@ -273,7 +277,7 @@ def sample_box(
         raise e.invalid("extents must be one number per dimension")
     if not 1 <= len(sides) <= 6:
         raise e.invalid(f"extents has {len(sides)} dimensions, not 1 to 6")
-    seed = integer(seed, "seed", 2**64 - 1)
+    seed = seed_of(seed)
     stop_count = integer(stop_count, "stop_count", 2**32 - 1)
     check_exact(exact, count)
     check_pool(count, pool_ratio, darts)

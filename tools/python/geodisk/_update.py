@@ -296,9 +296,12 @@ def _is_chosen(name: str, value: Any) -> bool:
 
 
 def _is_empty(points: ExistingLike) -> bool:
-    is_pair = isinstance(points, (tuple, list)) and len(points) == 2
-    faces = points if isinstance(points, Samples) else listed(points[0]) if is_pair else None
-    return faces is not None and len(faces) == 0
+    if isinstance(points, (tuple, list)) and len(points) == 2:
+        faces = listed(points[0])
+        return faces is not None and len(faces) == 0
+    if isinstance(points, np.ndarray):
+        return points.shape[:1] == (0,)
+    return isinstance(points, (Samples, list)) and len(points) == 0
 
 
 def _existing(mesh: c.Handle, existing: ExistingLike | None) -> NDArray[Any]:

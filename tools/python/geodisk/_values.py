@@ -7,6 +7,7 @@ import numbers
 import operator
 import os
 import reprlib
+import secrets
 from typing import Any, Iterable
 
 import numpy as np
@@ -60,6 +61,11 @@ def listed(values: Any) -> list[Any] | None:
     except Exception:  # Of any object.
         return None
     return list(several)
+
+
+def seed_of(seed: Any) -> int:
+    """Returns a seed of 64 bits, a random one for None."""
+    return secrets.randbits(64) if seed is None else integer(seed, "seed", 2**64 - 1)
 
 
 def numbers_of(values: Any, name: str) -> tuple[float, ...]:

@@ -25,7 +25,7 @@ from ._results import report_of, samples_of
 from ._rules import check_fields
 from ._running import ProgressCallback
 from ._samples import Samples
-from ._values import check_exact, check_pool, choice, distance_of, flag, integer
+from ._values import check_exact, check_pool, choice, distance_of, flag, integer, seed_of
 from ._writing import exact_text
 
 
@@ -40,7 +40,7 @@ class Wanted:
         radius: float | None,
         count: float | None,
         exact: bool,
-        seed: int,
+        seed: int | None,
         density: ArrayLike | None,
         radius_factor: ArrayLike | None,
         pool_ratio: float,
@@ -65,7 +65,7 @@ class Wanted:
                 raise e.invalid("a table of classes takes no min_distance, radius or count")
             min_distance = kinds.largest
         distance = distance_of(min_distance, radius, count, darts)
-        seed = integer(seed, "seed", 2**64 - 1)
+        seed = seed_of(seed)
         stop_count = integer(stop_count, "stop_count", 2**32 - 1)
         check_exact(exact, count)
         check_pool(count, pool_ratio, darts)

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import dataclasses
 import json
 import math
+import os
+import tempfile
 from typing import TYPE_CHECKING, Any, BinaryIO
 
 import numpy as np
@@ -11,7 +14,7 @@ from numpy.typing import NDArray
 
 from . import _errors as e
 from . import _library as c
-from ._attributes import columns_of_attributes, with_bytes
+from ._attributes import columns_of_attributes, is_colour, with_bytes
 from ._job import TOLD
 
 if TYPE_CHECKING:
@@ -164,6 +167,40 @@ def write_csv(file: BinaryIO, samples: Samples, header: Header) -> None:
     file.write(("".join(lines) + ",".join(columns) + "\n").encode())
     formats = [_format_of(name, column) for name, column in columns.items()]
     np.savetxt(file, np.stack(list(columns.values()), axis=1), fmt=formats, delimiter=",")
+
+
+#: Formats that the library writes.
+OTHER_FORMATS = (".pcd", ".obj", ".xyz", ".glb", ".gltf", ".usda")
+
+
+def bytes_as(suffix: str, samples: Samples) -> bytes:
+    """Returns the file that the program writes of samples in one of OTHER_FORMATS."""
+    columns = columns_of(dataclasses.replace(samples, attributes={}), as_box=False)
+    fields = []
+    for name, array in samples.attributes.items():
+        own = columns_of_attributes({name: array})
+        fields.append(
+            {
+                "name": name,
+                "components": list(own),
+                "first": len(columns),
+                "whole": array.dtype.kind != "f",
+                "colour": is_colour(name, array),
+            }
+        )
+        columns.update(own)
+    table = np.stack(list(columns.values()), axis=1).astype(np.float64, order="C")
+    with tempfile.TemporaryDirectory() as folder:
+        path = os.path.join(folder, "samples" + suffix)
+        try:
+            c.run(
+                "save", {"samples": table}, columns=list(columns), count=len(samples), path=path,
+                fields=fields, header=header_of(samples),
+            )
+        except e.InvalidArgument as error:
+            raise e.invalid(str(error).replace(path + ": ", "")) from None
+        with open(path, "rb") as file:
+            return file.read()
 
 
 def is_whole(column: NDArray[Any]) -> bool:

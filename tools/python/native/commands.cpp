@@ -16,7 +16,10 @@
 #include "c/c_call.hpp"
 #include "c/c_cells.hpp"
 #include "c/c_mesh.hpp"
+#include "files/output/output_file.hpp"
+#include "files/samples/sample_file.hpp"
 #include "files/samples/sample_rows.hpp"
+#include "files/samples/sample_target.hpp"
 #include "files/vulkan_environment.hpp"
 #include "geodisk/checks/sample_checks.hpp"
 #include "geodisk/checks/sample_input.hpp"
@@ -84,8 +87,9 @@ SampleFile sample_file(const geodisk_task& task, const Json& options) {
         const auto found = std::ranges::find(names, name);
         return found == names.end() ? std::nullopt : std::optional(found - names.begin());
     };
+    const bool is_on_surface = task.mesh != nullptr || place_of("face_index");
     const ColumnPlaces places = find_places(
-        kSamplesName, task.mesh != nullptr ? SampleDomain::surface : SampleDomain::box, place_of);
+        kSamplesName, is_on_surface ? SampleDomain::surface : SampleDomain::box, place_of);
     ExtraReader extra(kSamplesName, place_of, "");
     SampleFile samples;
     samples.dimension = places.dimension();
@@ -231,6 +235,46 @@ void render(RunningTask& run) {
     run.hand_over(picture::png_of(drawn.picture.pixels));
 }
 
+/// Returns the attributes that options name by their columns.
+std::vector<SampleField> fields_of(const geodisk_task& task, const Json& options) {
+    const std::size_t columns = options.at("columns").size();
+    std::vector<SampleField> fields;
+    for (const Json& given : options.at("fields")) {
+        SampleField field;
+        field.name = given.at("name");
+        field.components = given.at("components").get<std::vector<std::string>>();
+        field.is_whole = given.at("whole");
+        field.is_colour = given.at("colour");
+        const auto first = given.at("first").get<std::size_t>();
+        for (std::size_t i = 0; i < options.at("count").get<std::size_t>(); ++i) {
+            const double* const row = task.samples + i * columns + first;
+            field.values.insert(field.values.end(), row, row + field.components.size());
+        }
+        fields.push_back(std::move(field));
+    }
+    return fields;
+}
+
+void save(RunningTask& run) {
+    const SampleTarget target = sample_target(Path(run.options.at("path").get<std::string>()));
+    SampleFile samples = sample_file(run.task, run.options);
+    check_dimension(target, samples.dimension);
+    const std::vector<SampleField> fields = fields_of(run.task, run.options);
+    std::vector<std::string> names;
+    for (const SampleField& field : fields) {
+        names.push_back(field.name);
+    }
+    check_columns(target, names);
+    AtomicFile file(target.path);
+    if (samples.has_faces) {
+        write_samples(file, target, samples.header, samples.rows, samples.dimension,
+                      {samples.extra, fields});
+    } else {
+        write_box_samples(file, target, samples.header, samples.rows, samples.dimension);
+    }
+    file.commit();
+}
+
 void run_named(std::string_view name, RunningTask& run) {
     constexpr std::pair<std::string_view, void (*)(RunningTask&)> kCommands[] = {
         {"verify", &verify},
@@ -238,6 +282,7 @@ void run_named(std::string_view name, RunningTask& run) {
         {"transfer", &transfer},
         {"bake", &bake},
         {"render", &render},
+        {"save", &save},
         {"warnings_of_mesh", [](RunningTask& one) { one.hand_over(warnings_of_mesh(one.task)); }},
         {"warnings_of_set",
          [](RunningTask& one) { one.hand_over(warnings_of_set(one.task, one.options)); }},
