@@ -1,15 +1,15 @@
 /* geodisk in C: random points on triangle meshes, no two closer than a minimum distance along the
  * surface.
  *
- *     geodisk_error error = {sizeof error};
+ *     geodisk_error error = GEODISK_INIT(geodisk_error);
  *     geodisk_device *device = NULL;
  *     geodisk_sampler *sampler = NULL;
  *     geodisk_mesh *mesh = NULL;
  *     geodisk_domain *domain = NULL;
  *     geodisk_samples *samples = NULL;
  *
- *     geodisk_mesh_params shape = {sizeof shape};           then set its arrays
- *     geodisk_surface_params job = {sizeof job};
+ *     geodisk_mesh_params shape = GEODISK_INIT(geodisk_mesh_params);   then set its arrays
+ *     geodisk_surface_params job = GEODISK_INIT(geodisk_surface_params);
  *     job.min_distance = 0.01;
  *
  *     if (geodisk_device_open(NULL, &device, &error) ||
@@ -30,8 +30,8 @@
  * Use a sampler in one thread at a time; a call from another thread returns GEODISK_BUSY. Do not
  * release an object while a call uses it.
  *
- * Structs begin with `struct_size`: set it to the sizeof of the struct. All other fields may be 0
- * for the default.
+ * Structs begin with `struct_size`, the sizeof of the struct: GEODISK_INIT(type) sets it. All other
+ * fields may be 0 for the default, as it sets them.
  *
  * The comment of each function ends with "Stable." or "Experimental."; host/docs/c.md says what that
  * means. "Versions" in README.md says which changes a version may bring.
@@ -52,6 +52,19 @@
 #define GEODISK_C_API __declspec(dllexport)
 #else
 #define GEODISK_C_API __declspec(dllimport)
+#endif
+
+/* Initializes a struct: its size, and 0 for all other fields. In C it initializes a declaration. */
+#ifdef __cplusplus
+extern "C++" template <class Struct>
+inline Struct geodisk_init() {
+    Struct value = Struct();
+    value.struct_size = sizeof value;
+    return value;
+}
+#define GEODISK_INIT(type) geodisk_init<type>()
+#else
+#define GEODISK_INIT(type) {.struct_size = sizeof(type)}
 #endif
 
 #ifdef __cplusplus

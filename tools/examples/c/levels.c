@@ -3,8 +3,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-static geodisk_error error = {sizeof error};
-
+static geodisk_error error = GEODISK_INIT(geodisk_error);
 static void check(geodisk_status status) {
     if (status != GEODISK_OK) {
         fprintf(stderr, "%s: %s\n", geodisk_status_name(status), error.message);
@@ -16,9 +15,11 @@ int main(void) {
     const double corners[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, 0, 0, 1, 1, 0, 1, 0, 1, 1, 1, 1, 1};
     const uint32_t faces[] = {0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6, 0, 1, 5, 0, 5, 4,
                               2, 6, 7, 2, 7, 3, 0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5};
-    geodisk_mesh_params shape = {sizeof shape, corners, GEODISK_FLOAT64, 3, 8, 0, faces, GEODISK_UINT32, 12};
-    geodisk_surface_params params = {sizeof params};
-    geodisk_request request = {sizeof request, &params, 1000, 1, GEODISK_ORDER_PROGRESSIVE, 30};
+    geodisk_mesh_params shape = {
+        .struct_size = sizeof shape, .positions = corners, .vertex_count = 8, .indices = faces, .face_count = 12};
+    geodisk_surface_params params = GEODISK_INIT(geodisk_surface_params);
+    geodisk_request request = {.struct_size = sizeof request, .params = &params, .count = 1000, .is_exact = 1,
+                               .order = GEODISK_ORDER_PROGRESSIVE, .features = 30};
     geodisk_device *device;
     geodisk_sampler *sampler;
     geodisk_mesh *mesh;

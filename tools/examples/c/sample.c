@@ -8,7 +8,7 @@ int main(void) {
     const double positions[] = {1, 1, 1, 1, -1, -1, -1, 1, -1, -1, -1, 1};
     const uint32_t indices[] = {0, 1, 2, 0, 3, 1, 0, 2, 3, 1, 3, 2};
 
-    geodisk_error error = {sizeof error};
+    geodisk_error error = GEODISK_INIT(geodisk_error);
     geodisk_device *device = NULL;
     geodisk_sampler *sampler = NULL;
     geodisk_mesh *mesh = NULL;
@@ -17,13 +17,13 @@ int main(void) {
     double *points = NULL;
     int status = EXIT_FAILURE;
 
-    geodisk_mesh_params shape = {sizeof shape};
+    geodisk_mesh_params shape = GEODISK_INIT(geodisk_mesh_params);
     shape.positions = positions;
     shape.vertex_count = 4;
     shape.indices = indices;
     shape.face_count = 4;
 
-    geodisk_surface_params job = {sizeof job};
+    geodisk_surface_params job = GEODISK_INIT(geodisk_surface_params);
     job.min_distance = 0.2;
     job.seed = 7;
 

@@ -45,8 +45,8 @@ static struct gpu make_gpu(void) {
     if (count == 0 || (listed != VK_SUCCESS && listed != VK_INCOMPLETE)) {
         fail("vkEnumeratePhysicalDevices", "no device");
     }
-    geodisk_device_info info = {sizeof info};
-    geodisk_error error = {sizeof error};
+    geodisk_device_info info = GEODISK_INIT(geodisk_device_info);
+    geodisk_error error = GEODISK_INIT(geodisk_error);
     if (geodisk_query_device((void (*)(void))vkGetInstanceProcAddr, gpu.instance, gpu.physical,
                              &info, &error)) {
         fail("geodisk_query_device", error.message);
@@ -163,15 +163,15 @@ static void copy(VkCommandBuffer commands, VkBuffer from, uint64_t at, VkBuffer 
 static geodisk_domain *make_domain(void) {
     static const double positions[] = {1, 1, 1, 1, -1, -1, -1, 1, -1, -1, -1, 1};
     static const uint32_t indices[] = {0, 1, 2, 0, 3, 1, 0, 2, 3, 1, 3, 2};
-    geodisk_mesh_params shape = {sizeof shape};
+    geodisk_mesh_params shape = GEODISK_INIT(geodisk_mesh_params);
     shape.positions = positions;
     shape.vertex_count = 4;
     shape.indices = indices;
     shape.face_count = 4;
-    geodisk_surface_params params = {sizeof params};
+    geodisk_surface_params params = GEODISK_INIT(geodisk_surface_params);
     params.min_distance = 0.2;
     params.seed = 7;
-    geodisk_error error = {sizeof error};
+    geodisk_error error = GEODISK_INIT(geodisk_error);
     geodisk_mesh *mesh = NULL;
     geodisk_domain *domain = NULL;
     if (geodisk_mesh_create(&shape, &mesh, &error) ||
@@ -184,8 +184,8 @@ static geodisk_domain *make_domain(void) {
 
 int main(void) {
     struct gpu gpu = make_gpu();
-    geodisk_error error = {sizeof error};
-    geodisk_vulkan_device lent = {sizeof lent};
+    geodisk_error error = GEODISK_INIT(geodisk_error);
+    geodisk_vulkan_device lent = GEODISK_INIT(geodisk_vulkan_device);
     lent.instance = gpu.instance;
     lent.physical_device = gpu.physical;
     lent.device = gpu.device;
@@ -217,7 +217,7 @@ int main(void) {
     /* The mesh, once. */
     VkCommandBuffer commands = begin(&gpu);
     for (uint32_t i = 0; i < GEODISK_BUFFERS; ++i) {
-        geodisk_buffer_need need = {sizeof need};
+        geodisk_buffer_need need = GEODISK_INIT(geodisk_buffer_need);
         geodisk_job_need(job, i, &need, &error);
         if (need.upload_bytes > 0) {
             if (geodisk_job_upload(job, i, host.mapped + ranges[i].offset,
@@ -233,9 +233,9 @@ int main(void) {
 
     /* Go on with the next step until there is none. */
     const geodisk_buffer_range control = ranges[GEODISK_CONTROL_BUFFER];
-    geodisk_buffer_need need = {sizeof need};
+    geodisk_buffer_need need = GEODISK_INIT(geodisk_buffer_need);
     geodisk_job_need(job, GEODISK_CONTROL_BUFFER, &need, &error);
-    geodisk_advice advice = {sizeof advice};
+    geodisk_advice advice = GEODISK_INIT(geodisk_advice);
     while (advice.next != GEODISK_COMPLETE) {
         if (advice.next == GEODISK_LARGER_POOL || advice.next == GEODISK_LARGER_SAMPLES ||
             advice.next == GEODISK_START_OVER) {
