@@ -72,7 +72,8 @@ class GeodiskWarning(UserWarning):
     Attributes
     ----------
     kind : str
-        ``"count_missed"``, ``"bare_parts"``, ``"single_samples"``, ``"not_kept"``; or a kind of MeshWarning.
+        ``"count_missed"``, ``"bare_parts"``, ``"single_samples"``, ``"not_kept"``, ``"long_run"``; or
+        a kind of MeshWarning.
     count : int
         Number of elements concerned.
     """

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import ctypes
+import sys
+import time
 from collections.abc import Sequence
 from ctypes import byref, pointer
 from typing import Any, Callable
@@ -13,6 +15,7 @@ from . import _errors as e
 from . import _library as c
 from . import _structs as s
 from ._devices import DeviceLike, forget, name_of, sampler_on
+from ._oddities import warn
 from ._values import flag
 
 _PATIENCE = 100  # Milliseconds, after which Python looks for signals.
@@ -23,21 +26,56 @@ ProgressCallback = Callable[[float, int], object]
 
 
 class Bar:
-    """Progress by tqdm."""
+    """Progress by tqdm, or as a line on standard error where tqdm is not installed."""
 
     def __init__(self) -> None:
         try:
             from tqdm.auto import tqdm
         except ImportError:
-            raise ImportError("progress=True needs tqdm (pip install tqdm)") from None
-        self._bar = tqdm(total=100, unit="%", desc="geodisk", leave=False)
+            self._bar, self._width = None, 0
+        else:
+            self._bar = tqdm(total=100, unit="%", desc="geodisk", leave=False)
 
     def __call__(self, part: float, samples: int) -> None:
-        self._bar.n = round(100 * part, 1)
-        self._bar.set_postfix(samples=samples)
+        if self._bar is None:
+            self._write(f"geodisk: {100 * part:.0f} %, {samples} samples")
+        else:
+            self._bar.n = round(100 * part, 1)
+            self._bar.set_postfix(samples=samples)
 
     def close(self) -> None:
-        self._bar.close()
+        if self._bar is not None:
+            self._bar.close()
+        elif self._width > 0:
+            self._write("")
+            self._write("")
+
+    def _write(self, line: str) -> None:
+        """Replaces the line."""
+        sys.stderr.write("\r" + line.ljust(self._width))
+        sys.stderr.flush()
+        self._width = len(line)
+
+
+class LongRun:
+    """What to say of a run that takes long, once."""
+
+    LONG = 20.0  #: Seconds that are worth a word, as for the program.
+    TRIAL = 4.0  #: Seconds after which the part that is done tells how long the rest takes.
+
+    def __init__(self) -> None:
+        self._is_told = False
+
+    def note(self, seconds: float, part: float) -> str | None:
+        """Returns what to say after so many seconds, when so much, 0 to 1, is done."""
+        if self._is_told or seconds < self.TRIAL:
+            return None
+        all_seconds = seconds / part if part > 0 else 0
+        self._is_told = max(seconds, all_seconds) >= self.LONG
+        if not self._is_told:
+            return None
+        about = f"about {all_seconds:.2g}" if part > 0.01 else f"more than {seconds:.0f}"
+        return f"sampling takes {about} s on this device"
 
 
 def listener_of(progress: bool | ProgressCallback) -> ProgressCallback | None:
@@ -102,13 +140,15 @@ class Runs:
     def _polled(self, sampler: ctypes.c_void_p, sets: int) -> list[c.Handle]:
         """Goes on until the samples are there. Python acts on signals in between."""
         made = (ctypes.c_void_p * sets)()
-        progress = s.Progress()
+        progress, begin, long_run = s.Progress(), time.monotonic(), LongRun()
         while not made[0]:
             c.call("geodisk_poll", sampler, _PATIENCE, made)
-            if self._report and not made[0]:
+            if not made[0]:
                 c.call("geodisk_sampler_progress", sampler, byref(progress))
                 part = progress.decided / max(1, progress.candidates)
-                if stops(self._report(part, progress.accepted)):
+                if message := long_run.note(time.monotonic() - begin, part):
+                    warn([e.GeodiskWarning(message, "long_run", 1)])
+                if self._report and stops(self._report(part, progress.accepted)):
                     raise e.Cancelled(STOPPED, "cancelled")
         return [c.Handle.of("samples", value) for value in made]
 

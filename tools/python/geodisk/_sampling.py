@@ -154,9 +154,10 @@ def sample(
         One of :func:`devices`, its index, its UUID or a part of its name. The default is the
         environment variable GEODISK_DEVICE, else the best device.
     progress : bool or callable
-        True for a progress bar by tqdm. A function is called about ten times per second with the
-        part that is done, 0 to 1, and the number of samples so far. If it returns False, the run
-        stops with :class:`Cancelled`. If it raises an exception, the run stops with it.
+        True for a progress bar by tqdm, or a line on standard error without it. A function is called
+        about ten times per second with the part that is done, 0 to 1, and the number of samples so
+        far. If it returns False, the run stops with :class:`Cancelled`. If it raises an exception, the
+        run stops with it.
 
     Returns
     -------
