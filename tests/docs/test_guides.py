@@ -9,6 +9,8 @@ import sys
 
 import numpy as np
 
+import geodisk
+
 SOURCE = pathlib.Path(__file__).parents[2]
 GUIDES = SOURCE / "tools/examples/guides"
 COMMAND = pathlib.Path(os.environ["GEODISK_COMMAND"])
@@ -94,6 +96,16 @@ def test_tile(tmp_path):
     np.fill_diagonal(between, 9)
     assert between.min() >= 0.0253
     assert (tmp_path / "spectrum.csv").stat().st_size > 0
+
+
+def test_scene(tmp_path):
+    run_guide("scene.sh", tmp_path)
+    plants = geodisk.read(tmp_path / "plants.ply")
+    kinds = np.bincount(plants.classes)
+    assert kinds[0] >= 40 and kinds[2] > kinds[1] > kinds[0]
+    assert plants.columns["existing"].sum() == 40 and plants.points[:, 2].min() > 0
+    scene = (tmp_path / "plants.usda").read_text()
+    assert scene.count("def Mesh") == 3 and 'upAxis = "Z"' in scene
 
 
 def test_cluster(tmp_path):
