@@ -14,6 +14,7 @@
 #include "cli/png_image.hpp"
 #include "files/output/output_file.hpp"
 #include "files/samples/sample_file.hpp"
+#include "program/exact_text.hpp"
 
 namespace geodisk::test {
 namespace {
@@ -197,6 +198,23 @@ TEST_CASE("a line of a batch has classes of its own") {
     }
 }
 
+TEST_CASE("a count scales the table of classes") {
+    const TemporaryFolder folder;
+    for (const Arguments& exact : {Arguments{}, Arguments{"--exact"}}) {
+        REQUIRE(run(folder, joined({"sample", kClassesMesh, "-o", "a.csv", "--classes", "4,2;2,1",
+                                    "-n", "300"},
+                                   exact))
+                    .status == 0);
+        const tools::SampleFile samples = tools::read_samples(folder / "a.csv");
+        CHECK(std::abs(static_cast<double>(samples.rows.size()) - 300) <= (exact.empty() ? 15 : 0));
+        const double distance = tools::parse_real(*samples.header.find("min_distance")).value();
+        CHECK(*samples.header.find("classes") ==
+              tools::exact_text(distance) + ',' + tools::exact_text(distance / 2) + ';' +
+                  tools::exact_text(distance / 2) + ',' + tools::exact_text(distance / 4));
+        CHECK(run(folder, {"verify", kClassesMesh, "a.csv"}).status == 0);
+    }
+}
+
 TEST_CASE("what no classes are ends in an error, without a file") {
     const TemporaryFolder folder;
     REQUIRE(run(folder, {"sample", kClassesMesh, "-o", "a.ply", "-d", "10%", "--classes", "3"})
@@ -214,7 +232,6 @@ TEST_CASE("what no classes are ends in an error, without a file") {
              {{"--classes", "1,2;2"}, "row 1 of the table has 1 distance"},
              {{"--classes", "1,0.001;0.001,1"}, "more than a factor of 100"},
              {{"--classes", "1,1;1,1", "-d", "1"}, "takes no --min-distance"},
-             {{"--classes", "1,1;1,1", "-n", "10"}, "takes no --count"},
              {{"--classes", "2"}, "no distance given"},
              {{"--classes", "2", "-d", "1", "--existing", "a.ply"}, "its class is 2"}}) {
         const Outcome refused =

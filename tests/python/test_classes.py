@@ -55,6 +55,16 @@ def test_a_count_is_that_of_all_classes():
     assert abs(len(samples) - 600) <= 30
 
 
+def test_a_count_scales_the_table(tmp_path):
+    samples = geodisk.sample(VERTICES, FACES, classes=[[4, 2], [2, 1]], count=300, exact=True)
+    assert len(samples) == 300 and len(np.unique(samples.classes)) == 2
+    distance = samples.min_distance
+    assert np.allclose(samples.class_distances, np.array([[4, 2], [2, 1]]) * distance / 4)
+    assert geodisk.verify(samples)
+    samples.save(tmp_path / "a.csv")
+    assert geodisk.verify(geodisk.read(tmp_path / "a.csv"), VERTICES, FACES)
+
+
 def test_wrong_ones_are_refused():
     samples = geodisk.sample(VERTICES, FACES, min_distance=0.6, classes=3)
     for options, text in (
@@ -68,6 +78,7 @@ def test_wrong_ones_are_refused():
         ({"classes": [[1, -2], [-2, 1]]}, "not positive"),
         ({"classes": [[1, 0.001], [0.001, 1]]}, "factor of 100"),
         ({"classes": [[1, 1], [1, 1]], "min_distance": 1}, "takes no min_distance"),
+        ({"classes": [[1, 1], [1, 1]], "radius": 1}, "takes no min_distance and no radius"),
         ({"classes": 2, "min_distance": 0.6, "existing": samples}, "has class 2"),
     ):
         with pytest.raises(geodisk.InvalidArgument, match=text):

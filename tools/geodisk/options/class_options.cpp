@@ -148,13 +148,17 @@ std::vector<float> ClassTable::factors() const {
     return factors;
 }
 
-std::string ClassTable::text() const {
+std::string ClassTable::text(double min_distance) const {
     if (distances.empty()) {
         return std::to_string(count);
     }
+    const bool is_scaled = min_distance != largest();
     std::string text;
     for (std::size_t i = 0; i < distances.size(); ++i) {
-        text += (i == 0 ? "" : i % count == 0 ? ";" : ",") + exact_text(distances[i]);
+        text += (i == 0           ? ""
+                 : i % count == 0 ? ";"
+                                  : ",") +
+                exact_text(is_scaled ? distance(i / count, i % count, min_distance) : distances[i]);
     }
     return count == 1 ? text + ';' : text;
 }

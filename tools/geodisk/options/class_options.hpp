@@ -41,8 +41,8 @@ struct ClassTable {
     ClassDistances in_mesh_units(double min_distance) const;
     /// Returns SampleParams::class_factors: empty for a single class.
     std::vector<float> factors() const;
-    /// Returns what parse_classes() reads the table from.
-    std::string text() const;
+    /// Returns what parse_classes() reads the table from, with `min_distance` as the largest one.
+    std::string text(double min_distance) const;
 };
 
 /// Reads the number of classes, or a table of distances: from the text, rows divided by semicolons,

@@ -44,14 +44,14 @@ void check_metric(const SampleOptions& options, const SampleJob& job) {
     }
 }
 
-/// Takes the classes, and their largest distance if a table has it.
+/// Takes the classes, and their largest distance if a table has it that no count scales.
 void take_classes(const SampleOptions& options, SampleJob& job) {
     if (!job.classes.is_given()) {
         return;
     }
     job.classes_option = options.classes;
     job.class_factors = job.classes.factors();
-    if (!job.classes.distances.empty()) {
+    if (!job.classes.distances.empty() && (options.count.empty() || job.method.throws_darts)) {
         job.min_distance = Length{job.classes.largest(), false};
     }
 }
@@ -88,11 +88,9 @@ void check_distance(const SampleOptions& options, const ClassTable& classes) {
                                             {"--count", options.count}});
         return;
     }
-    for (const auto& [name, value] : {std::pair{"--min-distance", &options.min_distance},
-                                      {"--radius", &options.radius},
-                                      {"--count", &options.count}}) {
-        const bool stops = options.method.throws_darts() && value == &options.count;
-        if (!value->empty() && !stops) {
+    for (const auto& [name, value] :
+         {std::pair{"--min-distance", &options.min_distance}, {"--radius", &options.radius}}) {
+        if (!value->empty()) {
             fail_usage(std::string("the table of --classes has all distances, so it takes no ") +
                        name);
         }

@@ -262,7 +262,7 @@ SampleHeader SampleReport::header() const {
         header.entries.emplace_back("features", exact_text(*job_.features));
     }
     if (job_.classes.is_given()) {
-        header.entries.emplace_back("classes", job_.classes.text());
+        header.entries.emplace_back("classes", job_.classes.text(distance));
     }
     if (job_.method.is_maximal) {
         header.entries.emplace_back("maximal",

@@ -61,9 +61,10 @@ class Wanted:
         darts = integer(darts, "darts", 2**32 - 1)
         kinds = None if classes is None else Classes(classes)
         if kinds is not None and kinds.largest is not None:
-            if [min_distance, radius, count] != [None] * 3:
-                raise e.invalid("a table of classes takes no min_distance, radius or count")
-            min_distance = kinds.largest
+            if min_distance is not None or radius is not None:
+                raise e.invalid("a table of classes takes no min_distance and no radius")
+            if count is None:
+                min_distance = kinds.largest  # Else the table is scaled.
         distance = distance_of(min_distance, radius, count, darts)
         seed = seed_of(seed)
         stop_count = integer(stop_count, "stop_count", 2**32 - 1)
