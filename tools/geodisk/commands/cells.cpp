@@ -88,12 +88,7 @@ void run_cells_command(const CellOptions& options) {
     check_files(options);
 
     ProgressLine progress(options.out.quiet);
-    const MeshInput mesh = load_mesh(options.mesh, progress, {}, options.mask);
-    if (mesh.split) {
-        fail_usage(
-            "--mask: the image shows more than the corners of faces; split the faces where it "
-            "has detail");
-    }
+    const MeshInput mesh = load_masked_mesh(options.mesh, progress, options.mask);
     check_dimension(options.out.target(), mesh.dimension());
     check_dual_dimension(options, mesh.dimension());
     std::vector<MeshWarning> warnings;

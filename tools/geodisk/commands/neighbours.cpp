@@ -238,12 +238,7 @@ void run_neighbours(const NeighbourOptions& options) {
     check_files(options);
 
     ProgressLine progress(options.out.quiet);
-    const MeshInput mesh = load_mesh(options.mesh, progress, {}, options.mask);
-    if (mesh.split) {
-        fail_usage(
-            "--mask: the image shows more than the corners of faces; split the faces where it "
-            "has detail");
-    }
+    const MeshInput mesh = load_masked_mesh(options.mesh, progress, options.mask);
     std::vector<MeshWarning> warnings;
     NeighbourJob job = make_job(options, within, vertices, mesh, warnings, progress);
     job.nearest = static_cast<std::uint32_t>(std::min(nearest, kMax));

@@ -271,6 +271,17 @@ MeshInput load_mesh(const MeshOptions& options, ProgressLine& progress,
     return mesh;
 }
 
+MeshInput load_masked_mesh(const MeshOptions& options, ProgressLine& progress,
+                           const MaskOptions& mask) {
+    MeshInput mesh = load_mesh(options, progress, {}, mask);
+    if (mesh.split) {
+        fail_usage(
+            "--mask: the image shows more than the corners of faces; split the faces where it "
+            "has detail");
+    }
+    return mesh;
+}
+
 double distance_on_mesh(const Length& length, const MeshStatistics& mesh) {
     if (length.is_percent && mesh.diagonal == 0) {
         fail_usage("a mesh of edge lengths has no bounding box to take % of; "

@@ -131,6 +131,11 @@ MeshInput load_mesh(const MeshOptions& options, ProgressLine& progress,
                     const DensityOptions& density = {}, const MaskOptions& mask = {},
                     const std::string& order = "MESH SAMPLES");
 
+/// The same for who takes whole faces. Throws UserError(usage) if an image shows more of the mask
+/// than corners of faces.
+MeshInput load_masked_mesh(const MeshOptions& options, ProgressLine& progress,
+                           const MaskOptions& mask);
+
 /// `length` in mesh units. Throws UserError(usage) for % of a mesh that has no bounding box.
 double distance_on_mesh(const Length& length, const MeshStatistics& mesh);
 
