@@ -56,13 +56,7 @@ SampleFormat format_named(const Path& path, std::string_view name) {
 } // namespace
 
 SampleTarget sample_target(const Path& path, std::string_view format, bool is_text) {
-    SampleTarget target{path, format_named(path, format), is_text, true};
-#ifndef GEODISK_GLTF
-    if (target.format == SampleFormat::gltf || target.format == SampleFormat::glb) {
-        fail_usage(path.string() + ": this geodisk was built without glTF");
-    }
-#endif
-    return target;
+    return {path, format_named(path, format), is_text, true};
 }
 
 std::vector<std::string> sample_formats() {

@@ -22,7 +22,7 @@ struct SampleTarget {
 };
 
 /// The file `path` in the format of that name ("npz"), or in that of its extension for "". Throws
-/// UserError(usage) for a format that is unknown, or that this program was built without.
+/// UserError(usage) for a format that is unknown.
 SampleTarget sample_target(const Path& path, std::string_view format = {}, bool is_text = false);
 
 /// The names of all formats: "npz".

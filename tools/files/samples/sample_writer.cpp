@@ -54,10 +54,8 @@ void write(AtomicFile& file, const SampleTarget& target, const SampleHeader& ful
         break;
     case SampleFormat::gltf:
     case SampleFormat::glb:
-#ifdef GEODISK_GLTF
         write_gltf(file, header, rows, target, layout);
-#endif
-        break; // Else sample_target() has refused it.
+        break;
     case SampleFormat::usda:
         write_usd(file, header, rows, target, layout);
         break;
