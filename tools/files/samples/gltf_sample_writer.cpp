@@ -49,7 +49,8 @@ void check_indices(std::size_t rows, const IndexOf& index_of) {
     for (std::size_t i = 0; i < rows; ++i) {
         if (index_of(i) > 1u << 24) {
             fail_usage("glTF holds numbers of faces up to 16,777,216, and samples lie in face " +
-                       std::to_string(index_of(i)) + "; use .ply, .csv or .npz");
+                       std::to_string(index_of(i)) + "; use " +
+                       listed_formats(&FormatFacts::holds_all));
         }
     }
 }
@@ -74,8 +75,8 @@ void check_values(const SampleField& field) {
     const auto lost = std::ranges::find_if(field.values, is_lost_in_float);
     if (lost != field.values.end()) {
         fail_usage("glTF holds attributes as floats, and the attribute " + in_quotes(field.name) +
-                   " has a " + exact_text(*lost) +
-                   ", which no float holds; use .ply, .csv or .npz");
+                   " has a " + exact_text(*lost) + ", which no float holds; use " +
+                   listed_formats(&FormatFacts::holds_all));
     }
 }
 

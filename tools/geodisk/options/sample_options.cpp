@@ -187,7 +187,7 @@ SampleJob parse_job(const SampleOptions& options) {
 }
 
 void add_sample_options(Command command, SampleOptions& options) {
-    add_output_or_dry_run(command, options.out, kSampleFiles);
+    add_output_or_dry_run(command, options.out, help_of_output());
     add_job_options(command, options);
     command.add_option("--from", options.from, "OLD_MESH",
                        "Sample the mesh as an edit of OLD_MESH: with the distance and\n"
