@@ -139,3 +139,18 @@ def test_exclusions_are_those_of_the_library():
     table = page.rpartition("|---|---|---|\n")[2]
     assert len(rules) > 30
     assert table == "".join(f"| `{a}` | `{b}` | {why} |\n" for a, b, why in rules)
+
+
+def test_formats_are_those_of_the_program():
+    """The first table of the page has a row of each format, and says how it reads back."""
+    source = (SOURCE / "tools/files/samples/sample_format.cpp").read_text()
+    rows = re.findall(r'^    \{"(\w+)", k(\w+), .*, (\w+)\},?$', source, re.M)
+    page = (SOURCE / "host/docs/formats.md").read_text()
+    table = re.findall(r"^\| (`\w+`(?:, `\w+`)*) \| .* \| ([\w ]+) \|$", page, re.M)
+    stated = {name: read for names, read in table for name in re.findall(r"\w+", names)}
+    whole = {True: "yes", False: "the points"}
+    assert len(rows) >= 9
+    assert stated == {
+        name: "no" if reader == "nullptr" else whole[content == "Columns"]
+        for name, content, reader in rows
+    }

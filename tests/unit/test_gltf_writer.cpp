@@ -1,4 +1,5 @@
 // glTF files that are written, read back.
+#include "files/meshes/data_uri.hpp"
 #include "files/meshes/mesh_file.hpp"
 #include "files/output/output_file.hpp"
 #include "files/samples/sample_fields.hpp"
@@ -10,6 +11,17 @@
 #include <vector>
 
 using namespace geodisk::tools;
+
+TEST_CASE("a data URI holds bytes in base64") {
+    const std::string begin = "data:application/octet-stream;base64,";
+    const std::string bytes = "foob\xff\xfe";
+    const char* const expected[] = {"", "Zg==", "Zm8=", "Zm9v", "Zm9vYg==", "Zm9vYv8=", "Zm9vYv/+"};
+    for (std::size_t size = 0; size <= bytes.size(); ++size) {
+        const std::string uri = data_uri(bytes.substr(0, size));
+        CHECK(uri == begin + expected[size]);
+        CHECK(data_of_uri(uri) == bytes.substr(0, size));
+    }
+}
 
 TEST_CASE("frames of samples are instances in glTF, which the reader places") {
     const TemporaryFolder folder;

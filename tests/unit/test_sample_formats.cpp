@@ -1,13 +1,14 @@
 // Sample files that geodisk writes for others, read back by means of their own.
 #include "files/samples/sample_file.hpp"
 
+#include "files/meshes/data_uri.hpp"
 #include "files/output/output_file.hpp"
 #include "test_files.hpp"
 
-#ifdef GEODISK_GLTF
-#include <tiny_gltf.h>
-#endif
+#include <nlohmann/json.hpp>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <map>
@@ -17,6 +18,8 @@
 using namespace geodisk::tools;
 
 namespace {
+
+using Json = nlohmann::json;
 
 const SampleHeader kFormatHeader{{{"version", "geodisk 0.1.0"},
                                   {"mesh", "caf\xc3\xa9.obj"},
@@ -91,6 +94,37 @@ std::string written(const std::string& name, const std::vector<SampleRow>& rows,
     CHECK(bytes_of(folder / name) == bytes); // Whenever it is written.
     CHECK(folder.file_count() == 1);
     return bytes;
+}
+
+struct GltfFile {
+    Json document = Json::object();
+    std::string buffer;
+};
+
+/// The document and the buffer of a file of glTF, text or binary.
+GltfFile gltf_of(const std::string& bytes) {
+    GltfFile file;
+    if (!bytes.starts_with("glTF")) {
+        file.document = Json::parse(bytes);
+        const auto buffer = data_of_uri(file.document["buffers"].at(0)["uri"].get<std::string>());
+        REQUIRE(buffer);
+        file.buffer = *buffer;
+    } else {
+        CHECK(value_at<std::uint32_t>(bytes, 4) == 2);
+        CHECK(value_at<std::uint32_t>(bytes, 8) == bytes.size());
+        const auto text = value_at<std::uint32_t>(bytes, 12);
+        CHECK(text % 4 == 0);
+        CHECK(bytes.substr(16, 4) == "JSON");
+        file.document = Json::parse(bytes.substr(20, text)); // Blanks at its end are JSON.
+        CHECK_FALSE(file.document["buffers"].at(0).contains("uri"));
+        CHECK(value_at<std::uint32_t>(bytes, 20 + text) == bytes.size() - 28 - text);
+        CHECK(bytes.substr(24 + text, 4) == std::string("BIN\0", 4));
+        file.buffer = bytes.substr(28 + text);
+        CHECK(file.buffer.size() % 4 == 0);
+    }
+    CHECK(file.document["buffers"].size() == 1);
+    CHECK(file.document["buffers"][0]["byteLength"] == file.buffer.size());
+    return file;
 }
 
 std::string written_box(const std::string& name, const std::vector<SampleRow>& rows,
@@ -171,12 +205,7 @@ TEST_CASE("distances in a box that a float rounds are told") {
 }
 
 TEST_CASE("numbers that a float does not hold are told") {
-    for (const char* const name : {"a.pcd"
-#ifdef GEODISK_GLTF
-                                   ,
-                                   "a.gltf", "a.glb"
-#endif
-         }) {
+    for (const char* const name : {"a.pcd", "a.gltf", "a.glb"}) {
         for (const double scale : {1e39, 1e-40}) {
             std::vector<SampleRow> rows = rows_of_format(0);
             for (SampleRow& row : rows) {
@@ -257,47 +286,55 @@ TEST_CASE("a ZIP archive has the checksums of its files") {
     CHECK(value_at<std::uint32_t>(bytes, 14) == 0x0b353cc8);
 }
 
-#ifdef GEODISK_GLTF
 TEST_CASE("glTF has points with attributes") {
     const double offset = 1e7;
     for (const std::string name : {"a.glb", "a.gltf"}) {
         CAPTURE(name);
         const std::vector<SampleRow> rows = rows_of_format(offset, 0.5);
         const std::string bytes = written(name, rows);
-        tinygltf::Model model;
-        tinygltf::TinyGLTF reader;
-        std::string error, warning;
-        const auto size = static_cast<unsigned>(bytes.size());
-        const bool is_read =
-            name == "a.glb"
-                ? reader.LoadBinaryFromMemory(&model, &error, &warning,
-                                              reinterpret_cast<const unsigned char*>(bytes.data()),
-                                              size)
-                : reader.LoadASCIIFromString(&model, &error, &warning, bytes.data(), size, "");
-        INFO(error);
-        REQUIRE(is_read);
-        CHECK(warning.empty());
-        CHECK(model.asset.extras.Get("min_distance").Get<std::string>() == "0.25");
-        CHECK(model.asset.extras.Get("lift").ArrayLen() == 2);
-        REQUIRE(model.meshes.size() == 1);
-        const tinygltf::Primitive& points = model.meshes[0].primitives.at(0);
-        CHECK(points.mode == TINYGLTF_MODE_POINTS);
-        CHECK(points.attributes.size() == 5);
+        const GltfFile file = gltf_of(bytes);
+        const Json& document = file.document;
+        CHECK(document["asset"]["version"] == "2.0");
+        CHECK(document["asset"]["extras"]["min_distance"] == "0.25");
+        CHECK(document["asset"]["extras"]["lift"].size() == 2);
+        REQUIRE(document["meshes"].size() == 1);
+        CHECK(document["scenes"][document["scene"].get<std::size_t>()]["nodes"] ==
+              Json::array({0}));
+        const Json& points = document["meshes"][0]["primitives"][0];
+        CHECK(points["mode"] == 0);
+        CHECK(points["attributes"].size() == 5);
         const auto values = [&](const char* attribute, std::size_t components) {
-            const auto& accessor =
-                model.accessors.at(static_cast<std::size_t>(points.attributes.at(attribute)));
-            CHECK(accessor.count == 5);
-            CHECK(accessor.componentType == TINYGLTF_COMPONENT_TYPE_FLOAT);
-            CHECK(accessor.minValues.size() == components);
-            const auto& view = model.bufferViews.at(static_cast<std::size_t>(accessor.bufferView));
+            const Json& accessor =
+                document["accessors"].at(points["attributes"].at(attribute).get<std::size_t>());
+            CHECK(accessor["count"] == 5);
+            CHECK(accessor["componentType"] == 5126);
+            CHECK(accessor["type"] == (components == 1 ? "SCALAR" : "VEC3"));
+            const Json& view =
+                document["bufferViews"].at(accessor["bufferView"].get<std::size_t>());
+            CHECK(view["buffer"] == 0);
+            const auto begin = view.value("byteOffset", std::size_t{0});
+            CHECK(begin % sizeof(float) == 0);
             std::vector<float> all(5 * components);
-            REQUIRE(view.byteLength == 4 * all.size());
-            std::memcpy(all.data(), model.buffers.at(0).data.data() + view.byteOffset,
-                        view.byteLength);
+            REQUIRE(view["byteLength"] == 4 * all.size());
+            for (std::size_t i = 0; i < all.size(); ++i) {
+                all[i] = value_at<float>(file.buffer, begin + 4 * i);
+            }
+            for (std::size_t k = 0; k < components; ++k) {
+                double least = HUGE_VAL, most = -HUGE_VAL;
+                for (std::size_t i = k; i < all.size(); i += components) {
+                    least = std::min(least, static_cast<double>(all[i]));
+                    most = std::max(most, static_cast<double>(all[i]));
+                }
+                CHECK(accessor["min"].at(k) == least);
+                CHECK(accessor["max"].at(k) == most);
+            }
+            CHECK(accessor["min"].size() == components);
+            CHECK(accessor["max"].size() == components);
             return all;
         };
-        const std::vector<double>& origin = model.nodes.at(0).translation;
-        REQUIRE(origin.size() == 3);
+        REQUIRE(document["nodes"].size() == 1);
+        CHECK(document["nodes"][0]["mesh"] == 0);
+        const auto origin = document["nodes"][0]["translation"].get<std::array<double, 3>>();
         const auto positions = values("POSITION", 3), normals = values("NORMAL", 3),
                    weights = values("_BARYCENTRIC", 3), faces = values("_FACE_INDEX", 1),
                    radii = values("_RADIUS", 1);
@@ -319,16 +356,10 @@ TEST_CASE("glTF has points with attributes") {
     far[3].face = (1u << 24) + 1;
     check_fails(ExitCode::usage, "up to 16,777,216", [&] { written("b.glb", far); });
 }
-#endif
 
 TEST_CASE("formats refuse what they cannot hold") {
     const TemporaryFolder folder;
-    for (const char* const name : {"a.xyz", "a.obj"
-#ifdef GEODISK_GLTF
-                                   ,
-                                   "a.gltf", "a.glb"
-#endif
-         }) {
+    for (const char* const name : {"a.xyz", "a.obj", "a.gltf", "a.glb"}) {
         check_fails(ExitCode::usage, "holds three coordinates, and these samples have 4",
                     [&] { check_dimension(sample_target(folder / name), 4); });
         check_box_dimension(sample_target(folder / name), 2);

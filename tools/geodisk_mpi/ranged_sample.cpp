@@ -11,6 +11,7 @@
 
 #include "files/input_file.hpp"
 #include "files/samples/row_format.hpp"
+#include "files/samples/sample_format.hpp"
 #include "geodisk/checks/run_warnings.hpp"
 #include "geodisk/inputs/mesh_input.hpp"
 #include "geodisk/outputs/outputs.hpp"
@@ -43,7 +44,7 @@ bool takes_ranges(const SampleJob& job) {
                           job.mesh.texture.empty() && !job.constraints.is_given();
     const bool has_more = job.features || job.method.has_levels || job.method.is_farthest ||
                           !job.picture.empty() || !job.columns.empty() ||
-                          (!job.out.output.empty() && is_scene(job.out.target().format));
+                          (!job.out.output.empty() && facts_of(job.out.target().format).is_scene());
     return is_plain && !has_more && has_ranged_fields(job) &&
            lower_extension(job.mesh.mesh) == ".ply";
 }

@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 #include <iterator>
+#include <utility>
 
 namespace geodisk::tools {
 namespace {
@@ -96,6 +97,18 @@ std::string driver_text(const DeviceReport& report) {
 
 std::string padded(std::string text, std::size_t width) {
     text.resize(std::max(text.size(), width), ' ');
+    return text;
+}
+
+std::string wrapped(std::string text, std::size_t width) {
+    std::size_t begin = 0, last = std::string::npos; // Of a line, and its last blank.
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        last = text[i] == ' ' ? i : last;
+        if (i - begin >= width && last != std::string::npos) {
+            text[last] = '\n';
+            begin = std::exchange(last, std::string::npos) + 1;
+        }
+    }
     return text;
 }
 

@@ -41,6 +41,10 @@ std::string driver_text(const DeviceReport& report);
 /// `text` and blanks, together at least `width` wide.
 std::string padded(std::string text, std::size_t width);
 
+/// Returns `text` with line breaks for blanks, so that no line is longer than `width` if words
+/// allow.
+std::string wrapped(std::string text, std::size_t width = 64);
+
 /// Returns `text` in quotes for a one-line message: long text is cut, and '?' stands for line
 /// breaks and what else one_line() keeps away.
 std::string in_quotes(std::string_view text);

@@ -72,10 +72,11 @@ void fail_choice(const std::string& option, std::string_view word,
                did_you_mean(word, known));
 }
 
-std::string listed(std::span<const std::string> words) {
+std::string listed(std::span<const std::string> words, std::string_view last) {
     std::string text;
     for (std::size_t i = 0; i < words.size(); ++i) {
-        text += (i == 0 ? "" : i + 1 == words.size() ? " and " : ", ") + words[i];
+        text += i == 0 ? "" : i + 1 == words.size() ? last : ", ";
+        text += words[i];
     }
     return text;
 }

@@ -1,4 +1,4 @@
-// The encoding of colours in each format of sample files. In memory, red, green and blue of samples
+// The encodings of colours in sample files. In memory, red, green and blue of samples
 // are from 0 to 1 as sRGB encodes them; alpha is from 0 to 1 in every encoding.
 #pragma once
 
@@ -9,7 +9,6 @@
 #include <span>
 
 #include "files/images/srgb_encoding.hpp"
-#include "files/samples/sample_target.hpp"
 
 namespace geodisk::tools {
 
@@ -19,26 +18,6 @@ enum class ColourEncoding : std::uint8_t {
     packed, ///< Those bytes in one number, as the Point Cloud Library has them.
     light,  ///< Amounts of light, from 0 to 1.
 };
-
-/// Returns what readers of a format expect.
-constexpr ColourEncoding colour_encoding(SampleFormat format) {
-    switch (format) {
-    case SampleFormat::ply:
-        return ColourEncoding::bytes;
-    case SampleFormat::pcd:
-        return ColourEncoding::packed;
-    case SampleFormat::gltf:
-    case SampleFormat::glb:
-    case SampleFormat::usda:
-        return ColourEncoding::light;
-    case SampleFormat::csv:
-    case SampleFormat::npz:
-    case SampleFormat::xyz:
-    case SampleFormat::obj:
-        break;
-    }
-    return ColourEncoding::srgb;
-}
 
 /// Component of colours that holds alpha, if there are four.
 inline constexpr std::size_t kAlpha = 3;

@@ -1,7 +1,9 @@
 #include "files/meshes/data_uri.hpp"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
+#include <cstddef>
 #include <cstdint>
 
 namespace geodisk::tools {
@@ -77,6 +79,21 @@ std::optional<std::string> data_of_uri(std::string_view uri) {
     const std::string_view data = uri.substr(comma + 1);
     const bool is_base64 = uri.substr(0, comma).ends_with(";base64");
     return is_base64 ? from_base64(data) : std::optional(percent_decoded(data));
+}
+
+std::string data_uri(std::string_view bytes) {
+    std::string uri = "data:application/octet-stream;base64,";
+    uri.reserve(uri.size() + (bytes.size() + 2) / 3 * 4);
+    for (; !bytes.empty(); bytes.remove_prefix(std::min<std::size_t>(bytes.size(), 3))) {
+        std::uint32_t bits = 0;
+        for (std::size_t i = 0; i < 3; ++i) {
+            bits = bits << 8 | (i < bytes.size() ? static_cast<unsigned char>(bytes[i]) : 0u);
+        }
+        for (std::size_t i = 0; i < 4; ++i) {
+            uri += i <= bytes.size() ? kDigits[bits >> (18 - 6 * i) & 63] : '=';
+        }
+    }
+    return uri;
 }
 
 std::array<std::string, 2> uri_file_names(const std::string& uri) {

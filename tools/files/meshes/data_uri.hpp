@@ -12,6 +12,9 @@ namespace geodisk::tools {
 /// be.
 std::optional<std::string> data_of_uri(std::string_view uri);
 
+/// Returns a URI that holds these bytes, in base64.
+std::string data_uri(std::string_view bytes);
+
 /// Returns the names that a URI may mean: with characters for "%20" and the like, and as it is, as
 /// some programs write it.
 std::array<std::string, 2> uri_file_names(const std::string& uri);

@@ -1,19 +1,20 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <numbers>
 #include <numeric>
-#include <ostream>
-#include <streambuf>
+#include <optional>
+#include <string>
+#include <utility>
 #include <vector>
 
-#include <geodisk/detail/uninitialized.hpp>
 #include <nlohmann/json.hpp>
-#include <tiny_gltf.h>
 
 #include "files/byte_order.hpp"
 #include "files/float_values.hpp"
+#include "files/meshes/data_uri.hpp"
 #include "files/meshes/mesh_fields.hpp"
 #include "files/output/block_writer.hpp"
 #include "files/samples/sample_instances.hpp"
@@ -26,6 +27,21 @@
 namespace geodisk::tools {
 namespace {
 
+using nlohmann::json;
+
+/// Document of glTF whose accessors are all in one buffer.
+struct GltfDocument {
+    json content = json::object();
+    std::string buffer;
+};
+
+/// Appends to a list of a document, which makes the list if it has none. Returns the number of what
+/// was appended.
+std::size_t append_to(json& list, json member) {
+    list.push_back(std::move(member));
+    return list.size() - 1;
+}
+
 /// Throws for what a float does not hold exactly: glTF allows attributes of its users no integers
 /// of 32 bits. `index_of(i)` is that of row i.
 template <class IndexOf>
@@ -33,14 +49,11 @@ void check_indices(std::size_t rows, const IndexOf& index_of) {
     for (std::size_t i = 0; i < rows; ++i) {
         if (index_of(i) > 1u << 24) {
             fail_usage("glTF holds numbers of faces up to 16,777,216, and samples lie in face " +
-                       std::to_string(index_of(i)) + "; use .ply, .csv or .npz");
+                       std::to_string(index_of(i)) + "; use " +
+                       listed_formats(&FormatFacts::holds_all));
         }
     }
 }
-
-/// Types of accessors of 1 to 4 numbers.
-constexpr int kTypes[] = {TINYGLTF_TYPE_SCALAR, TINYGLTF_TYPE_VEC2, TINYGLTF_TYPE_VEC3,
-                          TINYGLTF_TYPE_VEC4};
 
 std::string upper_case(std::string text) {
     std::ranges::transform(text, text.begin(), [](char c) {
@@ -62,85 +75,81 @@ void check_values(const SampleField& field) {
     const auto lost = std::ranges::find_if(field.values, is_lost_in_float);
     if (lost != field.values.end()) {
         fail_usage("glTF holds attributes as floats, and the attribute " + in_quotes(field.name) +
-                   " has a " + exact_text(*lost) +
-                   ", which no float holds; use .ply, .csv or .npz");
+                   " has a " + exact_text(*lost) + ", which no float holds; use " +
+                   listed_formats(&FormatFacts::holds_all));
     }
 }
 
-/// Adds accessors of floats to a file.
+/// Adds accessors of floats to a document.
 class FloatAccessors {
   public:
-    FloatAccessors(tinygltf::Model& model, std::size_t count) : model_(model), count_(count) {
-        model_.buffers.resize(1);
-    }
+    FloatAccessors(GltfDocument& gltf, std::size_t count) : gltf_(gltf), count_(count) {}
 
     /// Returns the number of an accessor; `value(i, k)` is component k of point i.
     template <class Value>
-    int add(std::size_t components, const Value& value) {
-        UninitializedVector<float> numbers(count_ * components);
+    std::size_t add(std::size_t components, const Value& value) {
+        constexpr const char* kTypes[] = {"SCALAR", "VEC2", "VEC3", "VEC4"};
+        constexpr int kFloat = 5126, kArrayBuffer = 34962;
+        const std::size_t begin = gltf_.buffer.size();
+        const std::size_t size = count_ * components * sizeof(float);
+        gltf_.buffer.resize(begin + size);
+        char* const bytes = gltf_.buffer.data() + begin;
         for_rows(count_, [&](std::size_t i) {
             for (std::size_t k = 0; k < components; ++k) {
-                numbers[i * components + k] = value(i, k);
+                const float number = value(i, k);
+                store_little_endian(bytes + (i * components + k) * sizeof number, number);
             }
         });
-        tinygltf::Accessor accessor;
-        accessor.bufferView = static_cast<int>(model_.bufferViews.size());
-        accessor.componentType = TINYGLTF_COMPONENT_TYPE_FLOAT;
-        accessor.count = count_;
-        accessor.type = kTypes[components - 1];
-        set_bounds(accessor, numbers, components);
-        model_.bufferViews.push_back(append(numbers));
-        model_.accessors.push_back(std::move(accessor));
-        return static_cast<int>(model_.accessors.size() - 1);
+        json view{{"buffer", 0}, {"byteLength", size}, {"target", kArrayBuffer}};
+        if (begin > 0) {
+            view["byteOffset"] = begin;
+        }
+        const auto [least, most] = bounds({bytes, size}, components);
+        return append_to(gltf_.content["accessors"],
+                         {{"bufferView", append_to(gltf_.content["bufferViews"], std::move(view))},
+                          {"componentType", kFloat},
+                          {"count", count_},
+                          {"min", least},
+                          {"max", most},
+                          {"type", kTypes[components - 1]}});
     }
 
     std::size_t count() const { return count_; }
 
   private:
-    static void set_bounds(tinygltf::Accessor& accessor, std::span<const float> numbers,
-                           std::size_t components) {
-        const auto first = numbers.first(components);
-        accessor.minValues.assign(first.begin(), first.end());
-        accessor.maxValues = accessor.minValues;
-        for (std::size_t i = components; i < numbers.size(); ++i) {
-            const auto number = static_cast<double>(numbers[i]);
-            double& least = accessor.minValues[i % components];
-            double& most = accessor.maxValues[i % components];
-            least = std::min(least, number);
-            most = std::max(most, number);
+    using Numbers = std::vector<double>;
+
+    /// Returns the minimum and the maximum of each component.
+    static std::pair<Numbers, Numbers> bounds(std::string_view bytes, std::size_t components) {
+        const auto number = [&](std::size_t i) {
+            return number_of_bytes<float>(bytes.data() + i * sizeof(float));
+        };
+        Numbers least(components);
+        for (std::size_t k = 0; k < components; ++k) {
+            least[k] = number(k);
         }
+        Numbers most = least;
+        for (std::size_t i = components; i < bytes.size() / sizeof(float); ++i) {
+            const std::size_t k = i % components;
+            least[k] = std::min(least[k], number(i));
+            most[k] = std::max(most[k], number(i));
+        }
+        return {least, most};
     }
 
-    /// Appends numbers to the buffer.
-    tinygltf::BufferView append(std::span<const float> numbers) {
-        std::vector<unsigned char>& all = model_.buffers[0].data;
-        tinygltf::BufferView view;
-        view.buffer = 0;
-        view.byteOffset = all.size();
-        view.byteLength = numbers.size_bytes();
-        view.target = TINYGLTF_TARGET_ARRAY_BUFFER;
-        all.resize(view.byteOffset + view.byteLength);
-        for (std::size_t i = 0; i < numbers.size(); ++i) {
-            store_little_endian(all.data() + view.byteOffset + i * sizeof(float), numbers[i]);
-        }
-        return view;
-    }
-
-    tinygltf::Model& model_;
+    GltfDocument& gltf_;
     std::size_t count_;
 };
 
 /// Collects the attributes of the points, all of them of floats.
 class Points {
   public:
-    Points(tinygltf::Model& model, std::size_t count) : accessors_(model, count) {
-        primitive_.mode = TINYGLTF_MODE_POINTS;
-    }
+    Points(GltfDocument& gltf, std::size_t count) : accessors_(gltf, count) {}
 
     /// `value(i, k)` is component k of point i.
     template <class Value>
     void add(const std::string& name, std::size_t components, const Value& value) {
-        primitive_.attributes[name] = accessors_.add(components, value);
+        attributes_[name] = accessors_.add(components, value);
     }
     /// The same for numbers of faces, one of each point.
     template <class IndexOf>
@@ -149,30 +158,20 @@ class Points {
         add(name, 1, [&](std::size_t i, std::size_t) { return static_cast<float>(index_of(i)); });
     }
 
-    const tinygltf::Primitive& primitive() const { return primitive_; }
+    /// Returns what has these attributes. A mode of 0 draws points, one of 4 triangles.
+    json primitive(int mode, const json& material) const {
+        json result{{"attributes", attributes_}, {"mode", mode}};
+        if (!material.is_null()) {
+            result["material"] = material;
+        }
+        return result;
+    }
+
+    std::size_t positions() const { return attributes_.at("POSITION"); }
 
   private:
     FloatAccessors accessors_;
-    tinygltf::Primitive primitive_;
-};
-
-/// Writes a stream to a file.
-class FileBuffer : public std::streambuf {
-  public:
-    explicit FileBuffer(AtomicFile& file) : file_(file) {}
-
-  private:
-    std::streamsize xsputn(const char* bytes, std::streamsize count) override {
-        file_.write({bytes, static_cast<std::size_t>(count)});
-        return count;
-    }
-    int_type overflow(int_type c) override {
-        const char byte = traits_type::to_char_type(c);
-        xsputn(&byte, 1);
-        return c;
-    }
-
-    AtomicFile& file_;
+    json attributes_;
 };
 
 /// Returns a number as float, with the largest one in place of infinity, which glTF has not.
@@ -210,86 +209,78 @@ void add_surface(Points& points, std::span<const SampleRow> rows, const SampleLa
     }
 }
 
-constexpr const char* kInstances = "EXT_mesh_gpu_instancing";
+constexpr int kDrawPoints = 0, kDrawTriangles = 4;
 
-/// Adds a node that places a triangle at each of the points of a node, turned by the frames, scaled
-/// by the radius.
-void add_instances(tinygltf::Model& model, const tinygltf::Node& points,
+/// Adds a node that places a triangle at each of the `points` of a node, turned by the frames,
+/// scaled by the radius.
+void add_instances(GltfDocument& gltf, json node, const Points& points, const json& material,
                    std::span<const SampleRow> rows, const SampleHeader& header,
                    const SampleLayout& layout) {
-    const tinygltf::Primitive& primitive =
-        model.meshes[static_cast<std::size_t>(points.mesh)].primitives[0];
-    const int positions = primitive.attributes.at("POSITION"), material = primitive.material;
+    constexpr const char* kInstances = "EXT_mesh_gpu_instancing";
     const SampleField& frames = *find_frames(layout.further);
-    FloatAccessors instances(model, rows.size());
-    const int turns = instances.add(4, [&](std::size_t i, std::size_t k) {
+    FloatAccessors instances(gltf, rows.size());
+    json attributes{{"TRANSLATION", points.positions()}};
+    attributes["ROTATION"] = instances.add(4, [&](std::size_t i, std::size_t k) {
         return static_cast<float>(frames.values[4 * i + k]);
     });
     const auto radius = common_radius(header, layout);
-    const int scales =
+    attributes["SCALE"] =
         instances.add(3, [&](std::size_t i, std::size_t) { return scale_of(rows[i], radius); });
-    Points corners(model, kMarker.size());
+    Points corners(gltf, kMarker.size());
     corners.add("POSITION", 3, [](std::size_t i, std::size_t k) { return kMarker[i][k]; });
-    tinygltf::Mesh mesh;
-    mesh.name = "sample";
-    mesh.primitives.push_back(corners.primitive());
-    mesh.primitives[0].mode = TINYGLTF_MODE_TRIANGLES;
-    mesh.primitives[0].material = material;
-    tinygltf::Node node;
-    node.name = points.name.empty() ? "" : points.name + "Instances";
-    node.translation = points.translation;
-    node.mesh = static_cast<int>(model.meshes.size());
-    tinygltf::Value::Object attributes{{"TRANSLATION", tinygltf::Value(positions)},
-                                       {"ROTATION", tinygltf::Value(turns)},
-                                       {"SCALE", tinygltf::Value(scales)}};
-    node.extensions.emplace(kInstances, tinygltf::Value(tinygltf::Value::Object{
-                                            {"attributes", tinygltf::Value(attributes)}}));
-    model.extensionsUsed = {kInstances};
-    model.meshes.push_back(std::move(mesh));
-    model.nodes.push_back(std::move(node));
+    if (node.contains("name")) {
+        node["name"] = node["name"].get<std::string>() + "Instances";
+    }
+    const json primitives = json::array({corners.primitive(kDrawTriangles, material)});
+    node["mesh"] =
+        append_to(gltf.content["meshes"], {{"name", "sample"}, {"primitives", primitives}});
+    node["extensions"][kInstances]["attributes"] = attributes;
+    gltf.content["extensionsUsed"] = {kInstances};
+    append_to(gltf.content["nodes"], std::move(node));
+}
+
+/// Returns the number of a material, which it adds, in the colour of a class.
+std::size_t add_material(GltfDocument& gltf, const SampleClass& own) {
+    const auto& [red, green, blue] = own.colour;
+    const json surface{{"baseColorFactor", {red, green, blue, 1.0}}, {"metallicFactor", 0.0}};
+    return append_to(gltf.content["materials"],
+                     {{"name", own.name}, {"pbrMetallicRoughness", surface}});
 }
 
 /// Adds a node with a point for each row, and one that places a triangle at each if there are
 /// frames. A class gives their name and, unless it is null, their colour.
-void add_nodes(tinygltf::Model& model, std::span<const SampleRow> rows, const SampleHeader& header,
+void add_nodes(GltfDocument& gltf, std::span<const SampleRow> rows, const SampleHeader& header,
                const SampleTarget& target, const SampleLayout& layout, const SampleClass* own) {
-    tinygltf::Node node;
     const std::array<double, 3> origin = origin_for_float(rows, 3);
     check_float_range(target, rows, origin);
+    json node;
     if (origin != std::array<double, 3>{}) {
-        node.translation.assign(origin.begin(), origin.end());
+        node["translation"] = origin;
     }
-    Points points(model, rows.size());
+    Points points(gltf, rows.size());
     points.add("POSITION", 3, [&](std::size_t i, std::size_t k) {
         return static_cast<float>(rows[i].position[k] - origin[k]);
     });
     if (layout.is_on_surface) {
         add_surface(points, rows, layout);
     }
-    tinygltf::Mesh mesh;
-    mesh.primitives.push_back(points.primitive());
+    json material; // Null for none.
     if (own != nullptr) {
-        node.name = own->name;
+        node["name"] = own->name;
         if (!has_colours(layout)) {
-            tinygltf::Material material;
-            material.name = own->name;
-            const auto& [red, green, blue] = own->colour;
-            material.pbrMetallicRoughness.baseColorFactor = {red, green, blue, 1};
-            material.pbrMetallicRoughness.metallicFactor = 0;
-            mesh.primitives[0].material = static_cast<int>(model.materials.size());
-            model.materials.push_back(std::move(material));
+            material = add_material(gltf, *own);
         }
     }
-    node.mesh = static_cast<int>(model.meshes.size());
-    model.meshes.push_back(std::move(mesh));
-    model.nodes.push_back(node);
+    const json primitives = json::array({points.primitive(kDrawPoints, material)});
+    node["mesh"] = append_to(gltf.content["meshes"], {{"primitives", primitives}});
+    append_to(gltf.content["nodes"], node);
     if (find_frames(layout.further) != nullptr) {
-        add_instances(model, node, rows, header, layout);
+        add_instances(gltf, std::move(node), points, material, rows, header, layout);
     }
 }
 
 /// Adds the nodes of a class, with its part of all columns.
-void add_class(tinygltf::Model& model, std::span<const SampleRow> rows, const SampleHeader& header,
+void add_class(GltfDocument& gltf, std::span<const SampleRow> rows, const SampleHeader& header,
                const SampleTarget& target, const SampleLayout& layout, const SampleClass& own) {
     std::vector<SampleRow> own_rows;
     std::vector<ExtraColumn> numbers;
@@ -315,78 +306,114 @@ void add_class(tinygltf::Model& model, std::span<const SampleRow> rows, const Sa
     }
     SampleLayout own_layout = layout;
     own_layout.further = {numbers, fields};
-    add_nodes(model, own_rows, header, target, own_layout, &own);
+    add_nodes(gltf, own_rows, header, target, own_layout, &own);
 }
 
-/// Returns the nodes of a scene where y points up and lengths are in metres: `nodes`, or one that
-/// turns and scales these.
-std::vector<int> place_in_scene(tinygltf::Model& model, std::vector<int> nodes,
-                                const SampleTarget& target) {
+/// Returns the nodes of a scene where y points up and lengths are in metres: all that there are, or
+/// one that turns and scales these.
+std::vector<std::size_t> place_in_scene(json& nodes, const SampleTarget& target) {
+    std::vector<std::size_t> all(nodes.size());
+    std::iota(all.begin(), all.end(), std::size_t{0});
     const double scale = target.metres_per_unit;
-    if (nodes.empty() || (target.up == Up::y && scale == 1)) {
-        return nodes;
+    if (target.up == Up::y && scale == 1) {
+        return all;
     }
     constexpr double kHalf = std::numbers::sqrt2 / 2; // Of a quarter turn.
-    tinygltf::Node root;
-    root.name = "Samples";
-    root.children = std::move(nodes);
+    json root{{"name", "Samples"}, {"children", all}};
     if (target.up != Up::y) {
-        root.rotation = target.up == Up::z ? std::vector{-kHalf, 0.0, 0.0, kHalf}
-                                           : std::vector{0.0, 0.0, kHalf, kHalf};
+        root["rotation"] = target.up == Up::z ? std::array{-kHalf, 0.0, 0.0, kHalf}
+                                              : std::array{0.0, 0.0, kHalf, kHalf};
     }
     if (scale != 1) {
-        root.scale = {scale, scale, scale};
+        root["scale"] = {scale, scale, scale};
     }
-    model.nodes.push_back(std::move(root));
-    return {static_cast<int>(model.nodes.size() - 1)};
+    return {append_to(nodes, std::move(root))};
 }
 
-/// tinygltf throws at text that is not UTF-8, which json_text() replaces.
-tinygltf::Value extras_of(const SampleHeader& header) {
-    tinygltf::Value::Object extras;
-    const auto document = nlohmann::json::parse(json_text(header));
-    for (const auto& [key, value] : document.items()) {
-        if (value.is_array()) {
-            tinygltf::Value::Array all;
-            for (const nlohmann::json& one : value) {
-                all.emplace_back(one_line(one.get<std::string>()));
-            }
-            extras.emplace(key, tinygltf::Value(std::move(all)));
-        } else {
-            extras.emplace(key, tinygltf::Value(one_line(value.get<std::string>())));
+/// Returns the entries of the header, each on one line.
+json extras_of(const SampleHeader& header) {
+    json extras = json::parse(json_text(header));
+    for (json& value : extras) {
+        for (json& text : value) { // One, unless it is an array.
+            text = one_line(text.get<std::string>());
         }
     }
-    return tinygltf::Value(std::move(extras));
+    return extras;
+}
+
+void check_gltf_size(const SampleTarget& target, std::size_t size) {
+    if (size > std::numeric_limits<std::uint32_t>::max()) {
+        fail_output("the samples take more than the 4 GiB of a " + extension_of(target.format) +
+                    " file; use .ply or .csv");
+    }
+}
+
+/// Writes a binary file: a header, and chunks that consist of whole words.
+void write_glb(AtomicFile& file, const SampleTarget& target, std::string text, std::string buffer) {
+    const auto fill_up = [](std::string& bytes, char filler) {
+        bytes.append((4 - bytes.size() % 4) % 4, filler);
+    };
+    fill_up(text, ' ');
+    fill_up(buffer, '\0');
+    constexpr std::uint32_t kVersion = 2, kJson = 0x4e4f534a, kBinary = 0x004e4942;
+    constexpr std::size_t kHeader = 12, kChunkHeader = 8;
+    const std::size_t size =
+        kHeader + kChunkHeader + text.size() + (buffer.empty() ? 0 : kChunkHeader + buffer.size());
+    check_gltf_size(target, size);
+    std::string head = "glTF";
+    append_little_endian(head, kVersion);
+    append_little_endian(head, static_cast<std::uint32_t>(size));
+    const auto write_chunk = [&](std::uint32_t type, const std::string& bytes) {
+        append_little_endian(head, static_cast<std::uint32_t>(bytes.size()));
+        append_little_endian(head, type);
+        file.write(head);
+        file.write(bytes);
+        head.clear();
+    };
+    write_chunk(kJson, text);
+    if (!buffer.empty()) {
+        write_chunk(kBinary, buffer);
+    }
 }
 
 } // namespace
 
 void write_gltf(AtomicFile& file, const SampleHeader& header, std::span<const SampleRow> rows,
                 const SampleTarget& target, const SampleLayout& layout) {
-    tinygltf::Model model;
-    model.asset.version = "2.0";
-    model.asset.generator = "geodisk";
-    model.asset.extras = extras_of(header);
-    model.scenes.resize(1);
-    model.defaultScene = 0;
+    GltfDocument gltf;
+    json& content = gltf.content;
+    content["asset"] = {{"version", "2.0"}, {"generator", "geodisk"}};
+    if (json extras = extras_of(header); !extras.empty()) {
+        content["asset"]["extras"] = std::move(extras);
+    }
     for (const std::vector<SampleClass> classes = sample_classes(rows, layout);
          const SampleClass& own : classes) {
-        add_class(model, rows, header, target, layout, own);
+        add_class(gltf, rows, header, target, layout, own);
     }
-    if (model.nodes.empty() && !rows.empty()) { // No accessor may be empty.
-        add_nodes(model, rows, header, target, layout, nullptr);
+    if (!content.contains("nodes") && !rows.empty()) { // No accessor may be empty.
+        add_nodes(gltf, rows, header, target, layout, nullptr);
     }
-    std::vector<int> nodes(model.nodes.size());
-    std::iota(nodes.begin(), nodes.end(), 0);
-    model.scenes[0].nodes = place_in_scene(model, std::move(nodes), target);
+    json scene = json::object();
+    if (content.contains("nodes")) {
+        scene["nodes"] = place_in_scene(content["nodes"], target);
+    }
+    content["scene"] = append_to(content["scenes"], std::move(scene));
     const bool is_binary = target.format == SampleFormat::glb;
-    FileBuffer buffer(file);
-    std::ostream out(&buffer);
-    out.exceptions(std::ios::badbit); // Keeps those of the file.
-    tinygltf::TinyGLTF writer;
-    if (!writer.WriteGltfSceneToStream(&model, out, true, is_binary)) {
-        throw UserError(ExitCode::internal, "the samples do not go into a glTF file");
+    if (!gltf.buffer.empty()) {
+        json buffer{{"byteLength", gltf.buffer.size()}};
+        if (!is_binary) {
+            buffer["uri"] = data_uri(gltf.buffer);
+        }
+        append_to(content["buffers"], std::move(buffer));
     }
+    // Attributes may have names that are not UTF-8.
+    std::string text = content.dump(is_binary ? -1 : 2, ' ', false, json::error_handler_t::replace);
+    if (is_binary) {
+        write_glb(file, target, std::move(text), std::move(gltf.buffer));
+        return;
+    }
+    check_gltf_size(target, text.size());
+    file.write(text + '\n');
 }
 
 } // namespace geodisk::tools

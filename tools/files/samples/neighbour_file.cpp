@@ -6,6 +6,7 @@
 #include "files/archives/zip_writer.hpp"
 #include "files/input_file.hpp"
 #include "files/output/block_writer.hpp"
+#include "files/samples/sample_format.hpp"
 #include "program/exact_text.hpp"
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
@@ -13,15 +14,14 @@
 namespace geodisk::tools {
 
 SampleTarget neighbour_target(const Path& path, const std::string& format) {
-    const std::string extension = lower_extension(path);
-    const std::string wanted =
-        !format.empty() ? format : extension.substr(std::min<std::size_t>(extension.size(), 1));
-    if (wanted != "npz" && wanted != "csv") {
-        fail_usage((format.empty() ? path.string() : "--format: " + in_quotes(format)) +
-                   ": neighbours are written as .npz or .csv" +
-                   (format.empty() && wanted.empty() ? "; give --format npz or csv" : ""));
+    const auto wanted = find_format(path, format);
+    if (!wanted || !facts_of(*wanted).is_for_programs) {
+        fail_usage(
+            (format.empty() ? path.string() : "--format: " + in_quotes(format)) +
+            ": neighbours are written as .npz or .csv" +
+            (format.empty() && lower_extension(path).empty() ? "; give --format npz or csv" : ""));
     }
-    return sample_target(path, wanted, false);
+    return {path, *wanted};
 }
 
 void write_neighbours(AtomicFile& file, const SampleTarget& target, const NeighbourTable& table) {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "files/output/output_file.hpp"
-#include "files/samples/sample_target.hpp"
+#include "files/samples/sample_format.hpp"
 #include "program/path.hpp"
 
 namespace geodisk::tools {

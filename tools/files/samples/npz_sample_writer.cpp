@@ -119,7 +119,7 @@ void add_surface_arrays(Arrays& arrays, std::span<const SampleRow> rows,
 } // namespace
 
 void write_npz(AtomicFile& file, const SampleHeader& header, std::span<const SampleRow> rows,
-               const SampleLayout& layout) {
+               const SampleTarget& /*target*/, const SampleLayout& layout) {
     ZipWriter zip(file);
     Arrays arrays(zip, rows.size());
     if (layout.dimension > 0) {

@@ -229,7 +229,7 @@ bool is_of_numpy(std::string_view bytes) {
     return bytes.starts_with(kZip) || bytes.starts_with(kEmptyZip) || bytes.starts_with(kNpy);
 }
 
-SampleFile read_numpy_samples(const Path& path, std::string_view bytes, SampleDomain domain,
+SampleFile read_numpy_samples(const Path& path, std::string&& bytes, SampleDomain domain,
                               const std::string& numbers) {
     std::vector<ZipMember> members;
     std::vector<NamedArray> arrays;

@@ -18,7 +18,7 @@ void append_triple(std::string& text, std::string_view name, const Number* tripl
 } // namespace
 
 void write_obj(AtomicFile& file, const SampleHeader& header, std::span<const SampleRow> rows,
-               const SampleLayout& layout) {
+               const SampleTarget& /*target*/, const SampleLayout& layout) {
     file.write(entry_lines(header, "# "));
     // Writes what `append(text, i)` appends for each row.
     const auto write_each = [&](const auto& append) {

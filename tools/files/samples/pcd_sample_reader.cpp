@@ -251,7 +251,7 @@ class PcdReader {
 
 } // namespace
 
-SampleFile read_pcd_samples(const Path& path, std::string_view bytes, SampleDomain domain,
+SampleFile read_pcd_samples(const Path& path, std::string&& bytes, SampleDomain domain,
                             const std::string& numbers) {
     return PcdReader(path, bytes, domain, numbers).read();
 }

@@ -3,6 +3,7 @@
 #include <span>
 #include <string_view>
 
+#include "files/output/block_writer.hpp"
 #include "files/samples/sample_writers.hpp"
 #include "program/exact_text.hpp"
 
@@ -61,8 +62,7 @@ void append_point(std::string& text, const SampleRow& row) {
 } // namespace
 
 bool RowFormat::is_one(SampleFormat format) {
-    return format == SampleFormat::ply || format == SampleFormat::csv ||
-           format == SampleFormat::xyz;
+    return facts_of(format).write == write_by_row;
 }
 
 RowFormat::RowFormat(const SampleTarget& target, const SampleLayout& layout)
@@ -70,14 +70,9 @@ RowFormat::RowFormat(const SampleTarget& target, const SampleLayout& layout)
 
 std::string RowFormat::head(const SampleHeader& header, std::uint64_t count) const {
     const SampleHeader told = target_.has_header ? header : SampleHeader{};
-    switch (target_.format) {
-    case SampleFormat::ply:
-        return ply_head(told, count, target_.is_text, layout_);
-    case SampleFormat::csv:
-        return csv_head(told, count, layout_);
-    default:
-        return "";
-    }
+    return target_.format == SampleFormat::ply   ? ply_head(told, count, target_.is_text, layout_)
+           : target_.format == SampleFormat::csv ? csv_head(told, count, layout_)
+                                                 : "";
 }
 
 void RowFormat::append(std::string& bytes, const SampleRow& row, std::size_t index) const {
@@ -90,6 +85,17 @@ void RowFormat::append(std::string& bytes, const SampleRow& row, std::size_t ind
     } else {
         append_binary_row(bytes, row, index, layout_);
     }
+}
+
+void write_by_row(AtomicFile& file, const SampleHeader& header, std::span<const SampleRow> rows,
+                  const SampleTarget& target, const SampleLayout& layout) {
+    const RowFormat format(target, layout);
+    file.write(format.head(header, rows.size()));
+    write_rows(file, rows.size(), [&](std::string& bytes, std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            format.append(bytes, rows[i], i);
+        }
+    });
 }
 
 } // namespace geodisk::tools

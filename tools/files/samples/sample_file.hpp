@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "files/samples/sample_target.hpp"
+#include "files/samples/sample_format.hpp"
 #include "geometry/mesh_warning.hpp"
 #include "program/path.hpp"
 
@@ -156,9 +156,6 @@ void write_samples(const Path& path, const SampleHeader& header, std::span<const
 /// lacks; CSV and NPZ have just the coordinates there are.
 void write_box_samples(AtomicFile& file, const SampleTarget& target, const SampleHeader& header,
                        std::span<const SampleRow> rows, std::uint32_t dimension);
-
-/// Returns true unless the format holds nothing but points and normals.
-bool has_columns(const SampleTarget& target);
 
 /// UserError(usage) if the format cannot hold columns of these names.
 void check_columns(const SampleTarget& target, std::span<const std::string> columns);

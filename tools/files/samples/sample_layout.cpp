@@ -51,15 +51,12 @@ bool float_is_enough(const SampleBox& box, std::uint32_t dimension) {
     return in_range && largest <= 16 * extent;
 }
 
-bool is_for_programs(SampleFormat format) {
-    return format == SampleFormat::csv || format == SampleFormat::npz;
-}
-
 SampleLayout layout_in(SampleFormat format, std::uint32_t dimension, bool is_float_enough) {
-    const bool is_exact = is_for_programs(format);
+    const FormatFacts& facts = facts_of(format);
+    const bool is_exact = facts.is_for_programs;
     const bool is_named = is_exact ? dimension == 3 : dimension >= 3;
     SampleLayout layout{dimension, is_named ? 3u : 0u, !is_exact && is_float_enough, false};
-    layout.colours = colour_encoding(format);
+    layout.colours = facts.colours;
     return layout;
 }
 
@@ -94,7 +91,7 @@ void check_float_range(const SampleTarget& target, std::span<const SampleRow> ro
     if (!fits(largest) || !fits(largest_radius)) {
         fail_usage(target.path.string() + ": " + extension_of(target.format) +
                    " holds floats, and these samples have coordinates up to " +
-                   exact_text(largest) + "; use .ply, .csv or .npz");
+                   exact_text(largest) + "; use " + listed_formats(&FormatFacts::holds_all));
     }
 }
 

@@ -152,10 +152,6 @@ struct SampleBox {
 /// extent.
 bool float_is_enough(const SampleBox& box, std::uint32_t dimension);
 
-/// Returns true for CSV and NPZ, which hold what coordinates there are, as they are. Viewers read
-/// the other formats, which have x y z in any case.
-bool is_for_programs(SampleFormat format);
-
 /// Returns the columns of samples on a surface in a format.
 SampleLayout layout_in(SampleFormat format, std::uint32_t dimension, bool is_float_enough);
 

@@ -8,6 +8,7 @@
 #include "files/ply_file.hpp"
 #include "files/samples/fingerprint.hpp"
 #include "files/samples/sample_file.hpp"
+#include "files/samples/sample_format.hpp"
 #include "files/samples/sample_rows.hpp"
 #include "files/text_file.hpp"
 #include "program/exact_text.hpp"
@@ -42,8 +43,11 @@ void check_edges(const Path& path, const SampleFile& samples) {
     }
 }
 
-SampleFile read_ply_samples(PlyFile file, SampleDomain domain, const std::string& numbers) {
-    const Path& path = file.path();
+} // namespace
+
+SampleFile read_ply_samples(const Path& path, std::string&& bytes, SampleDomain domain,
+                            const std::string& numbers) {
+    PlyFile file(path, std::move(bytes));
     SampleFile samples;
     for (const std::string& comment : file.comments()) {
         add_entry(samples.header, comment);
@@ -92,58 +96,32 @@ SampleFile read_ply_samples(PlyFile file, SampleDomain domain, const std::string
     return samples;
 }
 
-/// Refuses formats that are written alone, whatever the file holds.
-void check_read_back(const Path& path) {
-    const std::string extension = lower_extension(path);
-    for (const char* const written : {".gltf", ".glb"}) {
-        if (extension == written) {
-            fail_input(path, "geodisk writes samples as " + extension +
-                                 " but does not read them back; use .ply, .csv, .npz or .pcd");
-        }
-    }
-}
-
-/// The format by its extension, else by how it begins.
-std::string format_of(const Path& path, std::string_view bytes) {
-    const std::string extension = lower_extension(path);
-    for (const char* const known : {".ply", ".csv", ".pcd", ".obj"}) {
-        if (extension == known) {
-            return extension.substr(1);
-        }
-    }
-    if (bytes.starts_with("ply\n") || bytes.starts_with("ply\r")) {
-        return "ply";
-    }
-    return bytes.starts_with("# .PCD") || bytes.starts_with("VERSION") ||
-                   bytes.starts_with("FIELDS")
-               ? "pcd"
-               : "csv";
-}
+namespace {
 
 SampleFile read_in(const Path& path, SampleDomain domain, const std::string& numbers) {
-    check_read_back(path);
+    const std::optional<SampleFormat> named = find_format(path);
+    if (named && facts_of(*named).read == nullptr) {
+        fail_input(path, "geodisk writes samples as " + extension_of(*named) +
+                             " but does not read them back; use " +
+                             listed_formats(&FormatFacts::is_read_back));
+    }
     std::string bytes = read_file(path);
     if (is_of_numpy(bytes)) {
-        return read_numpy_samples(path, bytes, domain, numbers);
+        return read_numpy_samples(path, std::move(bytes), domain, numbers);
     }
     refuse_other_content(path, bytes);
-    if (lower_extension(path) == ".npz" || lower_extension(path) == ".npy") {
+    if (named == SampleFormat::npz || lower_extension(path) == ".npy") {
         fail_input(path, "is no file of numpy; write it with numpy.save or numpy.savez");
     }
-    const std::string format = format_of(path, bytes);
-    if (format == "ply") {
-        return read_ply_samples(PlyFile(path, std::move(bytes)), domain, numbers);
-    }
-    if (format == "pcd") {
-        return read_pcd_samples(path, bytes, domain, numbers);
-    }
-    if (format == "obj") {
-        if (!numbers.empty()) {
-            fail_input(path, "has no columns, so none of the name " + numbers);
-        }
-        return read_obj_points(path, bytes);
-    }
-    return read_table_samples(path, bytes, domain, numbers);
+    // The extension says the format, but files named .xyz may be of any; else how they begin does.
+    const bool is_ply = bytes.starts_with("ply\n") || bytes.starts_with("ply\r");
+    const bool is_pcd =
+        bytes.starts_with("# .PCD") || bytes.starts_with("VERSION") || bytes.starts_with("FIELDS");
+    const SampleReader read = named && named != SampleFormat::xyz ? facts_of(*named).read
+                              : is_ply                            ? read_ply_samples
+                              : is_pcd                            ? read_pcd_samples
+                                                                  : read_table_samples;
+    return read(path, std::move(bytes), domain, numbers);
 }
 
 } // namespace

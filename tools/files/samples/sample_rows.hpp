@@ -138,15 +138,19 @@ void check_sample_count(const Path& path, SampleFile& samples);
 /// may be cut short.
 void check_last_line(const Path& path, std::string_view text);
 
-/// The readers of single formats.
-SampleFile read_table_samples(const Path& path, std::string_view bytes, SampleDomain domain,
-                              const std::string& numbers);
-SampleFile read_pcd_samples(const Path& path, std::string_view bytes, SampleDomain domain,
+/// The readers of single formats, as SampleReader says.
+SampleFile read_ply_samples(const Path& path, std::string&& bytes, SampleDomain domain,
                             const std::string& numbers);
-SampleFile read_obj_points(const Path& path, std::string_view bytes);
-SampleFile read_gltf_lines(const Path& path, const FileScope& scope);
-SampleFile read_numpy_samples(const Path& path, std::string_view bytes, SampleDomain domain,
+SampleFile read_table_samples(const Path& path, std::string&& bytes, SampleDomain domain,
                               const std::string& numbers);
+SampleFile read_pcd_samples(const Path& path, std::string&& bytes, SampleDomain domain,
+                            const std::string& numbers);
+SampleFile read_obj_points(const Path& path, std::string&& bytes, SampleDomain domain,
+                           const std::string& numbers);
+SampleFile read_numpy_samples(const Path& path, std::string&& bytes, SampleDomain domain,
+                              const std::string& numbers);
+
+SampleFile read_gltf_lines(const Path& path, const FileScope& scope);
 
 /// Returns true for the bytes of an .npy or an .npz file.
 bool is_of_numpy(std::string_view bytes);

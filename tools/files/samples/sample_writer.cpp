@@ -2,12 +2,9 @@
 #include <cmath>
 #include <optional>
 
-#include "files/output/block_writer.hpp"
 #include "files/output/output_file.hpp"
-#include "files/samples/row_format.hpp"
 #include "files/samples/sample_file.hpp"
 #include "files/samples/sample_layout.hpp"
-#include "files/samples/sample_writers.hpp"
 #include "program/exact_text.hpp"
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
@@ -15,53 +12,14 @@
 namespace geodisk::tools {
 namespace {
 
-void write_by_row(AtomicFile& file, const RowFormat& format, const SampleHeader& header,
-                  std::span<const SampleRow> rows) {
-    file.write(format.head(header, rows.size()));
-    write_rows(file, rows.size(), [&](std::string& bytes, std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-            format.append(bytes, rows[i], i);
-        }
-    });
-}
-
-/// Returns true if the header consists of comments, which may be left out.
-bool has_comments(SampleFormat format) {
-    return format == SampleFormat::obj || format == SampleFormat::pcd;
-}
-
 /// Rounding of distances, as a part of the minimum distance.
 constexpr double kWorthTelling = 1e-6;
 
-void write(AtomicFile& file, const SampleTarget& target, const SampleHeader& full_header,
+void write(AtomicFile& file, const SampleTarget& target, const SampleHeader& header,
            std::span<const SampleRow> rows, const SampleLayout& layout) {
-    const bool has_header = target.has_header || !has_comments(target.format);
-    const SampleHeader header = has_header ? full_header : SampleHeader{};
-    switch (target.format) {
-    case SampleFormat::ply:
-    case SampleFormat::csv:
-    case SampleFormat::xyz:
-        write_by_row(file, RowFormat(target, layout), full_header, rows);
-        break;
-    case SampleFormat::obj:
-        write_obj(file, header, rows, layout);
-        break;
-    case SampleFormat::pcd:
-        write_pcd(file, header, rows, target, layout);
-        break;
-    case SampleFormat::npz:
-        write_npz(file, header, rows, layout);
-        break;
-    case SampleFormat::gltf:
-    case SampleFormat::glb:
-#ifdef GEODISK_GLTF
-        write_gltf(file, header, rows, target, layout);
-#endif
-        break; // Else sample_target() has refused it.
-    case SampleFormat::usda:
-        write_usd(file, header, rows, target, layout);
-        break;
-    }
+    const FormatFacts& format = facts_of(target.format);
+    const bool has_header = target.has_header || !format.has_comments;
+    format.write(file, has_header ? header : SampleHeader{}, rows, target, layout);
 }
 
 } // namespace
@@ -89,7 +47,7 @@ void write_samples(AtomicFile& file, const SampleTarget& target, const SampleHea
 void write_box_samples(AtomicFile& file, const SampleTarget& target, const SampleHeader& header,
                        std::span<const SampleRow> rows, std::uint32_t dimension) {
     const std::uint32_t there_are = dimension > 3 ? 0 : dimension;
-    const std::uint32_t named = is_for_programs(target.format) ? there_are : 3;
+    const std::uint32_t named = facts_of(target.format).is_for_programs ? there_are : 3;
     write(file, target, header, rows, {dimension, named, false, false, false, false});
 }
 
@@ -106,13 +64,12 @@ std::optional<std::string> precision_note(const SampleTarget& target,
         text += ' ' + exact_text(coordinate);
     }
     return text + (target.has_header ? ", which the header names as origin; " : "; ") +
-           ".ply, .csv and .npz hold them as they are";
+           listed_formats(&FormatFacts::holds_all, ".", " and ") + " hold them as they are";
 }
 
 std::optional<std::string> rounding_note(const SampleTarget& target,
                                          std::span<const SampleRow> rows, std::uint32_t dimension,
                                          double min_distance) {
-    const bool has_floats = target.format == SampleFormat::pcd || is_scene(target.format);
     double largest = 0;
     for (const SampleRow& row : rows) {
         for (const double coordinate : std::span(row.position).first(dimension)) {
@@ -121,13 +78,13 @@ std::optional<std::string> rounding_note(const SampleTarget& target,
     }
     // Both ends of a distance may be off by half a step along each axis.
     const double error = std::sqrt(dimension) * largest * 0x1p-23 / min_distance;
-    if (!has_floats || error < kWorthTelling) {
+    if (!facts_of(target.format).has_floats || error < kWorthTelling) {
         return std::nullopt;
     }
     return extension_of(target.format) + " holds floats, which change distances by up to " +
            rounded(error, 2) +
-           " of the minimum distance, so that verify may find some too small; .ply, .csv and .npz "
-           "hold doubles";
+           " of the minimum distance, so that verify may find some too small; " +
+           listed_formats(&FormatFacts::holds_all, ".", " and ") + " hold doubles";
 }
 
 const std::string* SampleHeader::find(std::string_view key) const {
@@ -142,45 +99,23 @@ std::span<const std::uint32_t> SampleFile::extra_values(std::string_view name) c
 }
 
 void check_dimension(const SampleTarget& target, std::uint32_t dimension) {
-    const std::string extension = extension_of(target.format);
-    const std::string given = dimension == 0 ? "none" : std::to_string(dimension);
-    switch (target.format) {
-    case SampleFormat::xyz:
-    case SampleFormat::obj:
-    case SampleFormat::gltf:
-    case SampleFormat::glb:
-    case SampleFormat::usda:
-        if (dimension != 3) {
-            const bool has_an = extension == ".obj" || extension == ".xyz";
-            fail_usage(target.path.string() + ": " + (has_an ? "an " : "a ") + extension +
-                       " file holds three coordinates, and these samples have " + given +
-                       "; use .ply, .csv or .npz");
-        }
-        break;
-    case SampleFormat::pcd:
-        if (dimension == 0) {
-            fail_usage(target.path.string() +
-                       ": a .pcd file holds coordinates, and these samples have none; use .ply, "
-                       ".csv or .npz");
-        }
-        break;
-    case SampleFormat::ply:
-    case SampleFormat::csv:
-    case SampleFormat::npz:
-        break;
+    const FormatFacts& format = facts_of(target.format);
+    if (dimension < format.min_dimension || dimension > format.max_dimension) {
+        fail_usage(target.path.string() + ": " + a_file(target.format) + " holds " +
+                   (format.max_dimension == 3 ? "three " : "") +
+                   "coordinates, and these samples have " +
+                   (dimension == 0 ? "none" : std::to_string(dimension)) + "; use " +
+                   listed_formats(&FormatFacts::holds_all));
     }
 }
 
-bool has_columns(const SampleTarget& target) {
-    return target.format != SampleFormat::xyz && target.format != SampleFormat::obj;
-}
-
 void check_columns(const SampleTarget& target, std::span<const std::string> columns) {
-    if (!has_columns(target) && !columns.empty()) {
-        fail_usage(
-            target.path.string() + ": an " + extension_of(target.format) + " file holds points" +
-            (target.format == SampleFormat::obj ? " and normals" : "") + " alone, so no column " +
-            columns.front() + "; use .ply, .csv, .npz, .pcd, .glb, .gltf or .usda");
+    const SampleContent content = facts_of(target.format).content;
+    if (content != SampleContent::columns && !columns.empty()) {
+        fail_usage(target.path.string() + ": " + a_file(target.format) + " holds points" +
+                   (content == SampleContent::normals ? " and normals" : "") +
+                   " alone, so no column " + columns.front() + "; use " +
+                   listed_formats(&FormatFacts::has_columns));
     }
 }
 

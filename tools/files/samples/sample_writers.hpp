@@ -17,8 +17,12 @@ void append_text_row(std::string& text, const SampleRow& row, std::size_t index,
 void append_binary_row(std::string& bytes, const SampleRow& row, std::size_t index,
                        const SampleLayout& layout);
 
+/// Writes PLY, CSV or XYZ.
+void write_by_row(AtomicFile& file, const SampleHeader& header, std::span<const SampleRow> rows,
+                  const SampleTarget& target, const SampleLayout& layout);
+
 void write_obj(AtomicFile& file, const SampleHeader& header, std::span<const SampleRow> rows,
-               const SampleLayout& layout);
+               const SampleTarget& target, const SampleLayout& layout);
 
 /// Throws UserError(usage), like write_gltf(), for coordinates that a float does not hold.
 void write_pcd(AtomicFile& file, const SampleHeader& header, std::span<const SampleRow> rows,
@@ -29,7 +33,7 @@ void write_usd(AtomicFile& file, const SampleHeader& header, std::span<const Sam
                const SampleTarget& target, const SampleLayout& layout);
 
 void write_npz(AtomicFile& file, const SampleHeader& header, std::span<const SampleRow> rows,
-               const SampleLayout& layout);
+               const SampleTarget& target, const SampleLayout& layout);
 
 /// Throws UserError(usage) for faces whose numbers a float does not hold.
 void write_gltf(AtomicFile& file, const SampleHeader& header, std::span<const SampleRow> rows,

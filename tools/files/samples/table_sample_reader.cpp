@@ -236,7 +236,7 @@ class TableReader {
 
 } // namespace
 
-SampleFile read_table_samples(const Path& path, std::string_view bytes, SampleDomain domain,
+SampleFile read_table_samples(const Path& path, std::string&& bytes, SampleDomain domain,
                               const std::string& numbers) {
     return TableReader(path, bytes, domain, numbers).read();
 }
@@ -265,7 +265,11 @@ void add_line(const Cells& cells, const Fail& fail, SampleFile& samples) {
 
 } // namespace
 
-SampleFile read_obj_points(const Path& path, std::string_view bytes) {
+SampleFile read_obj_points(const Path& path, std::string&& bytes, SampleDomain /*domain*/,
+                           const std::string& numbers) {
+    if (!numbers.empty()) {
+        fail_input(path, "has no columns, so none of the name " + numbers);
+    }
     SampleFile samples;
     samples.has_faces = false;
     TextLines all(bytes);

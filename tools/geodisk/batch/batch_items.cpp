@@ -13,7 +13,7 @@
 #include "files/input_file.hpp"
 #include "files/meshes/mesh_file.hpp"
 #include "files/output/files_in_use.hpp"
-#include "files/samples/sample_target.hpp"
+#include "files/samples/sample_format.hpp"
 #include "geodisk/inputs/manifest.hpp"
 #include "geodisk/inputs/mesh_folder.hpp"
 #include "geodisk/options/sample_command.hpp"
@@ -53,10 +53,7 @@ std::filesystem::path given_name(const std::string& name, const std::string& for
     if (!stays_inside(path)) {
         fail_usage("--output: " + in_quotes(name) + " is not a file name inside the folder");
     }
-    const std::string extension = lower_extension(path);
-    const bool has_format =
-        !extension.empty() && is_sample_format(std::string_view(extension).substr(1));
-    if (!has_format) {
+    if (!find_format(path)) {
         path += '.' + format;
     }
     return path;

@@ -16,6 +16,7 @@
 #include "geodisk/inputs/mesh_input.hpp"
 #include "geodisk/options/distance_options.hpp"
 #include "geodisk/options/mask_options.hpp"
+#include "geodisk/options/run_options.hpp"
 #include "geodisk/options/tolerance_option.hpp"
 #include "geodisk/outputs/outputs.hpp"
 #include "geodisk/reports/analysis_report.hpp"
@@ -163,9 +164,9 @@ void add_analyze_command(Command app) {
     add_mesh_argument(command, options->mesh, "Mesh that the samples were made on");
     command
         .add_option("SAMPLES", options->samples, "",
-                    "Samples to analyze: *.ply, *.csv, *.npz or *.pcd, or points of\n"
-                    "another program, also *.npy, *.obj and *.xyz. Give several files\n"
-                    "with different seeds to test whether samples are spread evenly")
+                    help_of_input("Samples to analyze",
+                                  ". Give several files with different seeds "
+                                  "to test whether samples are spread evenly"))
         .required();
     add_distance_options(command, options->distance);
     add_probes_option(command, options->probes);

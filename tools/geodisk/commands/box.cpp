@@ -3,6 +3,7 @@
 #include <memory>
 #include <vector>
 
+#include "files/samples/sample_format.hpp"
 #include "geodisk/box_run.hpp"
 #include "geodisk/commands/commands.hpp"
 #include "geodisk/commands/help_text.hpp"
@@ -14,6 +15,7 @@
 #include "geometry/set_warnings.hpp"
 #include "picture/view.hpp"
 #include "program/command.hpp"
+#include "program/human_text.hpp"
 
 namespace geodisk::tools {
 namespace {
@@ -78,9 +80,12 @@ void add_box_command(Command app) {
     const Command command =
         app.add_command("box", "Put samples in a box of R^n, by straight-line distance");
     const auto options = std::make_shared<BoxOptions>();
-    add_output_or_dry_run(command, options->out,
-                          "File to write: *.csv or *.npz; or *.ply, *.pcd, *.glb, *.gltf, *.obj\n"
-                          "or *.xyz with 0 for coordinates that the box lacks");
+    const auto is_for_viewers = [](const FormatFacts& format) { return !format.is_for_programs; };
+    add_output_or_dry_run(
+        command, options->out,
+        wrapped("File to write: " + listed_formats(&FormatFacts::is_for_programs, "*.") + "; or " +
+                listed_formats(is_for_viewers, "*.") +
+                " with 0 for coordinates that the box lacks"));
     add_box_options(command, *options);
     add_run_options(command, options->run);
     add_output_options(command, options->out);

@@ -4,6 +4,7 @@
 
 #include <geodisk/version.hpp>
 
+#include "files/samples/sample_format.hpp"
 #include "geodisk/cell_run.hpp"
 #include "geodisk/checks/run_warnings.hpp"
 #include "geodisk/checks/sample_input.hpp"
@@ -21,6 +22,7 @@
 #include "program/command.hpp"
 #include "program/exact_text.hpp"
 #include "program/failure.hpp"
+#include "program/human_text.hpp"
 
 namespace geodisk::tools {
 namespace {
@@ -146,8 +148,8 @@ void add_cells_command(Command app) {
                     "nearest face")
         .required();
     add_output_argument(command, options->out,
-                        "File to write: the samples with a column `area`, as *.ply,\n"
-                        "*.csv, *.npz, *.pcd, *.glb, *.gltf or *.usda");
+                        wrapped("File to write: the samples with a column `area`, as " +
+                                listed_formats(&FormatFacts::has_columns, "*.")));
     command.add_option("--dual", options->dual, "FILE",
                        "Write the dual graph too: *.obj (samples as vertices, a\n"
                        "triangle where three cells meet) or *.npz (arrays points,\n"

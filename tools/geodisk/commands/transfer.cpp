@@ -239,10 +239,7 @@ void add_transfer_command(Command app) {
         "transfer", "Move samples to another pose of their mesh, with identical faces,\n"
                     "and report their minimum distance there");
     const auto options = std::make_shared<TransferOptions>();
-    command
-        .add_option("SAMPLES", options->samples, "",
-                    "Samples of MESH_A: *.ply, *.csv, *.npz or *.pcd, or points of\n"
-                    "another program, also *.npy, *.obj and *.xyz")
+    command.add_option("SAMPLES", options->samples, "", help_of_input("Samples of MESH_A"))
         .required();
     add_mesh_argument(command, options->from, "Mesh that the samples were made on", "MESH_A");
     add_mesh_argument(command, options->to, "Mesh with identical faces to move them to", "MESH_B");

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "files/meshes/mesh_file.hpp"
-#include "files/samples/sample_target.hpp"
+#include "files/samples/sample_format.hpp"
 #include "geodisk/options/sample_command.hpp"
 #include "program/command.hpp"
 #include "program/exact_text.hpp"

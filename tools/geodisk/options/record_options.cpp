@@ -47,7 +47,8 @@ void RecordOptions::check(const SampleTarget& target) const {
             check_columns(target, std::vector<std::string>{columns});
         }
     }
-    if (normal_kind() != NormalKind::face && target.format == SampleFormat::xyz) {
+    if (normal_kind() != NormalKind::face &&
+        facts_of(target.format).content == SampleContent::points) {
         check_columns(target, std::vector<std::string>{"of --normals"});
     }
 }

@@ -6,7 +6,7 @@
 
 #include "files/meshes/mesh_fields.hpp"
 #include "files/samples/sample_file.hpp"
-#include "files/samples/sample_target.hpp"
+#include "files/samples/sample_format.hpp"
 
 namespace geodisk::tools {
 

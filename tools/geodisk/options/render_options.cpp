@@ -25,9 +25,7 @@ void add_render_options(Command command, RenderOptions& options) {
     add_mesh_argument(command, options.mesh,
                       "Mesh that the samples were made on; or, without SAMPLES,\n"
                       "samples of geodisk box in 2 or 3 dimensions");
-    command.add_option("SAMPLES", options.samples, "",
-                       "Samples to show: *.ply, *.csv, *.npz or *.pcd, or points of\n"
-                       "another program, also *.npy, *.obj and *.xyz");
+    command.add_option("SAMPLES", options.samples, "", help_of_input("Samples to show"));
     add_tolerance_option(command, options.tolerance);
     add_output_argument(command, options.out, "Picture to write: *.png");
     command.add_option("--size", options.size, "WxH", "Size of the picture in pixels")

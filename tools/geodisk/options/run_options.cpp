@@ -1,9 +1,10 @@
 #include "geodisk/options/run_options.hpp"
 
-#include "files/samples/sample_target.hpp"
+#include "files/samples/sample_format.hpp"
 #include "program/arguments.hpp"
 #include "program/command.hpp"
 #include "program/failure.hpp"
+#include "program/human_text.hpp"
 
 namespace geodisk::tools {
 
@@ -15,15 +16,31 @@ SampleTarget OutputOptions::target() const {
 }
 
 void OutputOptions::check_scene(bool has_picture) const {
-    if (output.empty() || (up.empty() && units.empty()) || is_scene(target().format)) {
+    if (output.empty() || (up.empty() && units.empty()) || facts_of(target().format).is_scene()) {
         return;
     }
+    const std::string scenes = listed_formats(&FormatFacts::is_scene, "*.", " and ");
     if (!units.empty()) {
-        fail_usage("--units is for samples in *.usda, *.gltf and *.glb");
+        fail_usage("--units is for samples in " + scenes);
     }
     if (!has_picture) {
-        fail_usage("--up is for samples in *.usda, *.gltf and *.glb, and for pictures");
+        fail_usage("--up is for samples in " + scenes + ", and for pictures");
     }
+}
+
+std::string help_of_output() {
+    const auto has_none = [](const FormatFacts& format) { return !format.has_columns(); };
+    return wrapped("File to write: " + listed_formats(nullptr, "*.") + "; " +
+                   listed_formats(has_none, "*.", " and ") + " have no columns");
+}
+
+std::string help_of_input(const std::string& use, const std::string& more) {
+    const auto has_points = [](const FormatFacts& format) {
+        return format.read != nullptr && !format.has_columns();
+    };
+    return wrapped(use + ": " + listed_formats(&FormatFacts::is_read_back, "*.") +
+                   ", or points of another program, also *.npy, " +
+                   listed_formats(has_points, "*.", " and ") + more);
 }
 
 void add_output_argument(Command command, OutputOptions& options, const std::string& summary) {
@@ -68,23 +85,24 @@ void add_columns_options(Command command, OutputOptions& options) {
 }
 
 void add_scene_options(Command command, OutputOptions& options) {
+    const std::string scenes = listed_formats(&FormatFacts::is_scene, "*.", " and ");
     command
         .add_option("--up", options.up, "AXIS",
-                    "Axis that points up in *.usda, *.gltf and *.glb, and in a\n"
-                    "picture: x, y or z (default: guess from the mesh; y for a mesh\n"
-                    "of glTF). glTF is turned, as y points up there")
+                    wrapped("Axis that points up in " + scenes +
+                            ", and in a picture: x, y or z (default: guess from the mesh; y for "
+                            "a mesh of glTF). glTF is turned, as y points up there"))
         .offers({"x", "y", "z"});
     command.add_option("--units", options.units, "UNIT",
-                       "Unit of the mesh in *.usda, *.gltf and *.glb: mm, cm, m, km,\n"
-                       "in, ft or so many metres (default m)");
+                       wrapped("Unit of the mesh in " + scenes +
+                               ": mm, cm, m, km, in, ft or so many metres (default m)"));
 }
 
 void add_output_options(Command command, OutputOptions& options) {
     add_json_option(command, options);
     command
-        .add_option("--format", options.format, "NAME",
-                    "Write ply, csv, npz, pcd, glb, gltf, usda, obj or xyz,\n"
-                    "ignoring the extension of OUT")
+        .add_option(
+            "--format", options.format, "NAME",
+            wrapped("Write " + listed_formats(nullptr, "") + ", ignoring the extension of OUT"))
         .offers(sample_formats());
     add_scene_options(command, options);
     add_text_options(command, options);

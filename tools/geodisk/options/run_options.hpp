@@ -8,7 +8,7 @@
 #include <geodisk/runner.hpp>
 
 #include "files/output/files_in_use.hpp"
-#include "files/samples/sample_target.hpp"
+#include "files/samples/sample_format.hpp"
 #include "files/stream_path.hpp"
 #include "geodisk/options/record_options.hpp"
 
@@ -39,18 +39,13 @@ struct OutputOptions {
     bool has_summary() const { return !quiet && !is_standard_output(json); }
 };
 
-inline constexpr const char* kSampleFiles =
-    "File to write: *.ply, *.csv, *.npz, *.pcd, *.glb, *.gltf,\n"
-    "*.usda, *.obj (points, normals) or *.xyz (points)";
-/// The same where a name is not required.
-inline constexpr const char* kSampleFilesOrNone =
-    "File to write: *.ply, *.csv, *.npz, *.pcd, *.glb, *.gltf,\n"
-    "*.usda, *.obj (points, normals) or *.xyz (points); without\n"
-    "it NAME-samples.ply, which replaces no file";
+/// Help for a file of samples to write, and for one to read that is `use`: "Samples to check".
+std::string help_of_output();
+std::string help_of_input(const std::string& use, const std::string& more = "");
 
 /// Adds -o, described by `summary`.
 void add_output_argument(Command command, OutputOptions& options,
-                         const std::string& summary = kSampleFiles);
+                         const std::string& summary = help_of_output());
 
 /// Adds -o and --dry-run, one of which must be given.
 void add_output_or_dry_run(Command command, OutputOptions& options, const std::string& summary);

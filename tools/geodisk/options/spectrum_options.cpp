@@ -8,9 +8,9 @@ void add_spectrum_options(Command command, SpectrumOptions& options,
                           std::vector<std::string>& files) {
     command
         .add_option("MESH SAMPLES", files, "",
-                    "A mesh and samples on it: *.ply, *.csv, *.npz or *.pcd, or\n"
-                    "points of another program; or samples of boxes without a mesh.\n"
-                    "Several files of samples give their mean")
+                    help_of_input("A mesh and samples on it",
+                                  "; or samples of boxes without a mesh. "
+                                  "Several files of samples give their mean"))
         .required();
     command.add_option("-o,--output", options.out.output, "OUT",
                        "File to write: *.csv with radial mean and anisotropy; or, for\n"

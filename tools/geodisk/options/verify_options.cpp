@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "files/input_file.hpp"
+#include "files/samples/sample_format.hpp"
 #include "geodisk/options/class_options.hpp"
 #include "geodisk/options/given_fields.hpp"
 #include "geodisk/options/tolerance_option.hpp"
@@ -15,12 +16,10 @@ namespace {
 
 /// A single file must be one of samples in a box, which has nothing of a surface.
 void check_box(const VerifyOptions& options) {
-    const std::string extension = lower_extension(options.mesh.mesh);
-    constexpr std::string_view kOfSamples = ".ply .csv .xyz .npz .pcd "; // And of no mesh alone.
-    const bool is_known =
-        options.mesh.mesh == "-" ||
-        (!extension.empty() && kOfSamples.find(extension + ' ') != std::string_view::npos);
-    if (!is_known) {
+    const auto format = find_format(options.mesh.mesh);
+    const bool may_be_samples =
+        format && facts_of(*format).read != nullptr && format != SampleFormat::obj;
+    if (!may_be_samples && options.mesh.mesh != "-") {
         fail_usage("SAMPLES is required, except for samples in a box, which need no mesh");
     }
     if (!options.mesh.additions().empty() || options.density.is_given() ||
@@ -77,9 +76,7 @@ void add_verify_options(Command command, VerifyOptions& options) {
     add_mesh_argument(command, options.mesh,
                       "Mesh that the samples were made on; or, without SAMPLES,\n"
                       "samples of geodisk box");
-    command.add_option("SAMPLES", options.samples, "",
-                       "Samples to check: *.ply, *.csv, *.npz or *.pcd, or points of\n"
-                       "another program, also *.npy, *.obj and *.xyz");
+    command.add_option("SAMPLES", options.samples, "", help_of_input("Samples to check"));
     command.add_option("-d,--min-distance", options.min_distance, "D",
                        "Minimum distance along the surface, in mesh units or % of the\n"
                        "bounding-box diagonal (default: radii in the file, else the\n"

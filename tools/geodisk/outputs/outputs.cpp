@@ -6,6 +6,7 @@
 #include <set>
 #include <vector>
 
+#include "files/samples/sample_format.hpp"
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
 #include "program/interrupt.hpp"
@@ -101,13 +102,13 @@ void print_precision_note(const OutputOptions& options, std::span<const SampleRo
 }
 
 bool takes_column(const OutputOptions& options, std::string_view column) {
-    const SampleTarget target = options.target();
-    if (!has_columns(target)) {
-        print_warning(options.output + ": an " + extension_of(target.format) +
-                      " file has no columns, so the column " + std::string(column) +
-                      " is left out; use .ply, .csv, .npz, .pcd, .glb, .gltf or .usda to have it");
+    const SampleFormat format = options.target().format;
+    if (!facts_of(format).has_columns()) {
+        print_warning(options.output + ": " + a_file(format) + " has no columns, so the column " +
+                      std::string(column) + " is left out; use " +
+                      listed_formats(&FormatFacts::has_columns) + " to have it");
     }
-    return has_columns(target);
+    return facts_of(format).has_columns();
 }
 
 void flush_or_fail(const std::string& what) {

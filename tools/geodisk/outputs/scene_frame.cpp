@@ -1,6 +1,7 @@
 #include "geodisk/outputs/scene_frame.hpp"
 
 #include "files/input_file.hpp"
+#include "files/samples/sample_format.hpp"
 #include "geodisk/reports/json.hpp"
 #include "picture/scene.hpp"
 #include "picture/view.hpp"
@@ -15,21 +16,12 @@ bool is_of_gltf(const MeshOptions& mesh) {
     return extension == ".gltf" || extension == ".glb";
 }
 
-/// Returns the format of the output, if it is one of samples.
-std::optional<SampleFormat> format_of(const OutputOptions& options) {
-    const std::string name =
-        options.format.empty() ? lower_extension(options.output) : '.' + options.format;
-    return name.size() > 1 && is_sample_format(name.substr(1))
-               ? std::optional(options.target().format)
-               : std::nullopt;
-}
-
 } // namespace
 
 std::optional<SceneFrame> scene_frame(const OutputOptions& options, const MeshOptions& of_mesh,
                                       const MeshInput& mesh) {
-    const std::optional<SampleFormat> format = format_of(options);
-    if (!format || !is_scene(*format)) {
+    const auto format = find_format(options.output, options.format);
+    if (!format || !facts_of(*format).is_scene()) {
         return std::nullopt;
     }
     SceneFrame frame;
@@ -43,7 +35,8 @@ std::optional<SceneFrame> scene_frame(const OutputOptions& options, const MeshOp
             picture::make_scene(mesh.file.positions, mesh.dimension(), mesh.file.triangles));
         frame.reason = "a guess, --up sets it";
     }
-    frame.is_turned = frame.up != Up::y && (frame.up == Up::x || *format != SampleFormat::usda);
+    const bool holds_z = facts_of(*format).axes == SceneAxes::y_or_z;
+    frame.is_turned = frame.up != Up::y && (frame.up == Up::x || !holds_z);
     frame.metres_per_unit = options.target().metres_per_unit;
     return frame;
 }

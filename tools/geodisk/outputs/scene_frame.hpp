@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "files/samples/sample_target.hpp"
+#include "files/samples/sample_format.hpp"
 #include "geodisk/inputs/mesh_input.hpp"
 #include "geodisk/options/run_options.hpp"
 #include "geodisk/reports/json_type.hpp"
