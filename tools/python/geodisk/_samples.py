@@ -164,7 +164,7 @@ class Samples:
     (True, 10)
     """
 
-    points: NDArray[np.float64] | None = None
+    points: NDArray[np.float64] = None  # type: ignore[assignment]  # None without coordinates.
     normals: NDArray[np.float64] | None = None
     face_index: NDArray[np.uint32] | None = None
     barycentric: NDArray[np.float64] | None = None
