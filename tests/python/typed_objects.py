@@ -69,3 +69,7 @@ def use(
     one_sample: geodisk.Sample = a[0]
     chosen: geodisk.Samples = a[a.radius > 0][:5]
     return [a, b, c, d, many, one_sample, chosen]
+
+
+def coordinates_of_samples(samples: geodisk.Samples) -> tuple[float, NDArray[Any]]:
+    return float(samples.points[:, 0].max()), np.asarray(samples)
