@@ -270,6 +270,13 @@ TEST_CASE("updates of other samples, meshes and kinds are refused") {
         refused(3, "has samples of --", {"-d", "3", "--from", "old.ply", "--update", "other.ply"});
     }
     folder.write("bare.csv", "x,y,z,face_index,bary_u,bary_v,bary_w\n0,0,0,0,1,0,0\n");
+    REQUIRE(
+        run(folder, {"sample", "old.ply", "-o", "seams.ply", "-d", "3", "--keep-seams"}).status ==
+        0);
+    refused(3, "seams.ply: has as its keep_seams yes, not none",
+            {"-d", "3", "--from", "old.ply", "--update", "seams.ply"});
+    refused(3, "a.ply: has as its keep_seams none, not yes",
+            joined(edit, {"-d", "3", "--keep-seams"}));
     refused(3, "does not say its seed and minimum distance",
             {"-d", "3", "--from", "old.ply", "--update", "bare.csv"});
     refused(2, "--from takes no --avoid", joined(edit, {"-d", "3", "--avoid", "a.ply:1"}));

@@ -511,6 +511,9 @@ TEST_SUITE("cells") {
         for (std::size_t i = 0; i < samples.size(); ++i) {
             CHECK(some.areas[i] + others.areas[i] == doctest::Approx(all.areas[i]).epsilon(1e-9));
         }
+        const std::vector<std::uint8_t> none(mask.size(), 0);
+        params.face_mask = none;
+        CHECK_FALSE(find_cells(cells_runner(), knot, samples, params));
         params.face_mask = std::span(mask).first(mask.size() - 1);
         CHECK_FALSE(find_cells(cells_runner(), knot, samples, params));
     }

@@ -132,6 +132,28 @@ constexpr auto kLastField = RequestField::split_from;
 } // namespace
 
 TEST_SUITE("request") {
+    TEST_CASE("more existing samples than the stop count are refused, with features too") {
+        const TestMesh shape = builtin("cube", 3);
+        const PreparedMesh mesh = prepared(shape);
+        const MeshView view = shape.view();
+        const std::vector<Sample> existing{{0, {1, 0, 0}}, {9, {1, 0, 0}}, {20, {0, 1, 0}}};
+        Runner runner = request_runner();
+        SampleRequest request;
+        request.params.min_distance = 0.2;
+        request.params.existing = existing;
+        request.params.stop_count = 2;
+        request.view = &view;
+        for (const double features : {0.0, 30.0}) {
+            request.features = features;
+            const auto refused = sample(runner, mesh, request);
+            REQUIRE_FALSE(refused);
+            CHECK(refused.error().message ==
+                  "there are 3 existing samples, more than the stop count of 2");
+        }
+        request.params.stop_count = 3;
+        CHECK(expect(sample(runner, mesh, request)).set.samples.size() == 3);
+    }
+
     TEST_CASE("features come first, at each distance that a count tries") {
         const TestMesh shape = builtin("cube", 3);
         const PreparedMesh mesh = prepared(shape);

@@ -320,6 +320,34 @@ def test_another_pool_ratio_than_that_of_the_samples_is_refused(made, told, tmp_
     assert same(geodisk.update(read, edited, **of_mesh), whole(edited, pool_ratio=made))
 
 
+@pytest.mark.parametrize("ratio", ["nan", "many", "0"])
+def test_a_wrong_pool_ratio_of_a_file_is_refused(ratio, tmp_path):
+    whole(pool_ratio=40).save(tmp_path / "a.csv")
+    text = (tmp_path / "a.csv").read_text().replace("pool_ratio: 40", f"pool_ratio: {ratio}")
+    (tmp_path / "a.csv").write_text(text)
+    read = geodisk.read(tmp_path / "a.csv")
+    for before in (None, {"pool_ratio": 40}):
+        with pytest.raises(geodisk.InvalidArgument, match="wrong pool_ratio"):
+            geodisk.update(read, moved(), vertices=VERTICES, faces=FACES, before=before)
+
+
+@pytest.mark.filterwarnings("ignore::geodisk.MeshWarning")
+def test_samples_of_a_mesh_joined_in_another_way_are_refused(tmp_path):
+    # Two squares that share a side, whose vertices are there twice.
+    seam = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [1, 0, 0], [2, 0, 0], [2, 1, 0], [1, 1, 0]], float)
+    faces = [[0, 1, 2], [0, 2, 3], [4, 5, 6], [4, 6, 7]]
+    edited = seam * 1.0
+    edited[0, 2] = 0.1
+    for made, other in ((True, False), (False, True)):
+        samples = geodisk.sample(seam, faces, min_distance=0.15, keep_seams=made)
+        samples.save(tmp_path / "a.csv")
+        read = geodisk.read(tmp_path / "a.csv")
+        with pytest.raises(geodisk.InvalidArgument, match="made with.* keep_seams"):
+            geodisk.update(read, edited, vertices=seam, faces=faces, keep_seams=other)
+        there = geodisk.update(read, edited, vertices=seam, faces=faces, keep_seams=made)
+        assert same(there, geodisk.sample(edited, faces, min_distance=0.15, keep_seams=made))
+
+
 def test_samples_of_a_file_need_all_parameters_that_made_them(tmp_path):
     density = 1 + (VERTICES[:, 0] > 0)
     mask = VERTICES[FACES].mean(axis=1)[:, 2] > 0

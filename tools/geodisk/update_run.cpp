@@ -156,9 +156,10 @@ void check_job(const SampleFile& file, const SampleJob& job, double min_distance
         fail_input(job.update, "has as its " + std::string(key) + " " + told(is) + ", not " +
                                    told(should) + "; give the options it was made with");
     };
-    const HeaderEntries wanted = with_entries(job.density.added_to({}), job.mask);
+    const HeaderEntries wanted = job.additions();
     for (const char* const key :
-         {"density", "radius_factor", "radius_factor_floor", "mask", "only"}) {
+         {"coordinates", "edge_lengths", "lift", "weld", "keep_seams", "density", "radius_factor",
+          "radius_factor_floor", "mask", "only"}) {
         const std::string is = values_of(key, file.header.entries);
         const std::string should = values_of(key, wanted);
         if (is != should) {

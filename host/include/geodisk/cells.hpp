@@ -64,10 +64,10 @@ struct SurfaceCells {
 /// any memory size. Progress counts samples twice as candidates: when their disks are computed, and
 /// when their cells are. Returns `cancelled` if it asks to stop.
 ///
-/// Errors: `invalid_argument` for no sample, or a mask of another size; for a sample, naming it, in
-/// a face that does not exist or repeats a vertex or with weights that are negative or do not sum
-/// to 1. `job_too_large` for more than `max_records`, naming how many to expect. Others as
-/// Runner::sample_and_wait().
+/// Errors: `invalid_argument` for no sample, or a mask of another size or of no face; for a sample,
+/// naming it, in a face that does not exist or repeats a vertex or with weights that are negative
+/// or do not sum to 1. `job_too_large` for more than `max_records`, naming how many to expect.
+/// Others as Runner::sample_and_wait().
 GEODISK_API Result<SurfaceCells> find_cells(Runner& runner, const PreparedMesh& mesh,
                                             std::span<const Sample> samples,
                                             const CellParams& params = {},

@@ -58,6 +58,13 @@ class FreeNames {
         find_number();
     }
 
+    /// Returns true if another program has taken a name; chooses the next one then.
+    bool are_taken() {
+        const int before = number_;
+        find_number();
+        return number_ != before;
+    }
+
     std::string name(std::size_t file) const {
         return (number_ == 1 ? base_ : base_ + '-' + std::to_string(number_)) + endings_[file];
     }
@@ -209,19 +216,30 @@ void sample_to_free_names(SampleOptions options, bool draws) {
         endings.emplace_back(".png");
     }
     FreeNames names(base_name(options.mesh.mesh), endings);
-    options.out.output = names.name(0);
-    if (names_picture) {
-        options.picture = names.name(1);
-    }
-    bool has_picture = names_picture;
+    bool has_picture = names_picture, are_claimed = false;
     const auto name = [&](const std::vector<AtomicFile*>& files, std::string& output,
                           std::string& picture) {
         names.claim(files);
+        are_claimed = true;
         output = names.name(0);
         has_picture = !picture.empty();
         picture = names_picture && has_picture ? names.name(1) : picture;
     };
-    sample_to_files(options, {name, names_picture});
+    for (bool is_done = false; !is_done;) {
+        options.out.output = names.name(0);
+        if (names_picture) {
+            options.picture = names.name(1);
+        }
+        try {
+            sample_to_files(options, {name, names_picture});
+            is_done = true;
+        } catch (const UserError& error) {
+            // Where another program takes the names meanwhile, the next ones will do.
+            if (are_claimed || error.code() != ExitCode::bad_output || !names.are_taken()) {
+                throw;
+            }
+        }
+    }
     if (names_picture && !has_picture && options.out.has_summary()) {
         std::cout << "picture       none, the device cannot draw\n";
         flush_or_fail("the summary");
@@ -234,7 +252,7 @@ void add_quick_command(Command app) {
                                  "NAME-samples.ply, and a picture; never replace a file");
     const auto options = std::make_shared<QuickOptions>();
     add_mesh_arguments(command, options->meshes, "Meshes to sample");
-    add_sample_options(command, options->sample);
+    add_sample_options(command, options->sample, kNamedByMesh);
     command.has_footer(help_footer(kQuickExamples));
     command.calls([options] { run_quick(*options); });
 }

@@ -145,7 +145,7 @@ void add_sample_command(Command app) {
         app.add_command("sample", "Put samples on a mesh and write them to a file");
     const auto options = std::make_shared<SampleOptions>();
     add_mesh_argument(command, options->mesh, "Mesh to sample");
-    add_sample_options(command, *options);
+    add_sample_options(command, *options, kNamedByMesh);
     command.has_footer(help_footer(kSampleExamples));
     command.calls([options] {
         if (options->out.output.empty() && !options->out.is_dry_run) {

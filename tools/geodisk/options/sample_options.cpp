@@ -184,10 +184,8 @@ SampleJob parse_job(const SampleOptions& options) {
     return job;
 }
 
-void add_sample_options(Command command, SampleOptions& options) {
-    add_output_or_dry_run(command, options.out,
-                          help_of_output() +
-                              "\n(default NAME-samples.ply, which replaces no file)");
+void add_sample_options(Command command, SampleOptions& options, const std::string& unnamed) {
+    add_output_or_dry_run(command, options.out, help_of_output() + unnamed);
     add_job_options(command, options);
     command.add_option("--from", options.from, "OLD_MESH",
                        "Sample the mesh as an edit of OLD_MESH: with the distance and\n"

@@ -37,8 +37,12 @@ struct SampleOptions {
     std::string from, update;
 };
 
-/// Adds all options of the command but the mesh; `options` must outlive the parsing.
-void add_sample_options(Command command, SampleOptions& options);
+/// Adds all options of the command but the mesh; `options` must outlive the parsing. `unnamed` says
+/// which file is written without -o, if any may be.
+void add_sample_options(Command command, SampleOptions& options, const std::string& unnamed = "");
+
+/// `unnamed` for a file that is named by the mesh.
+inline constexpr const char* kNamedByMesh = "\n(default NAME-samples.ply, which replaces no file)";
 
 /// Adds those that say what is sampled besides the mesh file, and so hold all that the samples
 /// depend on.

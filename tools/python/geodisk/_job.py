@@ -45,10 +45,31 @@ TOLD = {
     "maximal": "maximal",
     "existing": "existing",
     "avoid": "avoid",
+    "lift": "lift",
+    "coordinates": "coordinates",
+    "edge_lengths": "edge_lengths",
 }
 
-#: Those of one value each, which samples keep and headers tell again.
-VALUES = ("pool_ratio", "darts", "exact", "metric", "features", "maximal", "kept_of")
+#: Entries of one value each, which samples keep and headers tell again; also how the mesh was joined.
+VALUES = (
+    *("pool_ratio", "darts", "exact", "metric", "features", "maximal", "kept_of"),
+    *("weld", "keep_seams"),
+)
+
+
+def joins_of(weld: bool | float, keep_seams: bool) -> dict[str, str]:
+    """Returns how a mesh was joined, as headers tell it."""
+    told = {}
+    if weld is not False:
+        told["weld"] = "exact" if weld is True or weld == 0 else exact_text(weld)
+    if keep_seams:
+        told["keep_seams"] = "yes"
+    return told
+
+
+def exact_text(number: float) -> str:
+    """Returns a number as the program writes it."""
+    return repr(float(number)).removesuffix(".0")
 
 
 @dataclass(frozen=True)

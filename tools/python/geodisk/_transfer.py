@@ -102,8 +102,9 @@ def transfer(
 
     def make(record: Record, read: Sequence[str]) -> Mesh:
         if is_mesh(to):
+            joins = (False, False) if isinstance(to, Mesh) else (own_weld, own_seams)
             return mesh_of(
-                to, None, None, False, attributes=read, record=record, allow_outside=allow_outside
+                to, None, None, *joins, attributes=read, record=record, allow_outside=allow_outside
             )
         if read:
             raise TypeError("attributes are for meshes from files")

@@ -21,7 +21,7 @@ from ._devices import DeviceLike, name_of
 from ._existing import POINT, AvoidLike, ExistingLike, avoided_of, existing_of, points_of
 from ._inherited import Wanted
 from ._inputs import surface_of
-from ._job import FOLLOWED, Job, JobFrame
+from ._job import FOLLOWED, Job, JobFrame, joins_of
 from ._mesh import Mesh, is_mesh, keys_of, mask_of, mesh_of
 from ._protocols import Faces, MeshLike
 from ._radii import one_of, radii_of
@@ -146,6 +146,7 @@ def update(
     _check_radii(job, density, radius_factor)
     chosen = {name: x for name, x in given.items() if x is not None}
     edited = dataclasses.replace(job, **chosen)
+    _check_joins(samples, before_edit)
     old = _Side(before_edit, job, samples)
     if existing is None:
         edited = dataclasses.replace(edited, existing=old.existing)
@@ -202,6 +203,16 @@ def update(
         there = coloured(there, old.mesh, wanted.inherited(samples).texture)
     wanted.warn_of_lost(samples, there)
     return there
+
+
+def _check_joins(samples: Samples, mesh: Mesh) -> None:
+    """Raises if the mesh before is joined in another way than that of the samples."""
+    own = joins_of(mesh._surface.weld, mesh._surface.keep_seams)
+    for name in ("weld", "keep_seams"):
+        told = samples._told.get(name)
+        if told != own.get(name):
+            made = f"with {name}={told}" if told else f"without {name}"
+            raise e.invalid(f"the samples were made {made}; give the mesh before in the same way")
 
 
 class _Side:
@@ -264,7 +275,7 @@ def _job_of(samples: Samples, before: Mapping[str, Any] | None) -> Job:
         )
     given = _parameters(before)
     ratio = samples._told.get("pool_ratio")
-    job = samples._job or Job(pool_ratio=20 if ratio is None else float(ratio))
+    job = samples._job or Job(pool_ratio=_ratio_of(ratio))
     if given.get("pool_ratio", job.pool_ratio) != job.pool_ratio:
         raise e.invalid(
             f"the samples were made with the pool_ratio {job.pool_ratio:g}, not {given['pool_ratio']}"
@@ -276,6 +287,18 @@ def _job_of(samples: Samples, before: Mapping[str, Any] | None) -> Job:
             f"before={{{unknown[0]!r}: ...}}"
         )
     return dataclasses.replace(job, **given)
+
+
+def _ratio_of(told: str | None) -> float:
+    """Returns the pool ratio that a header tells."""
+    if told is None:
+        return 20
+    try:
+        ratio = float(told)
+        check_pool(None, ratio)
+    except ValueError:  # InvalidArgument is one.
+        raise e.invalid(f"the header of the samples has a wrong pool_ratio: {told!r}") from None
+    return ratio
 
 
 def _parameters(before: Mapping[str, Any] | None) -> dict[str, Any]:
@@ -406,8 +429,9 @@ def _edited_mesh(
 
     def make(record: Record, read: Sequence[str]) -> Mesh:
         if to is not None and is_mesh(to):
+            joins = (False, False) if isinstance(to, Mesh) else (source.weld, source.keep_seams)
             return mesh_of(
-                to, to_faces, None, False, attributes=read, record=record,
+                to, to_faces, None, *joins, attributes=read, record=record,
                 allow_outside=allow_outside,
             )
         own = _named(source, read)

@@ -16,7 +16,7 @@ from ._devices import DeviceLike
 from ._existing import AvoidLike, ExistingLike, avoided_of, existing_of
 from ._farthest import put_farthest_first
 from ._features import degrees_of
-from ._job import Job, JobFrame
+from ._job import Job, JobFrame, exact_text, joins_of
 from ._levels import levels_of
 from ._mesh import Mesh, keys_of, mask_of
 from ._oddities import oddities_of_set, warn, warn_of_whole_mask
@@ -26,7 +26,6 @@ from ._rules import check_fields
 from ._running import ProgressCallback
 from ._samples import Samples
 from ._values import check_exact, check_pool, choice, distance_of, flag, integer, seed_of
-from ._writing import exact_text
 
 
 class Wanted:
@@ -162,7 +161,9 @@ class Wanted:
             "avoid": avoid is not None,
         }
         self._options = [name for name, is_chosen in chosen.items() if is_chosen]
-        self._told = {} if metric == "geodesic" else {"metric": metric}
+        self._told = joins_of(mesh._surface.weld, mesh._surface.keep_seams)
+        if metric != "geodesic":
+            self._told["metric"] = metric
         if pool_ratio != 20:
             self._told["pool_ratio"] = exact_text(pool_ratio)
         if features is not None:

@@ -88,11 +88,6 @@ def header_of(samples: Samples) -> Header:
     return header
 
 
-def exact_text(number: float) -> str:
-    """Returns a number as the program writes it."""
-    return repr(float(number)).removesuffix(".0")
-
-
 def digest_of(faces: NDArray[np.uint32], weights: NDArray[np.float64]) -> str:
     """The sum of the FNV-1a hashes of samples, as the program has it."""
     words = np.column_stack([faces, weights.astype(np.float32).view(np.uint32)])

@@ -62,6 +62,10 @@ Result<std::unique_ptr<LitSamples>> LitSamples::make(Runner& runner, const Prepa
         return invalid("the face mask is for " + std::to_string(params.face_mask.size()) +
                        " faces, the mesh has " + std::to_string(mesh.face_count()));
     }
+    if (!params.face_mask.empty() && std::ranges::count(params.face_mask, 0) ==
+                                         static_cast<std::ptrdiff_t>(params.face_mask.size())) {
+        return invalid("the face mask leaves out all faces");
+    }
     auto made = std::make_unique<LitSamples>();
     made->params = params;
     made->progress = progress;

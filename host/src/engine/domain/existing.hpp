@@ -18,6 +18,9 @@
 
 namespace geodisk {
 
+/// Returns the error of more existing samples than the stop count.
+std::string too_few_to_stop(std::size_t existing, std::uint32_t stop_count);
+
 /// Checks the existing samples and points to avoid of a job. Errors name the sample.
 Result<Done> check_existing(const PreparedMesh& mesh, const SampleParams& params);
 

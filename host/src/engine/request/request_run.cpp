@@ -8,6 +8,7 @@
 
 #include <geodisk/request.hpp>
 
+#include "engine/domain/existing.hpp"
 #include "engine/domain/stages.hpp"
 #include "engine/request/check_fields.hpp"
 #include "engine/request/tries.hpp"
@@ -105,6 +106,9 @@ Result<Done> SurfaceSteps::prepare() {
     if (request_.count != 0 && static_cast<double>(existing) >= request_.count) {
         return invalid("count is " + number_text(request_.count) + ", but " +
                        std::to_string(existing) + " existing samples count too");
+    }
+    if (const std::uint32_t stop = request_.params.stop_count; stop != 0 && existing > stop) {
+        return invalid(too_few_to_stop(existing, stop));
     }
     if (request_.keep != 0 && request_.order != SampleOrder::farthest) {
         return invalid("keep is for the farthest order");
