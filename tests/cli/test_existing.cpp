@@ -313,6 +313,22 @@ TEST_CASE("empty files of samples to keep and points to avoid change nothing, wi
           rows({"--classes", "2"}, ""));
 }
 
+TEST_CASE("distances through space keep existing samples too") {
+    const TemporaryFolder folder;
+    REQUIRE(run(folder, {"sample", kExistingMesh, "-o", "a.csv", "-n", "50"}).status == 0);
+    const Outcome more =
+        run(folder, {"sample", kExistingMesh, "-o", "b.csv", "-d", "0.05", "--metric", "euclidean",
+                     "--existing", "a.csv", "--seed", "2"});
+    INFO(more.err);
+    REQUIRE(more.status == 0);
+    const auto before = tools::read_samples(folder / "a.csv").rows;
+    const auto after = tools::read_samples(folder / "b.csv").rows;
+    REQUIRE(after.size() > before.size());
+    for (std::size_t i = 0; i < before.size(); ++i) {
+        CHECK(after[i].face == before[i].face);
+    }
+}
+
 TEST_CASE("existing samples that cannot be kept are refused") {
     const TemporaryFolder folder;
     REQUIRE(run(folder, {"sample", kExistingMesh, "-o", "a.ply", "-n", "50"}).status == 0);
@@ -331,9 +347,6 @@ TEST_CASE("existing samples that cannot be kept are refused") {
     fails(3, "none.ply", {"-d", "0.1", "--existing", "none.ply"});
     fails(2, "--tolerance is for points that are read; give --existing or --avoid",
           {"-d", "0.1", "--tolerance", "1"});
-    fails(2,
-          "--metric euclidean and --existing exclude each other: existing samples keep distances",
-          {"-d", "0.1", "--metric", "euclidean", "--existing", "a.ply"}, kExistingMesh);
     fails(2, "samples of --existing count too, so ask for more than",
           {"-n", "20", "--existing", "a.ply"}, kExistingMesh);
     check_fails(folder, 2, "the samples would replace the existing samples",

@@ -40,7 +40,6 @@ constexpr RequestRule kRules[] = {
     {Field::farthest, Field::split_from, "samples are ordered where they are told"},
     {Field::farthest, Field::metric, "the order goes by distances along the surface"},
     {Field::metric, Field::radii, "distances through space do not vary"},
-    {Field::metric, Field::existing, "existing samples keep distances along the surface"},
     {Field::metric, Field::avoid, "disks to avoid lie along the surface"},
     {Field::metric, Field::frame, "frames are for distances along the surface"},
     {Field::frame, Field::count, "a frame has a distance already"},
