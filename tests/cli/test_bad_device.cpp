@@ -74,6 +74,8 @@ TEST_CASE("no such device") {
     std::vector<std::string> arguments = kSample;
     arguments.insert(arguments.end(), {"--device", "abacus"});
     check_fails(folder, 5, "abacus", arguments);
+    const Outcome outcome = run(folder, arguments);
+    CHECK_FALSE(contains(outcome.err, "none of them works"));
 }
 
 TEST_CASE("a device can be chosen by index") {

@@ -78,7 +78,7 @@ TEST_CASE("neighbours of vertices, points and each other") {
     CHECK(lines_of(found(folder, {"builtin:cube:1", "--within", "1.1", "--mask", "z>=0.5",
                                   "--among", "sources"}))
               .size() == 9);
-    write(folder, "some.txt", "# vertices\r\n3,\n 0-1 # two\n");
+    write(folder, "some.txt", "\xEF\xBB\xBF# vertices\r\n3,\n 0-1 # two\n");
     CHECK(found(folder, {"square.obj", "--within", "1.1", "--vertices", "@some.txt", "--among",
                          "sources"}) == "source,target,distance\n3,0,1\n0,3,1\n0,1,1\n1,0,1\n");
     write(folder, "points.csv", "x,y,z,reach\n0.5,0.25,0,0.3\n0,1,0,2\n");

@@ -238,7 +238,8 @@ std::vector<std::string> missing_drivers(std::span<const DeviceReport> devices) 
 }
 
 std::string with_driver_fault(const std::string& message) {
-    const std::string fault = driver_fault();
+    const bool has_devices = message.starts_with("no Vulkan device matches");
+    const std::string fault = has_devices ? "" : driver_fault();
     if (fault.empty()) {
         return message;
     }

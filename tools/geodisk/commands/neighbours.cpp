@@ -2,12 +2,12 @@
 #include <cmath>
 #include <memory>
 #include <optional>
-#include <sstream>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "files/text_file.hpp"
+#include "files/text_lines.hpp"
 #include "geodisk/checks/run_warnings.hpp"
 #include "geodisk/checks/sample_input.hpp"
 #include "geodisk/commands/commands.hpp"
@@ -97,18 +97,18 @@ std::string vertex_file(const NeighbourOptions& options) {
 /// Reads numbers and ranges between blanks, commas and lines; '#' begins a comment.
 std::vector<VertexRange> vertices_in(const std::string& file) {
     std::vector<VertexRange> ranges;
-    std::istringstream text(read_text(file));
-    std::string line;
-    for (std::size_t number = 1; std::getline(text, line); ++number) {
-        line.erase(std::min(line.find('#'), line.size()));
-        std::ranges::replace_if(
-            line, [](char c) { return c == ',' || c == '\r'; }, ' ');
+    const std::string text = read_text(file);
+    TextLines lines(text);
+    for (std::string_view read; lines.next(read);) {
+        std::string line(without_comment(read));
+        std::ranges::replace(line, ',', ' ');
         std::vector<std::string_view> words;
         split_tokens(line, words);
         for (const std::string_view word : words) {
             const auto range = parsed_range(word);
             if (!range) {
-                fail_input(file, "line " + std::to_string(number) + ": " + no_range_text(word));
+                fail_input(file,
+                           "line " + std::to_string(lines.number()) + ": " + no_range_text(word));
             }
             ranges.push_back(*range);
         }
