@@ -34,6 +34,21 @@ FrameSamplerOptions options_of(const geodisk_frame_options& given) {
     return options;
 }
 
+/// Makes a frame sampler by `make(sampler, options)`, which keeps what it samples.
+template <class Make>
+Result<Done> create_frames(const geodisk_device& device, const geodisk_frame_options* options,
+                           std::shared_ptr<const void> sampled, geodisk_frame_sampler*& frames,
+                           const Make& make) {
+    const auto wanted = taken_if_any(options, "options");
+    GEODISK_TRY(wanted);
+    auto sampler = device.shared->sampler();
+    GEODISK_TRY(sampler);
+    auto made = make(std::move(*sampler), options_of(*wanted));
+    GEODISK_TRY(made);
+    frames = new geodisk_frame_sampler{device.shared, std::move(sampled), std::move(*made)};
+    return Done{};
+}
+
 } // namespace
 } // namespace geodisk::c
 
@@ -49,17 +64,11 @@ geodisk_status geodisk_frame_sampler_create_requests(
         if (device == nullptr || frames == nullptr) {
             return wrong("device or frames is NULL");
         }
-        const auto wanted = taken_if_any(options, "options");
-        GEODISK_TRY(wanted);
         auto state = requests_of(requests, count);
         GEODISK_TRY(state);
-        auto sampler = device->shared->sampler();
-        GEODISK_TRY(sampler);
-        auto made =
-            FrameSampler::create(std::move(*sampler), (*state)->on_meshes(), options_of(*wanted));
-        GEODISK_TRY(made);
-        *frames = new geodisk_frame_sampler{device->shared, std::move(*state), std::move(*made)};
-        return Done{};
+        return create_frames(*device, options, *state, *frames, [&](auto sampler, const auto& own) {
+            return FrameSampler::create(std::move(sampler), (*state)->on_meshes(), own);
+        });
     });
 }
 
@@ -71,19 +80,15 @@ geodisk_status geodisk_frame_sampler_create(const geodisk_device* device,
         if (device == nullptr || domain == nullptr || frames == nullptr) {
             return wrong("device, domain or frames is NULL");
         }
-        const auto wanted = taken_if_any(options, "options");
-        GEODISK_TRY(wanted);
-        auto sampler = device->shared->sampler();
-        GEODISK_TRY(sampler);
         std::vector<MeshView> meshes;
         for (const Part& part : domain->shared->parts) {
             meshes.push_back(part.mesh->view());
         }
-        auto made = FrameSampler::create(std::move(*sampler), *domain->shared->domain, meshes,
-                                         options_of(*wanted));
-        GEODISK_TRY(made);
-        *frames = new geodisk_frame_sampler{device->shared, domain->shared, std::move(*made)};
-        return Done{};
+        return create_frames(*device, options, domain->shared, *frames,
+                             [&](auto sampler, const auto& own) {
+                                 return FrameSampler::create(std::move(sampler),
+                                                             *domain->shared->domain, meshes, own);
+                             });
     });
 }
 

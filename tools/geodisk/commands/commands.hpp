@@ -38,9 +38,9 @@ struct UnnamedOutputs {
 void sample_to_files(const SampleOptions& options, const UnnamedOutputs& unnamed = {},
                      SurfaceSampler* sampler = nullptr);
 
-/// Runs `sample` into a file of the current folder that is named by the mesh and replaces none; if
-/// it `draws`, also a picture unless the user names one.
-void sample_to_free_names(SampleOptions options, bool draws);
+/// Runs `sample`. Without -o it writes a file of the current folder that is named by the mesh and
+/// replaces none; if it `draws`, also a picture unless the user names one.
+void sample_as_named(const SampleOptions& options, bool draws);
 
 /// Samples a mesh and draws the samples, into files of the current folder named by the mesh.
 void add_quick_command(Command app);

@@ -101,11 +101,43 @@ class FreeNames {
     int number_ = 1;
 };
 
-void sample_one(const SampleOptions& options) {
-    if (options.out.output.empty() && !options.out.is_dry_run) {
-        sample_to_free_names(options, true);
-    } else {
-        sample_to_files(options);
+/// Samples into files of the current folder that are named by the mesh and replace none.
+void sample_to_free_names(SampleOptions options, bool draws) {
+    const bool is_visible = options.mesh.edge_lengths.empty() || !options.mesh.coordinates.empty();
+    const bool names_picture = draws && options.picture.empty() && is_visible;
+    std::vector<std::string> endings{'.' +
+                                     (options.out.format.empty() ? "ply" : options.out.format)};
+    if (names_picture) {
+        endings.emplace_back(".png");
+    }
+    FreeNames names(base_name(options.mesh.mesh), endings);
+    bool has_picture = names_picture, are_claimed = false;
+    const auto name = [&](const std::vector<AtomicFile*>& files, std::string& output,
+                          std::string& picture) {
+        names.claim(files);
+        are_claimed = true;
+        output = names.name(0);
+        has_picture = !picture.empty();
+        picture = names_picture && has_picture ? names.name(1) : picture;
+    };
+    for (bool is_done = false; !is_done;) {
+        options.out.output = names.name(0);
+        if (names_picture) {
+            options.picture = names.name(1);
+        }
+        try {
+            sample_to_files(options, {name, names_picture});
+            is_done = true;
+        } catch (const UserError& error) {
+            // Where another program takes the names meanwhile, the next ones will do.
+            if (are_claimed || error.code() != ExitCode::bad_output || !names.are_taken()) {
+                throw;
+            }
+        }
+    }
+    if (names_picture && !has_picture && options.out.has_summary()) {
+        std::cout << "picture       none, the device cannot draw\n";
+        flush_or_fail("the summary");
     }
 }
 
@@ -142,7 +174,7 @@ void sample_each(const QuickOptions& options) {
     for (const std::string& mesh : options.meshes) {
         one.mesh.mesh = mesh;
         try {
-            sample_one(one);
+            sample_as_named(one, true);
         } catch (const UserError& error) {
             if (ends_all(error)) {
                 throw;
@@ -166,7 +198,7 @@ void run_quick(QuickOptions options) {
         sample_each(options);
     } else {
         sample.mesh.mesh = options.meshes.front();
-        sample_one(sample);
+        sample_as_named(sample, true);
     }
 }
 
@@ -207,42 +239,11 @@ CommandFacts quick_facts(Command app) {
 
 } // namespace
 
-void sample_to_free_names(SampleOptions options, bool draws) {
-    const bool is_visible = options.mesh.edge_lengths.empty() || !options.mesh.coordinates.empty();
-    const bool names_picture = draws && options.picture.empty() && is_visible;
-    std::vector<std::string> endings{'.' +
-                                     (options.out.format.empty() ? "ply" : options.out.format)};
-    if (names_picture) {
-        endings.emplace_back(".png");
-    }
-    FreeNames names(base_name(options.mesh.mesh), endings);
-    bool has_picture = names_picture, are_claimed = false;
-    const auto name = [&](const std::vector<AtomicFile*>& files, std::string& output,
-                          std::string& picture) {
-        names.claim(files);
-        are_claimed = true;
-        output = names.name(0);
-        has_picture = !picture.empty();
-        picture = names_picture && has_picture ? names.name(1) : picture;
-    };
-    for (bool is_done = false; !is_done;) {
-        options.out.output = names.name(0);
-        if (names_picture) {
-            options.picture = names.name(1);
-        }
-        try {
-            sample_to_files(options, {name, names_picture});
-            is_done = true;
-        } catch (const UserError& error) {
-            // Where another program takes the names meanwhile, the next ones will do.
-            if (are_claimed || error.code() != ExitCode::bad_output || !names.are_taken()) {
-                throw;
-            }
-        }
-    }
-    if (names_picture && !has_picture && options.out.has_summary()) {
-        std::cout << "picture       none, the device cannot draw\n";
-        flush_or_fail("the summary");
+void sample_as_named(const SampleOptions& options, bool draws) {
+    if (options.out.output.empty() && !options.out.is_dry_run) {
+        sample_to_free_names(options, draws);
+    } else {
+        sample_to_files(options);
     }
 }
 

@@ -147,13 +147,7 @@ void add_sample_command(Command app) {
     add_mesh_argument(command, options->mesh, "Mesh to sample");
     add_sample_options(command, *options, kNamedByMesh);
     command.has_footer(help_footer(kSampleExamples));
-    command.calls([options] {
-        if (options->out.output.empty() && !options->out.is_dry_run) {
-            sample_to_free_names(*options, false);
-        } else {
-            sample_to_files(*options);
-        }
-    });
+    command.calls([options] { sample_as_named(*options, false); });
 }
 
 } // namespace geodisk::tools

@@ -58,10 +58,7 @@ Result<std::unique_ptr<LitSamples>> LitSamples::make(Runner& runner, const Prepa
                                                      const CellParams& params,
                                                      const ProgressCallback& progress) {
     GEODISK_TRY(check_samples(mesh, samples));
-    if (!params.face_mask.empty() && params.face_mask.size() != mesh.face_count()) {
-        return invalid("the face mask is for " + std::to_string(params.face_mask.size()) +
-                       " faces, the mesh has " + std::to_string(mesh.face_count()));
-    }
+    GEODISK_TRY(check_mask_size(mesh, params.face_mask));
     if (!params.face_mask.empty() && std::ranges::count(params.face_mask, 0) ==
                                          static_cast<std::ptrdiff_t>(params.face_mask.size())) {
         return invalid("the face mask leaves out all faces");

@@ -53,9 +53,13 @@ std::array<float, 2> rounded_weights(const float (&weights)[3]) {
     return {static_cast<float>(second * 0x1p-24), static_cast<float>(third * 0x1p-24)};
 }
 
-std::string too_few_to_stop(std::size_t existing, std::uint32_t stop_count) {
-    return "there are " + std::to_string(existing) +
-           " existing samples, more than the stop count of " + std::to_string(stop_count);
+Result<Done> check_stop_count(const SampleParams& params) {
+    if (params.stop_count != 0 && params.existing.size() > params.stop_count) {
+        return invalid("there are " + std::to_string(params.existing.size()) +
+                       " existing samples, more than the stop count of " +
+                       std::to_string(params.stop_count));
+    }
+    return Done{};
 }
 
 Result<Done> check_existing(const PreparedMesh& mesh, const SampleParams& params) {
@@ -75,10 +79,7 @@ Result<Done> check_existing(const PreparedMesh& mesh, const SampleParams& params
                            ", which is not positive and finite");
         }
     }
-    if (params.stop_count != 0 && params.existing.size() > params.stop_count) {
-        return invalid(too_few_to_stop(params.existing.size(), params.stop_count));
-    }
-    return Done{};
+    return check_stop_count(params);
 }
 
 void add_existing(const SampleParams& params, std::uint32_t first_face,

@@ -18,8 +18,8 @@
 
 namespace geodisk {
 
-/// Returns the error of more existing samples than the stop count.
-std::string too_few_to_stop(std::size_t existing, std::uint32_t stop_count);
+/// Checks that there are no more existing samples than the stop count.
+Result<Done> check_stop_count(const SampleParams& params);
 
 /// Checks the existing samples and points to avoid of a job. Errors name the sample.
 Result<Done> check_existing(const PreparedMesh& mesh, const SampleParams& params);

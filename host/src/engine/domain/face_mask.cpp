@@ -8,6 +8,7 @@
 
 #include "engine/domain/device_mesh.hpp"
 #include "support/invalid.hpp"
+#include "support/try.hpp"
 
 namespace geodisk {
 namespace {
@@ -24,14 +25,19 @@ double whole_area(const PreparedMesh& mesh, const SampleParams& params) noexcept
     return params.radii != nullptr ? params.radii->effective_area() : mesh.statistics().area;
 }
 
+Result<Done> check_mask_size(const PreparedMesh& mesh, std::span<const std::uint8_t> mask) {
+    if (!mask.empty() && mask.size() != mesh.face_count()) {
+        return invalid("the face mask is for " + std::to_string(mask.size()) +
+                       " faces, the mesh has " + std::to_string(mesh.face_count()));
+    }
+    return Done{};
+}
+
 Result<Done> check_mask(const PreparedMesh& mesh, const SampleParams& params) {
     if (params.face_mask.empty()) {
         return Done{};
     }
-    if (params.face_mask.size() != mesh.face_count()) {
-        return invalid("the face mask is for " + std::to_string(params.face_mask.size()) +
-                       " faces, the mesh has " + std::to_string(mesh.face_count()));
-    }
+    GEODISK_TRY(check_mask_size(mesh, params.face_mask));
     if (std::ranges::count(params.face_mask, 0) == std::ptrdiff_t{mesh.face_count()}) {
         return invalid("the face mask leaves out all faces, so no samples fit");
     }

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include <geodisk/job_frame.hpp>
 #include <geodisk/mesh.hpp>
@@ -36,6 +37,9 @@ Result<JobFrame> frame_with(const PreparedMesh& mesh, const SampleParams& params
 /// Returns the frame of disks with these parameters, where no candidate is decided. Errors: those
 /// of frame_of() that concern disks.
 Result<JobFrame> frame_of_disks(const PreparedMesh& mesh, const SampleParams& params);
+
+/// Checks that a mask, if there is one, has a byte for each face.
+Result<Done> check_mask_size(const PreparedMesh& mesh, std::span<const std::uint8_t> mask);
 
 /// Checks the mask against the mesh.
 Result<Done> check_mask(const PreparedMesh& mesh, const SampleParams& params);

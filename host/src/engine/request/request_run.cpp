@@ -107,9 +107,7 @@ Result<Done> SurfaceSteps::prepare() {
         return invalid("count is " + number_text(request_.count) + ", but " +
                        std::to_string(existing) + " existing samples count too");
     }
-    if (const std::uint32_t stop = request_.params.stop_count; stop != 0 && existing > stop) {
-        return invalid(too_few_to_stop(existing, stop));
-    }
+    GEODISK_TRY(check_stop_count(request_.params));
     if (request_.keep != 0 && request_.order != SampleOrder::farthest) {
         return invalid("keep is for the farthest order");
     }
