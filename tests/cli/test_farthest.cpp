@@ -113,6 +113,39 @@ TEST_CASE("transfer puts samples of a file in the same order") {
     CHECK(column_in(folder, "all.csv", "cover") == column_in(folder, "far.ply", "cover"));
 }
 
+TEST_CASE("the order goes on from existing samples") {
+    const TemporaryFolder folder;
+    REQUIRE(run(folder, {"sample", kFarthestMesh, "-n", "40", "-o", "first.ply"}).status == 0);
+    const std::vector<Place> first = places_in(folder, "first.ply");
+    sample_farthest(folder, "far.csv", {"--order", "farthest", "--existing", "first.ply"});
+    const std::vector<Place> far = places_in(folder, "far.csv");
+    REQUIRE(far.size() > first.size());
+    CHECK(std::equal(first.begin(), first.end(), far.begin()));
+    const std::vector<double> cover = column_in(folder, "far.csv", "cover");
+    const auto next = cover.begin() + static_cast<std::ptrdiff_t>(first.size());
+    CHECK(std::all_of(cover.begin(), next, [](double distance) { return std::isinf(distance); }));
+    CHECK(std::isfinite(*next));
+    CHECK(std::is_sorted(next, cover.end(), std::greater<>()));
+    CHECK(run(folder, {"verify", kFarthestMesh, "far.csv"}).status == 0);
+
+    sample_farthest(folder, "dart.csv", {"--existing", "first.ply"});
+    const std::vector<Place> dart = places_in(folder, "dart.csv");
+    const std::vector<double> rows = column_in(folder, "far.csv", "row");
+    for (std::size_t i = 0; i < far.size(); ++i) {
+        CHECK(far[i] == dart[static_cast<std::size_t>(rows[i])]);
+    }
+    REQUIRE(run(folder, {"transfer", "dart.csv", kFarthestMesh, kFarthestMesh, "-o", "again.csv",
+                         "--order", "farthest", "--first", std::to_string(first.size())})
+                .status == 0);
+    CHECK(places_in(folder, "again.csv") == far);
+    CHECK(column_in(folder, "again.csv", "row") == rows);
+    REQUIRE(run(folder, {"transfer", "dart.csv", kFarthestMesh, kFarthestMesh, "-o", "start.csv",
+                         "--order", "farthest", "--start", "57"})
+                .status == 0);
+    CHECK(places_in(folder, "start.csv").front() == dart[57]);
+    CHECK(column_in(folder, "start.csv", "row").front() == 57);
+}
+
 TEST_CASE("columns that a format lacks are left out with a warning") {
     const TemporaryFolder folder;
     sample_farthest(folder, "dart.ply", {});
@@ -160,6 +193,23 @@ TEST_CASE("what farthest-point order does not go with is refused") {
         CHECK(outcome.status == 2);
         CHECK(contains(outcome.err, wrong.message));
     }
+    const auto refuses = [&](const Arguments& options, const char* message) {
+        Arguments arguments{"transfer", "a.csv", kFarthestMesh, kFarthestMesh, "-o", "b.ply"};
+        arguments.insert(arguments.end(), options.begin(), options.end());
+        const Outcome outcome = run(folder, arguments);
+        CAPTURE(outcome.err);
+        CHECK(outcome.status == 2);
+        CHECK(contains(outcome.err, message));
+    };
+    refuses({"--start", "3"}, "--start is for --order farthest");
+    refuses({"--first", "3"}, "--first is for --order farthest");
+    refuses({"--order", "farthest", "--start", "x"}, "--start: 'x' is not a whole number");
+    refuses({"--order", "farthest", "--start", "5000"}, "--start: there are only ");
+    refuses({"--order", "farthest", "--first", "5000"}, "--first: there are only ");
+    refuses({"--order", "farthest", "--first", "9", "--keep", "8"},
+            "--keep: 9 samples come first as they are, more than 8");
+    refuses({"--order", "farthest", "--first", "9", "--start", "8"},
+            "--start and --first exclude each other");
     const Outcome order = run(folder, {"transfer", "a.csv", kFarthestMesh, kFarthestMesh, "-o",
                                        "b.ply", "--order", "dart"});
     CHECK(order.status == 2);

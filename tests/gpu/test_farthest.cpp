@@ -40,14 +40,15 @@ Runner& farthest_runner() {
 }
 
 FarthestOrder ordered(const PreparedMesh& mesh, std::span<const Sample> samples,
-                      std::uint32_t count = 0) {
-    return expect(farthest_order(farthest_runner(), mesh, samples, count));
+                      const FarthestParams& params = {}) {
+    return expect(farthest_order(farthest_runner(), mesh, samples, params));
 }
 
-/// Goes on greedily in the order found, by distances of the twin in double precision. Returns how
-/// many samples come where another one would, since rounding makes no difference between them.
+/// Goes on greedily in the order found after existing samples, by distances of the twin in double
+/// precision. Returns how many samples come where another one would, since rounding makes no
+/// difference between them.
 std::size_t check_greedy(const PreparedMesh& mesh, const std::vector<Sample>& samples,
-                         const FarthestOrder& order) {
+                         const FarthestOrder& order, std::size_t existing = 1) {
     std::vector<Point> points;
     for (const Sample& s : samples) {
         points.push_back({s.face, s.weights[1], s.weights[2]});
@@ -61,10 +62,14 @@ std::size_t check_greedy(const PreparedMesh& mesh, const std::vector<Sample>& sa
         const auto farthest = std::ranges::max_element(distances);
         const double error = kFarthestPrecision * size;
         REQUIRE(distances[chosen] >= 0); // Not chosen before.
-        CHECK((distances[chosen] == *farthest || distances[chosen] >= *farthest - error));
-        CHECK((distances[chosen] == order.distances[k] ||
-               std::abs(distances[chosen] - double{order.distances[k]}) <= error));
-        others += farthest - distances.begin() != chosen;
+        if (k >= existing) {
+            CHECK((distances[chosen] == *farthest || distances[chosen] >= *farthest - error));
+            CHECK((distances[chosen] == order.distances[k] ||
+                   std::abs(distances[chosen] - double{order.distances[k]}) <= error));
+            others += farthest - distances.begin() != chosen;
+        } else {
+            CHECK(std::isinf(order.distances[k]));
+        }
         const std::vector<double> from = twin.from(points[chosen]);
         for (std::size_t i = 0; i < distances.size(); ++i) {
             distances[i] = std::min(distances[i], from[i]);
@@ -93,8 +98,8 @@ TestMesh twice(const TestMesh& mesh, double apart) {
 }
 
 Error farthest_refusal(const PreparedMesh& mesh, std::span<const Sample> samples,
-                       std::uint32_t count = 0, const ProgressCallback& progress = {}) {
-    auto order = farthest_order(farthest_runner(), mesh, samples, count, progress);
+                       const FarthestParams& params = {}, const ProgressCallback& progress = {}) {
+    auto order = farthest_order(farthest_runner(), mesh, samples, params, progress);
     REQUIRE_FALSE(order);
     return order.error();
 }
@@ -124,12 +129,57 @@ TEST_SUITE("farthest") {
         const PreparedMesh mesh = prepared(builtin("torus-knot", 8));
         const std::vector<Sample> samples = samples_on(mesh, 9, 200);
         const FarthestOrder all = ordered(mesh, samples);
-        const FarthestOrder some = ordered(mesh, samples, 40);
+        const FarthestOrder some = ordered(mesh, samples, {40});
         CHECK(some.indices == std::vector(all.indices.begin(), all.indices.begin() + 40));
         CHECK(std::abs(some.cover - all.distances[40]) <= some.error);
         CHECK(check_greedy(mesh, samples, some) == 0);
         CHECK(all.cover == 0);
         CHECK(some.report.disks < all.report.disks);
+    }
+
+    TEST_CASE("an order goes on from existing samples, and begins with any") {
+        for (const auto& [name, resolution] : {std::pair("torus-knot", 8), std::pair("plate", 4)}) {
+            const PreparedMesh mesh = prepared(builtin(name, resolution));
+            const std::vector<Sample> samples = samples_on(mesh, 6, 120);
+            for (const std::uint32_t existing : {1U, 9U, 60U, 120U}) {
+                const FarthestOrder order = ordered(mesh, samples, {0, 0, existing});
+                REQUIRE(order.indices.size() == samples.size());
+                CHECK(std::ranges::is_sorted(std::span(order.indices).first(existing)));
+                CHECK(order.indices[existing - 1] == existing - 1);
+                CHECK(check_greedy(mesh, samples, order, existing) <= 2);
+                CHECK(order.searches < 20);
+            }
+            CHECK(ordered(mesh, samples, {0, 0, 1}).indices == ordered(mesh, samples).indices);
+            const FarthestOrder few = ordered(mesh, samples, {30, 0, 9});
+            const FarthestOrder all = ordered(mesh, samples, {0, 0, 9});
+            CHECK(few.indices == std::vector(all.indices.begin(), all.indices.begin() + 30));
+            CHECK(std::abs(few.cover - all.distances[30]) <= few.error);
+            const FarthestOrder other = ordered(mesh, samples, {0, 77});
+            CHECK(other.indices[0] == 77);
+            CHECK(check_greedy(mesh, samples, other) <= 2);
+        }
+        // Two of four parts have existing samples.
+        const PreparedMesh mesh = prepared(twice(twice(builtin("icosphere", 2), 3), 20));
+        std::vector<Sample> samples = samples_on(mesh, 3, 60);
+        std::ranges::sort(samples, {}, &Sample::face);
+        const FarthestOrder order = ordered(mesh, samples, {0, 0, 20});
+        check_greedy(mesh, samples, order, 20);
+        const FarthestOrder start = ordered(mesh, samples, {0, 31});
+        CHECK(start.indices[0] == 31);
+        check_greedy(mesh, samples, start);
+    }
+
+    TEST_CASE("orders from where there is no sample are refused") {
+        const PreparedMesh mesh = prepared(builtin("cube", 2));
+        const std::vector<Sample> samples = samples_on(mesh, 6, 5);
+        CHECK(farthest_refusal(mesh, samples, {0, 5}).message ==
+              "start is 5, but there are 5 samples, counted from 0");
+        CHECK(farthest_refusal(mesh, samples, {0, 1, 1}).message ==
+              "start and existing exclude each other: existing samples come first");
+        CHECK(farthest_refusal(mesh, samples, {0, 0, 6}).message ==
+              "6 samples are existing ones, more than 5 to choose");
+        CHECK(farthest_refusal(mesh, samples, {2, 0, 3}).message ==
+              "3 samples are existing ones, more than 2 to choose");
     }
 
     TEST_CASE("parts that no path leads to come first") {
@@ -144,7 +194,7 @@ TEST_SUITE("farthest") {
         }
         CHECK(std::is_sorted(order.indices.begin(), order.indices.begin() + 4));
         check_greedy(mesh, samples, order);
-        const FarthestOrder three = ordered(mesh, samples, 3);
+        const FarthestOrder three = ordered(mesh, samples, {3});
         CHECK(std::isinf(three.cover));
     }
 
@@ -170,7 +220,7 @@ TEST_SUITE("farthest") {
         CHECK(one.indices == std::vector<std::uint32_t>{0});
         CHECK(std::isinf(one.distances[0]));
         CHECK(one.cover == 0);
-        CHECK(ordered(mesh, samples, 3).indices == ordered(mesh, samples).indices);
+        CHECK(ordered(mesh, samples, {3}).indices == ordered(mesh, samples).indices);
     }
 
     TEST_CASE("does not depend on memory, kernels or lanes") {
@@ -202,10 +252,10 @@ TEST_SUITE("farthest") {
             last = now.decided;
             return true;
         };
-        CHECK(farthest_order(farthest_runner(), mesh, samples, 30, heard));
+        CHECK(farthest_order(farthest_runner(), mesh, samples, {30}, heard));
         CHECK(last > 20);
         const Error error =
-            farthest_refusal(mesh, samples, 0, [](const Progress&) { return false; });
+            farthest_refusal(mesh, samples, {}, [](const Progress&) { return false; });
         CHECK(error.status == Status::cancelled);
     }
 
@@ -266,7 +316,7 @@ TEST_SUITE("farthest") {
         const PreparedMesh cube = prepared(builtin("cube", 2));
         std::vector<Sample> samples = samples_on(cube, 3, 3);
         CHECK(farthest_refusal(cube, {}).message == "there is no sample to put in order");
-        CHECK(farthest_refusal(cube, samples, 4).message ==
+        CHECK(farthest_refusal(cube, samples, {4}).message ==
               "there are 3 samples, fewer than 4 to choose");
         samples[1].face = 48;
         CHECK(farthest_refusal(cube, samples).message ==

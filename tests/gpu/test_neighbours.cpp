@@ -389,7 +389,7 @@ TEST_SUITE("neighbours") {
             query.nearest = 2;
             const auto nearest = find_neighbours(shared_runner(), mesh, query);
             check(nearest);
-            const auto order = farthest_order(shared_runner(), mesh, corners, 0);
+            const auto order = farthest_order(shared_runner(), mesh, corners);
             check(order);
             const auto samples = NearestSamples::create(shared_runner(), mesh, corners);
             check(samples);

@@ -299,7 +299,7 @@ TEST_SUITE("request") {
         request.keep = 12;
         const RequestedSet found = expect(sample(runner, mesh, request));
         REQUIRE(found.farthest);
-        const FarthestOrder order = expect(farthest_order(runner, mesh, all.set.samples, 12));
+        const FarthestOrder order = expect(farthest_order(runner, mesh, all.set.samples, {12}));
         CHECK(found.farthest->indices == order.indices);
         const Points of_all = points_of(all.set), points = points_of(found.set);
         REQUIRE(points.size() == 12);

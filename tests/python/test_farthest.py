@@ -42,6 +42,26 @@ def test_samples_come_in_that_order(samples):
     assert np.array_equal(far.order, order.indices)
 
 
+def test_goes_on_from_existing_samples(samples):
+    more = geodisk.sample(*torus(), count=300, order="farthest", existing=samples[:50])
+    assert np.array_equal(more.points[:50], samples.points[:50])
+    cover = more.attributes["cover"]
+    assert np.isinf(cover[:50]).all() and np.isfinite(cover[50:]).all()
+    assert (np.diff(cover[50:]) <= 0).all()
+    order = geodisk.farthest_order(more[50:], existing=samples[:50], count=60)
+    assert np.array_equal(order.indices, np.arange(60))
+    assert np.array_equal(order.distances, cover[50:110].astype(np.float32))
+    assert order.cover == pytest.approx(cover[110])
+    points = samples.points[:50]
+    assert np.array_equal(geodisk.farthest_order(more[50:], existing=points).indices[:9], range(9))
+
+
+def test_begins_with_any(samples):
+    order = geodisk.farthest_order(samples, start=7)
+    assert order.indices[0] == 7 and np.isinf(order.distances[0])
+    assert sorted(order.indices) == list(range(len(samples)))
+
+
 def test_samples_from_a_file(samples, tmp_path):
     samples.save(tmp_path / "a.npz")
     again = geodisk.read(tmp_path / "a.npz")
@@ -58,8 +78,11 @@ def test_what_is_refused(samples):
             geodisk.farthest_order(samples, count=count)
     with pytest.raises(geodisk.InvalidArgument, match="box"):
         geodisk.farthest_order(geodisk.sample_box([1, 1], count=9))
-    with pytest.raises(geodisk.InvalidArgument, match="existing"):
-        geodisk.sample(*torus(), count=300, order="farthest", existing=samples)
+    for start in (-1, 10**6):
+        with pytest.raises(geodisk.InvalidArgument, match=f"start is {start}"):
+            geodisk.farthest_order(samples, start=start)
+    with pytest.raises(geodisk.InvalidArgument, match="start and existing exclude each other"):
+        geodisk.farthest_order(samples, start=3, existing=samples[:2])
     with pytest.raises(geodisk.Cancelled, match="returned False"):
         geodisk.farthest_order(samples, progress=lambda *_: False)
     with pytest.raises(ZeroDivisionError):

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "files/samples/sample_columns.hpp"
@@ -28,21 +29,35 @@ ProgressCallback by_area(ProgressCallback shown) {
 
 } // namespace
 
-SampleField FarthestRun::cover() const {
-    SampleField field{std::string(kCoverColumn),
-                      {std::string(kCoverColumn)},
-                      false,
-                      false,
-                      {order.distances.begin(), order.distances.end()}};
-    field.is_float = true;
-    return field;
+std::vector<SampleField> FarthestRun::columns() const {
+    const auto column = [](std::string_view name, const auto& values) {
+        return SampleField{
+            std::string(name), {std::string(name)}, false, false, {values.begin(), values.end()}};
+    };
+    std::vector<SampleField> fields{column(kCoverColumn, order.distances),
+                                    column(kRowColumn, order.indices)};
+    fields.front().is_float = true;
+    fields.back().is_whole = true;
+    return fields;
 }
 
 FarthestRun order_farthest(const MeshInput& mesh, std::span<const SampleRow> rows,
-                           std::uint32_t keep, RunDevice& device, ProgressLine& progress) {
-    if (keep > rows.size()) {
-        fail_usage("--keep: there are only " + counted(rows.size(), "sample", "samples") +
-                   ", fewer than " + grouped(keep));
+                           const FarthestParams& params, RunDevice& device,
+                           ProgressLine& progress) {
+    const std::string few = "there are only " + counted(rows.size(), "sample", "samples");
+    if (params.count > rows.size()) {
+        fail_usage("--keep: " + few + ", fewer than " + grouped(params.count));
+    }
+    if (params.start != 0 && params.start >= rows.size()) {
+        fail_usage("--start: " + few + ", counted from 0, so none is number " +
+                   grouped(params.start));
+    }
+    if (params.existing > rows.size()) {
+        fail_usage("--first: " + few + ", fewer than " + grouped(params.existing));
+    }
+    if (params.count != 0 && params.count < params.existing) {
+        fail_usage("--keep: " + grouped(params.existing) +
+                   " samples come first as they are, more than " + grouped(params.count));
     }
     FarthestRun run;
     run.samples = rows.size();
@@ -57,7 +72,7 @@ FarthestRun order_farthest(const MeshInput& mesh, std::span<const SampleRow> row
     device.open(progress);
     progress.begin_stage("putting samples in order");
     const Stopwatch watch;
-    auto found = farthest_order(device.runner(), mesh.prepared, samples, keep,
+    auto found = farthest_order(device.runner(), mesh.prepared, samples, params,
                                 by_area(search_progress(progress, "in order")));
     progress.clear();
     check_interrupted();

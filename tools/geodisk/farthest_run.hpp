@@ -29,13 +29,13 @@ struct FarthestRun {
         }
         values = std::move(chosen);
     }
-    /// Returns the column cover.
-    SampleField cover() const;
+    /// Returns the columns cover and row.
+    std::vector<SampleField> columns() const;
 };
 
-/// Opens the device where need be, and finds the order of samples of a mesh, or of the first `keep`
-/// if that is not 0. Throws UserError, DeviceLost among them.
+/// Opens the device where need be, and finds the order of samples of a mesh. Throws UserError,
+/// DeviceLost among them.
 FarthestRun order_farthest(const MeshInput& mesh, std::span<const SampleRow> rows,
-                           std::uint32_t keep, RunDevice& device, ProgressLine& progress);
+                           const FarthestParams& params, RunDevice& device, ProgressLine& progress);
 
 } // namespace geodisk::tools

@@ -1,6 +1,8 @@
 #include "geodisk/sample_run.hpp"
 
 #include <algorithm>
+#include <cstdint>
+#include <iterator>
 #include <optional>
 #include <string>
 #include <utility>
@@ -153,8 +155,10 @@ std::optional<JobFrame> frame_to_tell(const SampleJob& job, const MeshInput& mes
 /// Puts the samples in farthest-point order, and leaves out those that are not to be kept.
 void put_farthest_first(const SampleJob& job, const MeshInput& mesh, RunDevice& device,
                         ProgressLine& progress, SampleResult& result) {
-    const FarthestRun& run = result.farthest.emplace(
-        order_farthest(mesh, result.rows, job.method.keep, device, progress));
+    FarthestParams params{job.method.keep};
+    params.existing = static_cast<std::uint32_t>(result.existing);
+    const FarthestRun& run =
+        result.farthest.emplace(order_farthest(mesh, result.rows, params, device, progress));
     run.apply(result.rows);
     run.apply(result.classes);
     run.apply(result.features);
@@ -284,7 +288,7 @@ void write_sample_file(AtomicFile& file, const SampleJob& job, const MeshInput& 
     std::vector<SampleField> fields =
         record_fields(job.out.record, mesh, result.rows, job.params.seed);
     if (result.farthest && takes_column(job.out, kCoverColumn)) {
-        fields.push_back(result.farthest->cover());
+        std::ranges::copy(result.farthest->columns(), std::back_inserter(fields));
     }
     write_samples(file, target_in(job.out, result.scene), report.header(), result.rows,
                   mesh.dimension(), {numbers, fields});

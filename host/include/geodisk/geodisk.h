@@ -905,6 +905,18 @@ GEODISK_C_API double geodisk_nearest_error(const geodisk_nearest *nearest);
 /* Releases it. The cells found with it stay. Experimental. */
 GEODISK_C_API void geodisk_nearest_release(geodisk_nearest *nearest);
 
+/* Which samples to put in farthest-point order, and from where. */
+typedef struct geodisk_farthest_params {
+    size_t struct_size;
+    const geodisk_surface_point *samples;
+    size_t sample_count;
+    uint32_t count; /* Number of samples to choose; 0 for all. */
+    uint32_t start; /* Index of the first one. Not with `existing`. */
+    /* Number of samples that come first as they are: the first of all. The next one is the one
+     * farthest from all of these. They count towards `count`. */
+    uint32_t existing;
+} geodisk_farthest_params;
+
 /* How samples came to be in farthest-point order. */
 typedef struct geodisk_farthest_info {
     size_t struct_size;
@@ -914,17 +926,17 @@ typedef struct geodisk_farthest_info {
     uint32_t searches;  /* Searches on the device, each of many disks. */
 } geodisk_farthest_info;
 
-/* Puts samples of a mesh in farthest-point order and waits for the result: the first one, then always
- * the one whose geodesic distance to all before it is largest; of equally far ones, the lower index.
- * Stops after `count` samples, 0 for all. Writes the index of each one to `order`, and its distance
- * to the nearest one before to `distances`: infinite for the first one on each part of the mesh. Both
- * have room for as many; `distances` and `info` may be NULL. The result is the same on every device.
+/* Puts samples of a mesh in farthest-point order and waits for the result: the first one, or
+ * existing ones, then always the one whose geodesic distance to all before it is largest; of equally
+ * far ones, the lower index. Writes the index of each one to `order`, and its distance to the nearest
+ * one before to `distances`: infinite for existing ones, and for the first one on each part of the
+ * mesh without these. Both have room for as many; `distances` and `info` may be NULL. The result is
+ * the same on every device.
  * `progress` may be NULL, and counts samples as candidates; `user` is passed to it.
  * Experimental. */
 GEODISK_C_API geodisk_status geodisk_farthest_order(geodisk_sampler *sampler,
                                                     const geodisk_mesh *mesh,
-                                                    const geodisk_surface_point *samples,
-                                                    size_t sample_count, uint32_t count,
+                                                    const geodisk_farthest_params *params,
                                                     geodisk_progress_fn progress, void *user,
                                                     uint32_t *order, float *distances,
                                                     geodisk_farthest_info *info,

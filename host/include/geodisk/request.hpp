@@ -30,7 +30,9 @@ namespace geodisk {
 enum class SampleOrder : std::uint8_t {
     dart,        ///< As sequential dart throwing accepts them.
     progressive, ///< Coarse levels first, see Levels.
-    farthest,    ///< Each one as far as possible from all before it, see FarthestOrder.
+    /// Each one as far as possible from all before it, see FarthestOrder. Existing ones come first,
+    /// as they are, at infinite distances.
+    farthest,
 };
 
 /// A set of samples to make on a surface. All that it points to must outlive the run.
@@ -49,7 +51,7 @@ struct SampleRequest {
     SampleOrder order = SampleOrder::dart;
     /// For SampleOrder::progressive; a count of 0 is that of levels_for().
     Levels levels{0};
-    /// For SampleOrder::farthest: number of samples to keep; 0 for all.
+    /// For SampleOrder::farthest: number of samples to keep, existing ones among them; 0 for all.
     std::uint32_t keep = 0;
     /// Distances through space instead of along the surface, to compare with other methods.
     std::optional<Metric> metric{};

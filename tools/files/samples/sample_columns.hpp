@@ -45,6 +45,8 @@ inline constexpr std::string_view kLevelColumn = "level", kLevelDistances = "lev
 
 /// The column of --order farthest: distance of each sample to the nearest before it.
 inline constexpr std::string_view kCoverColumn = "cover";
+/// The other column of --order farthest: place of each sample in the order before, from 0.
+inline constexpr std::string_view kRowColumn = "row";
 
 /// The column that tells samples on corners (2) and curves (1) from those on faces (0).
 inline constexpr std::string_view kFeatureColumn = "feature";

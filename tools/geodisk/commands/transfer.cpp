@@ -1,9 +1,11 @@
 
 #include <algorithm>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <sstream>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include <geodisk/version.hpp>
@@ -50,7 +52,7 @@ struct TransferOptions {
     MeshOptions from, to;
     OutputOptions out;
     RunOptions run;
-    std::string tolerance, order = "file", keep;
+    std::string tolerance, order = "file", keep, start, first;
 
     bool is_farthest() const { return order == "farthest"; }
 };
@@ -180,10 +182,10 @@ std::string summary_text(const TransferOptions& options, const Transfer& done) {
 
 /// Puts the samples in farthest-point order on the mesh that they are moved to.
 FarthestRun put_farthest_first(const TransferOptions& options, const RunnerOptions& runner,
-                               std::uint32_t keep, const MeshInput& mesh, SampleFile& samples,
-                               ProgressLine& progress) {
+                               const FarthestParams& params, const MeshInput& mesh,
+                               SampleFile& samples, ProgressLine& progress) {
     RunDevice device(options.run.device, runner);
-    FarthestRun run = order_farthest(mesh, samples.rows, keep, device, progress);
+    FarthestRun run = order_farthest(mesh, samples.rows, params, device, progress);
     run.apply(samples.rows);
     for (ExtraColumn& column : samples.extra) {
         run.apply(column.values);
@@ -191,11 +193,36 @@ FarthestRun put_farthest_first(const TransferOptions& options, const RunnerOptio
     return run;
 }
 
-void run_transfer(const TransferOptions& options) {
+FarthestParams parse_order(const TransferOptions& options) {
     if (options.order != "file" && !options.is_farthest()) {
         fail_choice("--order", options.order, std::vector<std::string>{"file", "farthest"});
     }
-    const std::uint32_t keep = parse_keep(options.keep, options.is_farthest());
+    if (!options.start.empty() && !options.first.empty()) {
+        fail_usage(
+            "--start and --first exclude each other: the first samples of a file come first");
+    }
+    FarthestParams params{parse_keep(options.keep, options.is_farthest())};
+    for (const auto& [name, text, number] :
+         {std::tuple("--start", &options.start, &params.start),
+          std::tuple("--first", &options.first, &params.existing)}) {
+        if (text->empty()) {
+            continue;
+        }
+        if (!options.is_farthest()) {
+            fail_usage(std::string(name) + " is for --order farthest");
+        }
+        const auto value = parse_integer<std::uint32_t>(*text);
+        if (!value) {
+            fail_usage(std::string(name) + ": " + in_quotes(*text) +
+                       " is not a whole number from 0 to 4294967295");
+        }
+        *number = *value;
+    }
+    return params;
+}
+
+void run_transfer(const TransferOptions& options) {
+    const FarthestParams order = parse_order(options);
     const RunnerOptions runner = options.run.runner();
     check_files(options);
     check_tolerance(options.tolerance);
@@ -210,7 +237,7 @@ void run_transfer(const TransferOptions& options) {
                                       options.tolerance, done.from.warnings, progress);
     warn_of_no_samples(options.samples, samples, done.from.warnings);
     if (options.is_farthest()) {
-        done.farthest = put_farthest_first(options, runner, keep, to, samples, progress);
+        done.farthest = put_farthest_first(options, runner, order, to, samples, progress);
     }
     for (SampleRow& row : samples.rows) {
         to.place(row);
@@ -222,7 +249,7 @@ void run_transfer(const TransferOptions& options) {
     std::vector<SampleField> fields =
         record_fields(options.out.record, to, samples.rows, seed_of(samples.header));
     if (done.farthest && takes_column(options.out, kCoverColumn)) {
-        fields.push_back(done.farthest->cover());
+        std::ranges::copy(done.farthest->columns(), std::back_inserter(fields));
     }
     done.scene = scene_frame(options.out, options.to, to);
     AtomicFile file(options.out.output);
@@ -257,10 +284,16 @@ void add_transfer_command(Command app) {
         .add_option("--order", options->order, "NAME",
                     "file: the order of the file; farthest: after the first sample,\n"
                     "always the one farthest from all before it along the surface\n"
-                    "of MESH_B (column cover: that distance)")
+                    "of MESH_B (column cover: that distance; column row: place in\n"
+                    "the file, from 0)")
         .offers({"file", "farthest"})
         .shows_default();
     add_keep_option(command, options->keep);
+    command.add_option("--start", options->start, "ROW",
+                       "Begin --order farthest with this sample, counted from 0");
+    command.add_option("--first", options->first, "K",
+                       "Leave the first K samples where they are: --order farthest goes on\n"
+                       "with the one farthest from all of these");
     add_device_options(command, options->run.device);
     add_limit_options(command, options->run);
     add_output_options(command, options->out);

@@ -218,8 +218,9 @@ void add_order_options(Command command, MethodOptions& options) {
                     "dart: dart order; progressive: in levels, coarse to fine, each\n"
                     "with half the distance of the one before. Samples up to the end\n"
                     "of a level keep its distance (column level). farthest: after the\n"
-                    "first sample, always the one farthest from all before it along\n"
-                    "the surface (column cover: that distance)",
+                    "first sample, or those of --existing, always the one farthest from\n"
+                    "all before it along the surface (column cover: that distance;\n"
+                    "column row: place in dart order, from 0)",
                     kMethodGroup)
         .offers({"dart", "progressive", "farthest"})
         .shows_default();

@@ -15,7 +15,7 @@ from . import _errors as e
 from . import _library as c
 from . import _structs as s
 from ._devices import DeviceLike, name_of
-from ._existing import points_of
+from ._existing import ExistingLike, points_of
 from ._inputs import surface_of
 from ._mesh import Mesh, created
 from ._protocols import Faces, MeshLike
@@ -35,7 +35,7 @@ class FarthestOrder:
         Index of each sample, in this order.
     distances : ndarray of float32, shape (k,)
         Geodesic distance of each one to the nearest before it, never increasing. Infinite for the
-        first one on each part of the mesh.
+        first one on each part of the mesh that has no existing point.
     cover : float
         Largest distance of a sample left out to the nearest one chosen; 0 if none is left out.
     error : float
@@ -63,6 +63,8 @@ def farthest_order(
     faces: Faces | None = None,
     *,
     count: int | None = None,
+    start: int = 0,
+    existing: ExistingLike | None = None,
     edge_lengths: ArrayLike | None = None,
     weld: bool | float = False,
     keep_seams: bool = False,
@@ -71,9 +73,9 @@ def farthest_order(
 ) -> FarthestOrder:
     """Returns samples in farthest-point order, along the surface.
 
-    The first one is the first sample. Each further one has the largest geodesic distance to all
-    before it; of equally far ones it is the one of lower index. So the first ones of this order
-    cover the surface evenly, however many they are.
+    The first one is the sample `start`. Each further one has the largest geodesic distance to all
+    before it, and to the existing points; of equally far ones it is the one of lower index. So the
+    first ones of this order cover the surface evenly, however many they are.
 
     Parameters
     ----------
@@ -83,6 +85,11 @@ def farthest_order(
         Mesh of the samples, as for :func:`sample`. Needed for samples that were read from a file.
     count : int, optional
         Stop after so many samples.
+    start : int
+        Index of the first sample.
+    existing : Samples, array of coordinates, or a pair of face_index and barycentric, optional
+        Points that are there before: the order begins with the sample farthest from all of them.
+        Not with `start`.
     device, progress
         As for :func:`sample`. A callback is called on another thread.
 
@@ -111,32 +118,58 @@ def farthest_order(
     if surface is None:
         raise e.invalid("samples in a box lie on no mesh")
     handle = vertices._handle if isinstance(vertices, Mesh) else created(surface)
-    return order_on(handle, samples, count, device, progress)
+    points = points_of(handle, samples, "samples", True)
+    if count is not None and not 1 <= integer(count, "count", 2**32 - 1) <= len(points):
+        raise e.invalid(f"count is {count}, not from 1 to {len(points)}, the number of samples")
+    if integer(start, "start", 2**32 - 1) >= len(points):
+        raise e.invalid(f"start is {start}, not from 0 to {len(points) - 1}")
+    if existing is None:
+        return order_on(handle, points, count, start, 0, device, progress)
+    if start != 0:
+        raise e.invalid("start and existing exclude each other: existing points come first")
+    before = points_of(handle, existing, "existing")
+    k = len(before)
+    order = order_on(
+        handle,
+        np.concatenate([before, points]),
+        None if count is None else k + count,
+        0,
+        k,
+        device,
+        progress,
+    )
+    return dataclasses.replace(
+        order, indices=order.indices[k:] - np.uint32(k), distances=order.distances[k:]
+    )
 
 
 def order_on(
     handle: c.Handle,
-    samples: Samples,
+    points: NDArray[Any],
     count: int | None,
+    start: int,
+    existing: int,
     device: DeviceLike | None,
     progress: bool | ProgressCallback,
 ) -> FarthestOrder:
-    """Returns the order of samples on the library's mesh."""
-    points = points_of(handle, samples, "samples", True)
-    if count is not None and not 1 <= integer(count, "count", 2**32 - 1) <= len(points):
-        raise e.invalid(f"count is {count}, not from 1 to {len(points)}, the number of samples")
+    """Returns the order of points on the library's mesh, the first `existing` of which come first."""
     size = len(points) if count is None else int(count)
     indices, distances = np.empty(size, np.uint32), np.empty(size, np.float32)
     info = s.FarthestInfo()
+    params = s.FarthestParams(
+        samples=points.ctypes.data,
+        sample_count=len(points),
+        count=size,
+        start=start,
+        existing=existing,
+    )
 
     def find(sampler: ctypes.c_void_p, hear: Any) -> None:
         c.call(
             "geodisk_farthest_order",
             sampler,
             handle.value,
-            points.ctypes.data,
-            len(points),
-            size,
+            byref(params),
             hear,
             None,
             indices.ctypes.data,
@@ -151,13 +184,15 @@ def order_on(
 def put_farthest_first(
     handle: c.Handle,
     samples: Samples,
+    existing: int,
     device: DeviceLike | None,
     progress: bool | ProgressCallback,
 ) -> Samples:
-    """Returns samples in farthest-point order, with the attribute cover."""
+    """Returns samples in farthest-point order after existing ones, with the attribute cover."""
     if len(samples) == 0:
         return samples
-    order = order_on(handle, samples, None, device, progress)
+    points = points_of(handle, samples, "samples")
+    order = order_on(handle, points, None, 0, existing, device, progress)
     chosen = samples[order.indices]
     cover = order.distances.astype(np.float64)
     return dataclasses.replace(chosen, attributes={**chosen.attributes, "cover": cover})

@@ -24,6 +24,7 @@ from ._structs import (
     DeviceInfo,
     DeviceOptions,
     FarthestInfo,
+    FarthestParams,
     MeshInfo,
     MeshParams,
     MeshRequest,
@@ -75,9 +76,7 @@ _FALLIBLE: dict[str, list[Any]] = {
     "geodisk_farthest_order": [
         c_void_p,
         c_void_p,
-        c_void_p,
-        c_size_t,
-        c_uint32,
+        POINTER(FarthestParams),
         PROGRESS_FN,
         c_void_p,
         c_void_p,

@@ -107,7 +107,8 @@ def sample(
         the one before, and the last one the given distance. The samples up to the end of a level
         are spaced by its distance. ``samples.level`` has the level of each, and
         ``samples.level_distances`` their distances.
-        "farthest" puts samples in farthest-point order, see :func:`farthest_order`;
+        "farthest" puts samples in farthest-point order after `existing` ones, see
+        :func:`farthest_order`;
         ``samples.attributes["cover"]`` has the distance of each to the nearest before it.
     levels : int, optional
         Number of levels, 1 to 32. By default the first one has 16 samples or somewhat more.

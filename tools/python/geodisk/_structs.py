@@ -324,6 +324,17 @@ class CellArrays(_Sized):
     ]
 
 
+class FarthestParams(_Sized):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("samples", c_void_p),
+        ("sample_count", c_size_t),
+        ("count", c_uint32),
+        ("start", c_uint32),
+        ("existing", c_uint32),
+    ]
+
+
 class FarthestInfo(_Sized):
     _fields_ = [
         ("struct_size", c_size_t),

@@ -205,7 +205,9 @@ class Wanted:
         )
         samples.report["options"] = self._options
         if self._is_farthest:
-            samples = put_farthest_first(self.mesh._handle, samples, device, progress)
+            samples = put_farthest_first(
+                self.mesh._handle, samples, self._existing, device, progress
+            )
         return samples
 
     def _frame_at(self, run_distance: float) -> JobFrame | None:

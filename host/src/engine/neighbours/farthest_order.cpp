@@ -1,4 +1,5 @@
 #include <geodisk/farthest.hpp>
+#include <geodisk/nearest.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -35,10 +36,13 @@ constexpr float kInfinite = std::numeric_limits<float>::infinity();
 class FarthestSearch {
   public:
     FarthestSearch(Runner& runner, const PreparedMesh& mesh, std::span<const Sample> samples,
-                   std::uint32_t count, const ProgressCallback& progress)
-        : runner_(runner), mesh_(mesh), samples_(samples), count_(count), progress_(progress),
-          distances_(samples.size(), kInfinite), states_(samples.size(), State::open),
-          disks_(samples.size()), paths_(mesh), bounded_(samples.size(), kInfinite) {}
+                   const FarthestParams& params, const ProgressCallback& progress)
+        : runner_(runner), mesh_(mesh), samples_(samples),
+          existing_(samples.first(params.existing)), start_(params.start),
+          count_(params.count == 0 ? static_cast<std::uint32_t>(samples.size()) : params.count),
+          progress_(progress), distances_(samples.size(), kInfinite),
+          states_(samples.size(), State::open), disks_(samples.size()), paths_(mesh),
+          bounded_(samples.size(), kInfinite) {}
 
     Result<FarthestOrder> go();
 
@@ -58,6 +62,8 @@ class FarthestSearch {
         }
     };
 
+    /// Chooses the existing samples, and puts all in the queue.
+    Result<Done> begin();
     /// Returns the sample to choose next, which stays in the queue.
     std::uint32_t farthest();
     /// Computes the disk of this sample, the farthest one, and those of others far away.
@@ -73,6 +79,8 @@ class FarthestSearch {
     Runner& runner_;
     const PreparedMesh& mesh_;
     std::span<const Sample> samples_;
+    std::span<const Sample> existing_;
+    std::uint32_t start_;
     std::uint32_t count_;
     const ProgressCallback& progress_;
     std::vector<float> distances_; ///< Distance from each sample to those chosen.
@@ -84,6 +92,31 @@ class FarthestSearch {
     FarthestOrder order_;
     std::uint32_t searched_ = 0; ///< Disks.
 };
+
+Result<Done> FarthestSearch::begin() {
+    if (!existing_.empty()) {
+        const ProgressCallback heard = [this](const Progress& now) {
+            return report({0, 0, 0, now.disks, now.windows});
+        };
+        const auto nearest = NearestSamples::create(
+            runner_, mesh_, existing_, CellParams{}.max_records, progress_ ? heard : nullptr);
+        GEODISK_TRY(nearest);
+        const auto found = nearest->of(samples_);
+        GEODISK_TRY(found);
+        std::ranges::transform(*found, distances_.begin(), &NearestSample::distance);
+        std::ranges::fill(std::span(states_).first(existing_.size()), State::chosen);
+        order_.error = nearest->error();
+        order_.report.add(nearest->report());
+    }
+    for (std::uint32_t i = 0; i < samples_.size(); ++i) {
+        if (i < existing_.size()) {
+            order_.indices.push_back(i);
+            order_.distances.push_back(kInfinite);
+        }
+        queue_.push({distances_[i], i});
+    }
+    return Done{};
+}
 
 std::uint32_t FarthestSearch::farthest() {
     for (;;) {
@@ -99,11 +132,15 @@ std::vector<std::uint32_t> FarthestSearch::first_of_parts() const {
     Components components(mesh_);
     std::set<std::uint32_t> parts;
     std::vector<std::uint32_t> first;
-    for (std::uint32_t i = 0; i < samples_.size(); ++i) {
+    const auto add = [&](std::uint32_t i) {
         const bool is_far = states_[i] == State::open && distances_[i] == kInfinite;
         if (is_far && parts.insert(components.of(samples_[i])).second) {
             first.push_back(i);
         }
+    };
+    add(start_);
+    for (std::uint32_t i = 0; i < samples_.size(); ++i) {
+        add(i);
     }
     return first;
 }
@@ -199,11 +236,9 @@ bool FarthestSearch::report(const Progress& now) const {
 }
 
 Result<FarthestOrder> FarthestSearch::go() {
-    for (std::uint32_t i = 0; i < samples_.size(); ++i) {
-        queue_.push({kInfinite, i});
-    }
+    GEODISK_TRY(begin());
     while (order_.indices.size() < count_) {
-        const std::uint32_t next = farthest();
+        const std::uint32_t next = order_.indices.empty() ? start_ : farthest();
         // At the place of one chosen, it brings no other nearer.
         if (states_[next] == State::open && distances_[next] > 0) {
             GEODISK_TRY(search(next));
@@ -219,19 +254,31 @@ Result<FarthestOrder> FarthestSearch::go() {
 } // namespace
 
 Result<FarthestOrder> farthest_order(Runner& runner, const PreparedMesh& mesh,
-                                     std::span<const Sample> samples, std::uint32_t count,
+                                     std::span<const Sample> samples, const FarthestParams& params,
                                      const ProgressCallback& progress) noexcept {
     return guarded([&]() -> Result<FarthestOrder> {
         if (samples.empty()) {
             return invalid("there is no sample to put in order");
         }
-        if (count > samples.size()) {
+        if (params.count > samples.size()) {
             return invalid("there are " + std::to_string(samples.size()) + " samples, fewer than " +
-                           std::to_string(count) + " to choose");
+                           std::to_string(params.count) + " to choose");
+        }
+        if (params.start >= samples.size()) {
+            return invalid("start is " + std::to_string(params.start) + ", but there are " +
+                           std::to_string(samples.size()) + " samples, counted from 0");
+        }
+        if (params.start != 0 && params.existing != 0) {
+            return invalid("start and existing exclude each other: existing samples come first");
+        }
+        if (params.existing > samples.size() ||
+            (params.count != 0 && params.count < params.existing)) {
+            return invalid(
+                std::to_string(params.existing) + " samples are existing ones, more than " +
+                std::to_string(params.count == 0 ? samples.size() : params.count) + " to choose");
         }
         GEODISK_TRY(check_points(mesh, "sample", samples));
-        const auto all = static_cast<std::uint32_t>(samples.size());
-        FarthestSearch search(runner, mesh, samples, count == 0 ? all : count, progress);
+        FarthestSearch search(runner, mesh, samples, params, progress);
         return search.go();
     });
 }

@@ -36,7 +36,6 @@ constexpr RequestRule kRules[] = {
     {Field::progressive, Field::metric, "levels keep distances along the surface"},
     {Field::progressive, Field::keep, "the first samples are those of the first levels"},
     {Field::progressive, Field::frame, "levels have frames of their own"},
-    {Field::farthest, Field::existing, "existing samples come first"},
     {Field::farthest, Field::split_from, "samples are ordered where they are told"},
     {Field::farthest, Field::metric, "the order goes by distances along the surface"},
     {Field::metric, Field::radii, "distances through space do not vary"},

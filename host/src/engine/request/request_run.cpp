@@ -111,6 +111,10 @@ Result<Done> SurfaceSteps::prepare() {
     if (request_.keep != 0 && request_.order != SampleOrder::farthest) {
         return invalid("keep is for the farthest order");
     }
+    if (request_.keep != 0 && request_.keep <= existing) {
+        return invalid("keep is " + std::to_string(request_.keep) + ", but " +
+                       std::to_string(existing) + " existing samples are kept too");
+    }
     const Levels& levels = request_.levels;
     if (!has_levels() && (levels.count != 0 || levels.factor != Levels{0}.factor)) {
         return invalid("levels are for the progressive order");

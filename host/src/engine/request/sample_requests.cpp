@@ -1,4 +1,5 @@
 // Requests sampled on a device of the caller.
+#include <cstdint>
 #include <type_traits>
 #include <utility>
 
@@ -12,12 +13,15 @@ namespace geodisk {
 namespace {
 
 /// Puts the samples in farthest-point order, and leaves out those that are not to be kept.
-Result<Done> put_farthest_first(Runner& runner, const PreparedMesh& mesh, std::uint32_t keep,
-                                const ProgressCallback& progress, RequestedSet& found) {
+Result<Done> put_farthest_first(Runner& runner, const PreparedMesh& mesh,
+                                const SampleRequest& request, const ProgressCallback& progress,
+                                RequestedSet& found) {
     if (found.set.samples.empty()) {
         return Done{};
     }
-    auto order = farthest_order(runner, mesh, found.set.samples, keep, progress);
+    FarthestParams params{request.keep};
+    params.existing = static_cast<std::uint32_t>(request.params.existing.size());
+    auto order = farthest_order(runner, mesh, found.set.samples, params, progress);
     GEODISK_TRY(order);
     const auto chosen = [&](const auto& values) {
         std::remove_cvref_t<decltype(values)> rows;
@@ -41,7 +45,7 @@ Result<Done> put_farthest_first(Runner& runner, const PreparedMesh& mesh, std::u
 Result<Done> complete(Runner& runner, const PreparedMesh& mesh, const SampleRequest& request,
                       const ProgressCallback& progress, RequestedSet& found) {
     return request.order == SampleOrder::farthest
-               ? put_farthest_first(runner, mesh, request.keep, progress, found)
+               ? put_farthest_first(runner, mesh, request, progress, found)
                : Done{};
 }
 
