@@ -246,6 +246,7 @@ TEST_SUITE("neighbours") {
         const Neighbours all = found(knot, query);
         query.nearest = 5;
         const Neighbours near = found(knot, query);
+        CHECK(near.error < all.error);
         for (std::size_t i = 0; i < sources.size(); ++i) {
             std::vector<std::pair<float, std::uint32_t>> row, kept;
             for (std::size_t at = all.offsets[i]; at < all.offsets[i + 1]; ++at) {
@@ -257,8 +258,40 @@ TEST_SUITE("neighbours") {
             }
             std::ranges::sort(row);
             row.resize(std::min<std::size_t>(row.size(), 5));
-            CHECK(row == kept);
+            REQUIRE(row.size() == kept.size());
+            for (std::size_t k = 0; k < row.size(); ++k) {
+                CHECK(row[k].second == kept[k].second);
+                CHECK(std::abs(row[k].first - kept[k].first) <= all.error);
+            }
         }
+        CHECK(near.report.windows < all.report.windows / 4);
+        query.within = 0;
+        const Neighbours alone = found(knot, query);
+        CHECK(near.indices == alone.indices);
+        CHECK(near.distances == alone.distances);
+        CHECK(near.report.windows == alone.report.windows);
+
+        // As many as there are within the distance, or within that of each source.
+        query.within = std::sqrt(knot.statistics().area) / 20;
+        query.nearest = 0;
+        const Neighbours close = found(knot, query);
+        query.nearest = 5;
+        const Neighbours few = found(knot, query);
+        std::vector<double> radii(sources.size(), query.within);
+        radii[3] = 2 * query.within;
+        query.radii = radii;
+        const Neighbours own = found(knot, query);
+        std::size_t lacking = 0;
+        for (std::size_t i = 0; i < sources.size(); ++i) {
+            const auto count = [&](const Neighbours& lists) {
+                return lists.offsets[i + 1] - lists.offsets[i];
+            };
+            lacking += count(close) < 5;
+            CHECK(count(few) == std::min<std::size_t>(count(close), 5));
+            CHECK((i == 3 || count(own) == count(few)));
+        }
+        CHECK(lacking > 20);
+        CHECK(lacking < sources.size());
     }
 
     TEST_CASE("the nearest ones, however far they are") {

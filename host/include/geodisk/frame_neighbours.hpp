@@ -65,7 +65,8 @@ struct FrameNeighbourLists {
     double error = 0; ///< Neighbours::error, for the sources that are ready.
 };
 
-/// Finds neighbours over as many frames as it takes: to the bit those of find_neighbours().
+/// Finds neighbours over as many frames as it takes: to the bit those of find_neighbours(), or up
+/// to rounding if only the nearest are kept, for which disks here are as large as the distance.
 ///
 /// Movable. Use it in one thread at a time. The sampler's device must outlive it. Destroy it only
 /// when no command buffer that it recorded into is pending.

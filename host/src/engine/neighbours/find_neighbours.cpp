@@ -15,8 +15,8 @@ namespace {
 /// Runs a checked query.
 Task<Result<Neighbours>> search(Runner::Impl& runner, const PreparedMesh& mesh,
                                 NeighbourQuery query) {
-    auto searched = query.has_distances() ? search_within(runner, mesh, query)
-                                          : search_nearest(runner, mesh, query);
+    auto searched = query.nearest == 0 ? search_within(runner, mesh, query)
+                                       : search_nearest(runner, mesh, query);
     auto found = co_await searched;
     if (found && lists_joined(query)) {
         name_joined(query.joined, *found);

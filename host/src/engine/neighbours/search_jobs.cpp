@@ -49,17 +49,6 @@ std::vector<ListedCandidate> targets_of(const NeighbourQuery& query) {
     return targets;
 }
 
-/// Returns the error of so many pairs, if they are too many.
-Result<Done> check_expected(const NeighbourQuery& query, double pairs) {
-    if (pairs <= static_cast<double>(query.max_pairs)) {
-        return Done{};
-    }
-    return Error{Status::job_too_large,
-                 "about " + number_text(std::round(pairs)) +
-                     " pairs are to be expected, more than the " + std::to_string(query.max_pairs) +
-                     " that are allowed; take a smaller distance or fewer sources"};
-}
-
 /// Returns no more targets than are within the distance of the source: those to which a path along
 /// edges is short enough. Among sources it is one of them.
 std::size_t count_along_edges(const PreparedMesh& mesh, const NeighbourQuery& query,
@@ -81,8 +70,18 @@ std::size_t count_along_edges(const PreparedMesh& mesh, const NeighbourQuery& qu
     }));
 }
 
-/// Checks the same before the search, by some sources all over the list. So disks that are far too
-/// large are not computed first.
+} // namespace
+
+Result<Done> check_expected(const NeighbourQuery& query, double pairs) {
+    if (pairs <= static_cast<double>(query.max_pairs)) {
+        return Done{};
+    }
+    return Error{Status::job_too_large,
+                 "about " + number_text(std::round(pairs)) +
+                     " pairs are to be expected, more than the " + std::to_string(query.max_pairs) +
+                     " that are allowed; take a smaller distance or fewer sources"};
+}
+
 Result<Done> check_ahead(const PreparedMesh& mesh, const NeighbourQuery& query) {
     const std::size_t sources = query.sources.size();
     const std::size_t counted = std::min(sources, kCountedSources);
@@ -99,8 +98,6 @@ Result<Done> check_ahead(const PreparedMesh& mesh, const NeighbourQuery& query) 
     const double of_all = pairs / static_cast<double>(counted) * static_cast<double>(sources);
     return check_expected(query, of_all);
 }
-
-} // namespace
 
 Result<Done> check_edges(const PreparedMesh& mesh, double largest) {
     const double longest = mesh.statistics().longest_edge / largest;

@@ -75,6 +75,13 @@ class PartSizes {
 /// Checks that no edge is too long for the largest distance.
 Result<Done> check_edges(const PreparedMesh& mesh, double largest);
 
+/// Checks that a query with distances allows the pairs to expect, by some sources all over the
+/// list, before the search. Errors: `job_too_large`.
+Result<Done> check_ahead(const PreparedMesh& mesh, const NeighbourQuery& query);
+
+/// Checks that the query allows so many pairs. Errors: `job_too_large`.
+Result<Done> check_expected(const NeighbourQuery& query, double pairs);
+
 /// Checks that no more pairs are to be expected than the query allows, by those of the first
 /// sources. Errors: `job_too_large`.
 Result<Done> check_pairs(const NeighbourQuery& query, std::size_t done, std::uint64_t pairs);

@@ -3,11 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <numbers>
+#include <numeric>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "engine/neighbours/search_jobs.hpp"
 #include "engine/neighbours/search_within.hpp"
 #include "mesh/components.hpp"
 #include "mesh/extent.hpp"
@@ -23,7 +26,7 @@ constexpr double kFactor = 2;
 class NearestSearch {
   public:
     NearestSearch(Runner::Impl& runner, const PreparedMesh& mesh, const NeighbourQuery& query)
-        : runner_(runner), mesh_(mesh), query_(query) {}
+        : runner_(runner), mesh_(mesh), query_(query), bound_(distance_bound(mesh)) {}
     NearestSearch(const NearestSearch&) = delete;
     NearestSearch& operator=(const NearestSearch&) = delete;
 
@@ -32,11 +35,18 @@ class NearestSearch {
   private:
     /// Tells how many neighbours each source can have, at most as many as wanted.
     void count_wanted();
+    /// Checks that the query allows the pairs to expect.
+    Result<Done> check_pairs_wanted() const;
     double first_distance() const;
-    /// Searches at this distance for those that lack neighbours. If it is the last one, they have
-    /// what it finds.
-    Task<Result<Done>> search(double within, bool is_last);
-    void keep(const Neighbours& found, bool is_last);
+    /// Returns the distance that the query allows a source.
+    double limit(std::uint32_t source) const;
+    /// Returns true if a disk of this radius has all neighbours that a source may have.
+    bool is_whole(std::uint32_t source, double within) const {
+        return within >= limit(source) || within > bound_;
+    }
+    /// Searches at this distance, or up to the limit, for those that lack neighbours.
+    Task<Result<Done>> search(double within);
+    void keep(const Neighbours& found, double within);
     Neighbours all() const;
     /// Returns how far the search is, from the progress of that at one distance.
     Progress so_far(const Progress& now);
@@ -44,12 +54,15 @@ class NearestSearch {
     Runner::Impl& runner_;
     const PreparedMesh& mesh_;
     const NeighbourQuery& query_;
+    double bound_;                       ///< No path is longer.
     std::vector<std::uint32_t> wanted_;  ///< Neighbours of each source.
     std::vector<std::uint32_t> pending_; ///< Sources that lack some.
     std::vector<Sample> points_;         ///< Those of the search in work.
+    std::vector<double> radii_;          ///< Their distances, if the query has one for each.
     std::vector<std::vector<std::uint32_t>> indices_;
     std::vector<std::vector<float>> distances_;
     std::uint64_t targets_ = 0;
+    std::uint64_t pairs_ = 0; ///< Of the sources that have theirs.
     std::uint32_t told_ = 0;
     double error_ = 0;
     RunReport report_;
@@ -81,6 +94,13 @@ void NearestSearch::count_wanted() {
     }
 }
 
+Result<Done> NearestSearch::check_pairs_wanted() const {
+    const double wanted = std::accumulate(wanted_.begin(), wanted_.end(), 0.0);
+    const bool may_be_fewer =
+        query_.has_distances() && wanted > static_cast<double>(query_.max_pairs);
+    return may_be_fewer ? check_ahead(mesh_, query_) : check_expected(query_, wanted);
+}
+
 double NearestSearch::first_distance() const {
     const double each = mesh_.statistics().area / static_cast<double>(targets_);
     const double wanted = std::min<double>(query_.nearest, static_cast<double>(targets_));
@@ -95,14 +115,27 @@ Progress NearestSearch::so_far(const Progress& now) {
     return {told_, all, now.accepted, report_.disks + now.disks, report_.windows + now.windows};
 }
 
-Task<Result<Done>> NearestSearch::search(double within, bool is_last) {
+double NearestSearch::limit(std::uint32_t source) const {
+    if (!query_.radii.empty()) {
+        return query_.radii[source];
+    }
+    return query_.has_distances() ? query_.within : std::numeric_limits<double>::infinity();
+}
+
+Task<Result<Done>> NearestSearch::search(double within) {
     points_.clear();
+    radii_.clear();
+    double largest = 0;
     for (const std::uint32_t source : pending_) {
         points_.push_back(query_.sources[source]);
+        radii_.push_back(std::min(within, limit(source)));
+        largest = std::max(largest, radii_.back());
     }
     NeighbourQuery query = query_;
     query.sources = points_;
-    query.within = within;
+    query.within = largest;
+    query.radii = query_.radii.empty() ? std::span<const double>() : radii_;
+    query.max_pairs = std::numeric_limits<std::uint64_t>::max(); // go() checks them.
     if (query_.kind == NeighbourKind::sources) {
         query.kind = NeighbourKind::points; // Of all, with itself.
         query.points = query_.sources;
@@ -114,11 +147,11 @@ Task<Result<Done>> NearestSearch::search(double within, bool is_last) {
     GEODISK_CO_TRY(found);
     report_.add(found->report);
     error_ = std::max(error_, found->error);
-    keep(*found, is_last);
-    co_return Done{};
+    keep(*found, within);
+    co_return check_expected(query_, static_cast<double>(pairs_));
 }
 
-void NearestSearch::keep(const Neighbours& found, bool is_last) {
+void NearestSearch::keep(const Neighbours& found, double within) {
     std::vector<std::uint32_t> lacking;
     for (std::size_t row = 0; row < pending_.size(); ++row) {
         const std::uint32_t source = pending_[row];
@@ -132,10 +165,11 @@ void NearestSearch::keep(const Neighbours& found, bool is_last) {
                 distances.push_back(found.distances[at]);
             }
         }
-        if (indices.size() < wanted_[source] && !is_last) {
+        if (indices.size() < wanted_[source] && !is_whole(source, within)) {
             lacking.push_back(source);
             continue;
         }
+        pairs_ += indices.size();
         indices_[source] = std::move(indices);
         distances_[source] = std::move(distances);
     }
@@ -158,11 +192,11 @@ Neighbours NearestSearch::all() const {
 
 Task<Result<Neighbours>> NearestSearch::go() {
     count_wanted();
+    GEODISK_CO_TRY(check_pairs_wanted());
     indices_.resize(query_.sources.size());
     distances_.resize(query_.sources.size());
-    const double bound = distance_bound(mesh_);
     for (double within = first_distance(); !pending_.empty(); within *= kFactor) {
-        GEODISK_CO_TRY(co_await search(within, within > bound));
+        GEODISK_CO_TRY(co_await search(within));
     }
     co_return all();
 }
