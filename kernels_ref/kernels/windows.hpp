@@ -370,12 +370,18 @@ class Windows {
         }
     }
 
+    /// Returns the distance below which a place of this class is near: 0 if the two classes keep
+    /// none.
+    Real limit_for(std::uint32_t other_class) const {
+        const Real distance = surface_.classes.distance[own_class_][other_class];
+        return distance > 0 ? distance + (guard_ + beyond_guard_) : Real{0};
+    }
+
     /// Returns, if radii vary or points have classes, the squared distance from a source at sigma
     /// below which a place is near.
     Real near_square(std::uint32_t place, Real sigma) const {
         const Real limit = adaptive() ? limit_with(surface_.radius_at(bins_.points[place]))
-                                      : surface_.classes.distance[own_class_][words_[place] % 8] +
-                                            (guard_ + beyond_guard_);
+                                      : limit_for(words_[place] % 8);
         const Real rest = limit - sigma;
         return rest > 0 ? rest * rest : Real{0};
     }

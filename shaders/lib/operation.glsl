@@ -71,11 +71,12 @@ float limit_with(float radius) {
     return keeps_out() ? path_limit() : limit;
 }
 
-// Returns the same for a candidate of this class.
+// Returns the same for a candidate of this class: 0 if the two classes keep no distance.
 float limit_for(uint other_class) {
     precise float guard = (job.limit - 1.0) + beyond_guard();
-    precise float limit = class_distance(own_class, other_class) + guard;
-    return limit;
+    float distance = class_distance(own_class, other_class);
+    precise float limit = distance + guard;
+    return distance > 0.0 ? limit : 0.0;
 }
 
 // Returns the distance beyond which no path through the face leads to a conflict.

@@ -215,6 +215,23 @@ TEST_CASE("a count scales the table of classes") {
     }
 }
 
+TEST_CASE("two classes may keep no distance from each other") {
+    const TemporaryFolder folder;
+    REQUIRE(run(folder, {"sample", kClassesMesh, "-o", "a.ply", "-n", "400", "--classes",
+                         "1,0,0.5;0,1,0.5;0.5,0.5,1"})
+                .status == 0);
+    const Outcome verified = run(folder, {"verify", kClassesMesh, "a.ply"});
+    INFO(verified.out);
+    CHECK(verified.status == 0);
+    const Outcome analyzed = run(folder, {"analyze", kClassesMesh, "a.ply"});
+    INFO(analyzed.err);
+    CHECK(analyzed.status == 0);
+    CHECK(contains(analyzed.out, "smallest"));
+    // As if there were a rule, some are too close.
+    CHECK(run(folder, {"verify", kClassesMesh, "a.ply", "--classes", "1,1,1;1,1,1;1,1,1"}).status ==
+          1);
+}
+
 TEST_CASE("what no classes are ends in an error, without a file") {
     const TemporaryFolder folder;
     REQUIRE(run(folder, {"sample", kClassesMesh, "-o", "a.ply", "-d", "10%", "--classes", "3"})
@@ -227,7 +244,8 @@ TEST_CASE("what no classes are ends in an error, without a file") {
              {{"--classes", "none.csv"}, "no such file"},
              {{"--classes", "bad.csv"}, "line 1: 'x' is no number"},
              {{"--classes", "1,2;3,1"}, "not symmetric"},
-             {{"--classes", "1,-2;-2,1"}, "not positive and finite"},
+             {{"--classes", "1,-2;-2,1"}, "not positive and finite, nor 0 for none"},
+             {{"--classes", "1,1;1,0"}, "of classes 1 and 1 is 0, not positive and finite"},
              {{"--classes", "1,nan;nan,1"}, "is nan, not positive and finite"},
              {{"--classes", "1,2;2"}, "row 1 of the table has 1 distance"},
              {{"--classes", "1,0.001;0.001,1"}, "more than a factor of 100"},

@@ -117,13 +117,46 @@ TEST_SUITE("classes") {
         }
         GeodesicQuery<double> query(prepared(shape), 1.1 * params.min_distance, points,
                                     tight_tolerances());
+        std::size_t violations = 0;
         for (std::size_t i = 0; i < points.size(); ++i) {
             const std::vector<double> distances = query.from(points[i]);
             for (std::size_t k = 0; k < i; ++k) {
                 const double factor = kUneven[2u * set.classes[i] + set.classes[k]];
-                CHECK_FALSE(distances[k] < factor * params.min_distance);
+                violations += distances[k] < factor * params.min_distance;
             }
         }
+        CHECK(violations == 0);
+    }
+
+    TEST_CASE("two classes that keep no distance know nothing of each other") {
+        const PreparedMesh mesh = prepared(builtin("torus-knot", 8));
+        SampleParams params = params_for(mesh, 150, 5);
+        const Factors free{1, 0, 0.5f, 0, 0.5f, 0.5f, 0.5f, 0.5f, 1};
+        params.class_factors = free;
+        RunnerOptions groups;
+        groups.plan.disks_by = DisksBy::groups;
+        const SampleSet set = check_classed(mesh, params);
+        CHECK(points_of(check_classed(mesh, params, groups)) == points_of(set));
+        std::vector<Point> points;
+        for (const Sample& s : set.samples) {
+            points.push_back({s.face, s.weights[1], s.weights[2]});
+        }
+        GeodesicQuery<double> query(mesh, 1.1 * params.min_distance, points, tight_tolerances());
+        double closest = params.min_distance;
+        std::size_t violations = 0;
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            const std::vector<double> distances = query.from(points[i]);
+            for (std::size_t k = 0; k < i; ++k) {
+                const double factor = free[3u * set.classes[i] + set.classes[k]];
+                violations += distances[k] < factor * params.min_distance;
+                closest = factor == 0 ? std::min(closest, distances[k]) : closest;
+            }
+        }
+        CHECK(violations == 0);
+        CHECK(closest < 0.1 * params.min_distance);
+        const Factors bare{0, 1, 1, 1};
+        params.class_factors = bare;
+        CHECK(refusal(mesh, params) == "the factor of classes 0 and 0 is 0, not from 0.01 to 1");
     }
 
     TEST_CASE("with existing samples, points to avoid, masks, darts, keys and a stop count") {
@@ -163,9 +196,9 @@ TEST_SUITE("classes") {
                                             {&one, "2 to 8 classes"},
                                             {&eighty_one, "2 to 8 classes"},
                                             {&odd, "not symmetric"},
-                                            {&small, "not from 0.01 to 1"},
-                                            {&large, "not from 0.01 to 1"},
-                                            {&nan, "not from 0.01 to 1"}}) {
+                                            {&small, "not 0 or from 0.01 to 1"},
+                                            {&large, "not 0 or from 0.01 to 1"},
+                                            {&nan, "not 0 or from 0.01 to 1"}}) {
             params.class_factors = *factors;
             CHECK(refusal(mesh, params).find(part) != std::string::npos);
         }

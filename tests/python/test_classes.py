@@ -65,6 +65,19 @@ def test_a_count_scales_the_table(tmp_path):
     assert geodisk.verify(geodisk.read(tmp_path / "a.csv"), VERTICES, FACES)
 
 
+def test_two_classes_may_keep_no_distance(tmp_path):
+    samples = geodisk.sample(VERTICES, FACES, count=300, classes=[[1, 0], [0, 1]])
+    assert geodisk.verify(samples)
+    near = geodisk.neighbours(
+        VERTICES, FACES, samples, within=0.5 * samples.min_distance, among="sources"
+    )
+    first, second = np.repeat(np.arange(len(samples)), np.diff(near.offsets).astype(int)), near.indices
+    assert len(first) > 0
+    assert (samples.classes[first] != samples.classes[second]).all()
+    samples.save(tmp_path / "a.csv")
+    assert geodisk.verify(geodisk.read(tmp_path / "a.csv"), VERTICES, FACES)
+
+
 def test_wrong_ones_are_refused():
     samples = geodisk.sample(VERTICES, FACES, min_distance=0.6, classes=3)
     for options, text in (
@@ -75,7 +88,8 @@ def test_wrong_ones_are_refused():
         ({"classes": []}, "has the shape"),
         ({"classes": np.ones((9, 9))}, "has the shape"),
         ({"classes": [[1, 2], [3, 1]]}, "not symmetric"),
-        ({"classes": [[1, -2], [-2, 1]]}, "not positive"),
+        ({"classes": [[1, -2], [-2, 1]]}, "are negative"),
+        ({"classes": [[1, 1], [1, 0]]}, "keeps no distance from itself"),
         ({"classes": [[1, 0.001], [0.001, 1]]}, "factor of 100"),
         ({"classes": [[1, 1], [1, 1]], "min_distance": 1}, "takes no min_distance"),
         ({"classes": [[1, 1], [1, 1]], "radius": 1}, "takes no min_distance and no radius"),

@@ -139,8 +139,11 @@ class Worker {
             const double distance = std::exchange(distances_[place], kNone);
             const std::uint32_t other = layout_.bins.order[place];
             const bool is_sample = other < layout_.samples;
-            const double relative =
-                distance / (is_sample ? classes_.of(own, samples_[other]) : 2 * own.radius);
+            const double kept = is_sample ? classes_.of(own, samples_[other]) : 2 * own.radius;
+            if (kept == 0) {
+                continue; // Two classes that keep no distance.
+            }
+            const double relative = distance / kept;
             if (is_sample) {
                 const auto self = static_cast<std::uint32_t>(i);
                 found.sample_distances.push_back({self, other, relative});
@@ -162,8 +165,9 @@ class Worker {
             found.place_distances.emplace_back(place, distance / (2 * own.radius));
         }
         for (std::size_t other = 0; other < classes_.count; ++other) {
-            found.place_distances.emplace_back(place * classes_.count + other,
-                                               distance / classes_.of(own.kind - 1, other));
+            if (const double kept = classes_.of(own.kind - 1, other); kept > 0) {
+                found.place_distances.emplace_back(place * classes_.count + other, distance / kept);
+            }
         }
     }
 

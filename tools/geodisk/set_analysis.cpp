@@ -30,7 +30,7 @@ std::optional<double> rho_of(const MeshInput& mesh, std::span<const SurfaceDisk>
     }
     std::vector<float> factors;
     for (const double distance : classes.distances) {
-        factors.push_back(std::max(static_cast<float>(distance / min_distance), kMinClassFactor));
+        factors.push_back(class_factor(distance / min_distance));
     }
     SampleParams params;
     params.face_mask = mesh.face_mask;

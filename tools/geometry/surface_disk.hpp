@@ -19,8 +19,9 @@ struct SurfaceDisk {
 
 /// Distances that samples of classes must keep.
 struct ClassDistances {
-    std::size_t count = 0;         ///< Number of classes; 0 without.
-    std::vector<double> distances; ///< In mesh units, count * count, row by row.
+    std::size_t count = 0; ///< Number of classes; 0 without.
+    /// In mesh units, count * count, row by row; 0 for two classes that keep none.
+    std::vector<double> distances;
 
     double of(std::size_t class_a, std::size_t class_b) const {
         return distances[count * class_a + class_b];

@@ -369,7 +369,8 @@ typedef struct geodisk_surface_params {
     /* Distances of 2 to 8 classes of samples, as parts of min_distance: a symmetric table of
      * class_count * class_count factors from 0.01 to 1, row by row, which is copied; NULL if
      * samples have no classes. Samples of the classes a and b are at least
-     * class_factors[class_count * a + b] * min_distance apart. For GEODISK_GEODESIC only, without
+     * class_factors[class_count * a + b] * min_distance apart; 0 for two classes that keep no
+     * distance from each other. For GEODISK_GEODESIC only, without
      * radii and for one surface. */
     const float *class_factors;
     size_t class_count;

@@ -28,7 +28,7 @@ inline constexpr double kStageRatio = 5;
 inline constexpr std::uint32_t kMaxPoolStages = 15;
 /// Maximum of classes of samples.
 inline constexpr std::uint32_t kMaxClasses = 8;
-/// Minimum of SampleParams::class_factors.
+/// Minimum of SampleParams::class_factors, but for 0.
 inline constexpr float kMinClassFactor = 0.01f;
 /// Maximum of candidates that one face may expect in one stage.
 inline constexpr double kMaxPerFace = 0x1p24;
@@ -67,7 +67,8 @@ struct SampleParams {
     std::span<const KeepOut> avoid{};
     /// Distances of K classes of samples, 2 to 8, as parts of `min_distance`: a symmetric table,
     /// row by row, of factors from kMinClassFactor to 1. Samples of the classes a and b are at
-    /// least class_factors[K * a + b] * min_distance apart. Each class has the candidates of a run
+    /// least class_factors[K * a + b] * min_distance apart; 0 for two classes that keep no
+    /// distance from each other. Each class has the candidates of a run
     /// with its own distance. Empty if samples have no classes. Only for one surface with geodesic
     /// distances, whose radii do not vary. Must outlive the run.
     std::span<const float> class_factors{};

@@ -55,9 +55,10 @@ ClassTable table_of(const Rows& rows, const Fail& fail) {
         }
         for (std::size_t b = 0; b < count; ++b) {
             const double distance = rows[a][b];
-            if (!(distance > 0) || !std::isfinite(distance)) {
+            const bool is_free = a != b && distance == 0;
+            if (!is_free && (!(distance > 0) || !std::isfinite(distance))) {
                 fail("the distance " + entry_text(a, b) + " is " + exact_text(distance) +
-                     ", not positive and finite");
+                     ", not positive and finite" + (a == b ? "" : ", nor 0 for none"));
             }
             if (b < a && distance != rows[b][a]) {
                 fail("the table is not symmetric: the distance " + entry_text(b, a) + " is " +
@@ -66,7 +67,10 @@ ClassTable table_of(const Rows& rows, const Fail& fail) {
             table.distances.push_back(distance);
         }
     }
-    const double least = std::ranges::min(table.distances);
+    double least = table.largest();
+    for (const double distance : table.distances) {
+        least = distance == 0 ? least : std::min(least, distance);
+    }
     if (least < table.largest() * double{kMinClassFactor}) {
         fail("the distances " + exact_text(least) + " and " + exact_text(table.largest()) +
              " differ by more than a factor of 100");
@@ -106,6 +110,10 @@ ClassTable table_in_text(const std::string& text) {
 
 } // namespace
 
+float class_factor(double factor) {
+    return factor == 0 ? 0 : std::max(static_cast<float>(factor), kMinClassFactor);
+}
+
 double ClassTable::largest() const {
     return std::ranges::max(distances);
 }
@@ -142,7 +150,7 @@ std::vector<float> ClassTable::factors() const {
     std::vector<float> factors;
     for (std::size_t a = 0; a < count && count > 1; ++a) {
         for (std::size_t b = 0; b < count; ++b) {
-            factors.push_back(std::max(static_cast<float>(factor(a, b)), kMinClassFactor));
+            factors.push_back(class_factor(factor(a, b)));
         }
     }
     return factors;
@@ -209,8 +217,9 @@ void add_class_option(Command command, std::string& text, OptionUse use, const s
                        help_for(use, "Spread 1 to 8 classes of samples, each and all together\n",
                                 "Check 1 to 8 classes of samples, each and all together\n") +
                            "(column class). K: each at the minimum distance D, samples\n"
-                           "of two classes at D / sqrt(K). TABLE: a\n"
-                           "symmetric table of distances, as 0.2,0.1;0.1,0.3 or in a file",
+                           "of two classes at D / sqrt(K). TABLE: a symmetric table of\n"
+                           "distances, as 0.2,0.1;0.1,0.3 or in a file; 0 for two classes\n"
+                           "that keep no distance",
                        group);
 }
 

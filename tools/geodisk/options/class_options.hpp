@@ -45,6 +45,9 @@ struct ClassTable {
     std::string text(double min_distance) const;
 };
 
+/// Returns a factor of two classes as SampleParams::class_factors takes it.
+float class_factor(double factor);
+
 /// Reads the number of classes, or a table of distances: from the text, rows divided by semicolons,
 /// or else from the file that it names. Throws UserError for what is neither.
 ClassTable parse_classes(const std::string& text);

@@ -38,7 +38,7 @@ class Classes:
         self.count = len(factors)
         self.exact_factors = factors
         #: As the library takes them.
-        self.factors = np.maximum(factors, _MIN_FACTOR).astype(np.float32)
+        self.factors = np.where(factors == 0, 0, np.maximum(factors, _MIN_FACTOR)).astype(np.float32)
 
     @property
     def largest(self) -> float | None:
@@ -67,9 +67,11 @@ class Classes:
 def _check(table: NDArray[np.float64]) -> None:
     if table.ndim != 2 or table.shape[0] != table.shape[1] or not 1 <= len(table) <= _MAX:
         raise e.invalid(f"the table of classes has the shape {table.shape}, not (k, k) up to (8, 8)")
-    if not (np.isfinite(table).all() and (table > 0).all()):
-        raise e.invalid("the table of classes has distances that are not positive and finite")
+    if not (np.isfinite(table).all() and (table >= 0).all()):
+        raise e.invalid("the table of classes has distances that are negative or not finite")
+    if not (table.diagonal() > 0).all():
+        raise e.invalid("the table of classes has a class that keeps no distance from itself")
     if not (table == table.T).all():
         raise e.invalid("the table of classes is not symmetric")
-    if table.min() < _MIN_FACTOR * table.max():
+    if table[table > 0].min() < _MIN_FACTOR * table.max():
         raise e.invalid("the distances of classes differ by more than a factor of 100")

@@ -133,8 +133,8 @@ def sample(
     classes : int or array_like of float, shape (k, k), optional
         Number of classes of samples, 1 to 8, each with the minimum distance D, where samples of
         two classes are D / sqrt(k) apart. Or a symmetric table of the distances of all pairs of
-        classes, in place of the minimum distance; with `count`, it is scaled. ``columns["class"]``
-        has the classes.
+        classes, in place of the minimum distance, 0 for two classes that keep none; with `count`,
+        it is scaled. ``columns["class"]`` has the classes.
     features : float, optional
         Sample corners first, then edges whose triangles meet at more than this angle in degrees (1
         to 180), borders and edges of more than two triangles, then the triangles.

@@ -51,9 +51,11 @@ Result<Done> check_factors(const SampleParams& params) {
     for (std::uint32_t a = 0; a < count; ++a) {
         for (std::uint32_t b = 0; b < count; ++b) {
             const double factor = factor_of(params, a, b);
-            if (!(factor >= kMinClassFactor && factor <= 1)) {
+            const bool is_free = a != b && factor == 0;
+            if (!is_free && !(factor >= kMinClassFactor && factor <= 1)) {
                 return invalid("the factor " + pair_text(a, b) + " is " + number_text(factor) +
-                               ", not from " + number_text(kMinClassFactor) + " to 1");
+                               ", not " + (a == b ? "" : "0 or ") + "from " +
+                               number_text(kMinClassFactor) + " to 1");
             }
             if (factor != factor_of(params, b, a)) {
                 return invalid("the table of classes is not symmetric: it has two factors " +
