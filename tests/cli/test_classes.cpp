@@ -232,6 +232,37 @@ TEST_CASE("two classes may keep no distance from each other") {
           1);
 }
 
+TEST_CASE("each class has as many samples as asked for") {
+    const TemporaryFolder folder;
+    const Arguments darts{"--classes", "0.5,0.4;0.4,0.3", "--method", "darts"};
+    const auto sampled = [&](const char* file, const Arguments& options) {
+        return run(folder, joined(joined({"sample", kClassesMesh, "-o", file}, darts), options));
+    };
+    const Outcome few = sampled("few.csv", {"-n", "3,7", "--json", "report.json"});
+    INFO(few.err);
+    REQUIRE(few.status == 0);
+    const Json report = json_in(folder, "report.json");
+    CHECK(report["classes"]["samples"] == Json{3, 7});
+    CHECK(run(folder, {"verify", kClassesMesh, "few.csv"}).status == 0);
+    const auto refuses = [&](const Arguments& options, const char* message) {
+        const Outcome refused = sampled("b.csv", options);
+        INFO(refused.err);
+        CHECK(refused.status == 2);
+        CHECK(contains(refused.err, message));
+        CHECK_FALSE(std::filesystem::exists(folder / "b.csv"));
+    };
+    refuses({"-n", "3000,7"}, "--count: placed only ");
+    refuses({"-n", "3,7,9"}, "--count has 3 numbers, one for each class, but --classes has 2");
+    refuses({"-n", "3,"}, "--count: '' is not a whole number");
+    CHECK(sampled("some.csv", {"-n", "3000,7", "--darts", "5000"}).status == 0);
+    const Outcome pool =
+        run(folder, {"sample", kClassesMesh, "-o", "b.csv", "--classes", "2", "-n", "3,7"});
+    CHECK(contains(pool.err, "is a number for each class, which takes --method darts"));
+    const Outcome none = run(folder, {"sample", kClassesMesh, "-o", "b.csv", "-d", "5", "-n", "3,7",
+                                      "--method", "darts"});
+    CHECK(contains(none.err, "--count has 2 numbers, one for each class, but there are no"));
+}
+
 TEST_CASE("what no classes are ends in an error, without a file") {
     const TemporaryFolder folder;
     REQUIRE(run(folder, {"sample", kClassesMesh, "-o", "a.ply", "-d", "10%", "--classes", "3"})

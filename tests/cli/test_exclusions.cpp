@@ -54,6 +54,7 @@ std::optional<FieldOptions> options_for(RequestField field) {
         return FieldOptions{"--metric euclidean", {"--metric", "euclidean"}};
     case RequestField::update:
         return FieldOptions{"--from", {"--from", "old.ply"}};
+    case RequestField::class_counts: // --count has them, or else a field that excludes them.
     case RequestField::min_distance:
     case RequestField::frame:
     case RequestField::split_from:

@@ -79,6 +79,10 @@ class PairRequest {
         case RequestField::class_factors:
             params.class_factors = factors_;
             break;
+        case RequestField::class_counts:
+            params.class_factors = factors_;
+            request_.class_counts = counts_;
+            break;
         case RequestField::existing:
             params.existing = given_;
             break;
@@ -122,6 +126,7 @@ class PairRequest {
     MeshView view_;
     JobFrame frame_;
     std::array<float, 4> factors_{1, 0.5F, 0.5F, 1};
+    std::array<std::uint32_t, 2> counts_{9, 9};
     std::array<Sample, 1> given_{{{0, {1, 0, 0}}}};
     std::array<KeepOut, 1> avoided_{{{{0, {1, 0, 0}}, 0.1}}};
     SampleRequest request_;

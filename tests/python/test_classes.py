@@ -78,6 +78,30 @@ def test_two_classes_may_keep_no_distance(tmp_path):
     assert geodisk.verify(geodisk.read(tmp_path / "a.csv"), VERTICES, FACES)
 
 
+def test_each_class_has_a_number():
+    table = [[0.4, 0.3], [0.3, 0.2]]
+    every = geodisk.sample(VERTICES, FACES, classes=table)
+    few = geodisk.sample(VERTICES, FACES, classes=table, class_counts=[5, 30])
+    assert np.array_equal(np.bincount(few.classes), [5, 30])
+    for number, count in enumerate((5, 30)):
+        first = every.points[every.classes == number][:count]
+        assert np.array_equal(few.points[few.classes == number], first)
+    assert geodisk.verify(few)
+    with pytest.warns(geodisk.GeodiskWarning, match="class 0 has [0-9]+ of 5000 samples"):
+        geodisk.sample(VERTICES, FACES, classes=table, class_counts=[5000, 30])
+    for counts, text in (
+        ([5], r"has the shape \(1,\), not \(2,\)"),
+        ([5, 0], "other numbers than whole ones"),
+        ([5, 2.5], "other numbers than whole ones"),
+    ):
+        with pytest.raises(geodisk.InvalidArgument, match=text):
+            geodisk.sample(VERTICES, FACES, classes=table, class_counts=counts)
+    with pytest.raises(geodisk.InvalidArgument, match="two or more"):
+        geodisk.sample(VERTICES, FACES, min_distance=0.4, class_counts=[5])
+    many = geodisk.sample_many([(VERTICES, FACES)] * 2, classes=table, class_counts=[5, 30])
+    assert np.array_equal(many[1].points, few.points)
+
+
 def test_wrong_ones_are_refused():
     samples = geodisk.sample(VERTICES, FACES, min_distance=0.6, classes=3)
     for options, text in (

@@ -22,6 +22,7 @@ PARAMETERS = {
     "radii": ("radius_factor", {"radius_factor": np.ones(4)}),
     "density": ("density", {"density": np.ones(4)}),
     "class_factors": ("classes", {"classes": 2}),
+    "class_counts": ("class_counts", {"class_counts": [2, 2], "classes": 2}),
     "existing": ("existing", {"existing": POINT}),
     "avoid": ("avoid", {"avoid": (POINT, 0.1)}),
     "features": ("features", {"features": 30}),
@@ -49,6 +50,7 @@ def test_parameters_are_refused_by_name_where_their_fields_exclude_each_other(a,
     fields = {a, b}
     fields |= {"radii"} if "density" in fields else set()
     fields |= {"count"} if "is_exact" in fields else set()
+    fields |= {"class_factors"} if "class_counts" in fields else set()
     broken = [rule for rule in rules() if {*rule[:2]} <= fields]
     if not broken:
         if given.get("count") is None or "darts" not in given:

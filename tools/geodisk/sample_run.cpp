@@ -57,6 +57,7 @@ SampleRequest request_of(const SampleJob& job, const MeshInput& mesh, const Samp
     request.count = job.wanted_count.samples;
     request.is_exact = job.wanted_count.is_exact;
     request.features = job.features.value_or(0);
+    request.class_counts = job.method.class_counts;
     request.order = job.method.has_levels ? SampleOrder::progressive : SampleOrder::dart;
     request.levels = job.method.levels;
     request.metric = job.metric;
@@ -237,6 +238,8 @@ SampleResult sample_mesh(const SampleJob& job, const MeshInput& mesh, RunDevice&
     }
     job.method.check_count(set.samples.size(), params.min_distance * mesh.distance_part,
                            done.run.candidates);
+    job.method.check_classes(set.classes, params.min_distance * mesh.distance_part,
+                             done.run.candidates);
     params.existing = {};
     params.existing_classes = {};
     params.avoid = {};

@@ -548,6 +548,10 @@ typedef struct geodisk_request {
     double level_factor;  /* Distance of a level, divided by that of the next; 0 for 2. */
     uint32_t levels;      /* Levels of GEODISK_ORDER_PROGRESSIVE; 0 for as many as suit. */
     uint32_t keep;        /* Samples to keep of GEODISK_ORDER_FARTHEST; 0 for all. */
+    /* Number of samples of each of params->class_count classes to keep, the first ones of each, which
+     * is copied; NULL for all. Existing samples count, and are kept. If a class has fewer, it has
+     * what the run gave. */
+    const uint32_t *class_counts;
 } geodisk_request;
 
 /* Two fields of requests that exclude each other, as geodisk/request_rules.hpp names them. */
@@ -720,7 +724,7 @@ typedef struct geodisk_report {
     uint32_t levels;         /* Levels. The distance of the last one is min_distance, and that of
                               * each before it level_factor times as large. */
     double level_factor;
-    uint64_t cut;            /* Last samples of the run that a count left out. */
+    uint64_t cut;            /* Samples of the run that a count left out. */
     uint64_t corners;        /* Corners on faces that take samples. */
     double feature_length;   /* Length of all curves. */
     int32_t lacks_features;  /* 1 if features were asked for, and no face that takes samples has one. */

@@ -48,6 +48,9 @@ struct SampleRequest {
     /// Sample corners first, then edges whose faces meet at more than this angle in degrees, 1 to
     /// 180, borders and edges of more than two faces, then the faces. 0 for no features.
     double features = 0;
+    /// Number of samples of each class to keep, the first ones of each; empty for all. Existing
+    /// samples count, and are kept. If a class has fewer, it has what the run gave.
+    std::span<const std::uint32_t> class_counts{};
     SampleOrder order = SampleOrder::dart;
     /// For SampleOrder::progressive; a count of 0 is that of levels_for().
     Levels levels{0};
@@ -80,7 +83,7 @@ struct RequestedSet {
     SampleSet set;
     double min_distance = 0;         ///< As asked for, or as found for the count.
     std::uint32_t tries = 0;         ///< Distances tried.
-    std::uint64_t cut = 0;           ///< Last samples of the run that a count left out.
+    std::uint64_t cut = 0;           ///< Samples of the run that a count left out.
     Levels levels{0};                ///< Count 0 without levels.
     std::vector<std::size_t> ends{}; ///< Number of samples at the end of each level, or of the run.
     /// Where each sample lies, for a request of features. Existing samples count as on faces.

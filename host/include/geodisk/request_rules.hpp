@@ -23,6 +23,7 @@ enum class RequestField : std::uint8_t {
     radii,
     density, ///< Radii that are made from a density.
     class_factors,
+    class_counts,
     existing,
     avoid,
     features,
@@ -38,7 +39,7 @@ enum class RequestField : std::uint8_t {
 };
 
 /// Number of fields.
-inline constexpr std::uint32_t kRequestFields = 21;
+inline constexpr std::uint32_t kRequestFields = 22;
 
 /// Returns the name of a field as spelled above.
 GEODISK_API const char* to_string(RequestField field) noexcept;

@@ -46,6 +46,13 @@ Result<std::shared_ptr<RequestState>> request_of(const geodisk_mesh* mesh,
     wanted.levels.count = given->levels;
     wanted.levels.factor = given->level_factor != 0 ? given->level_factor : kLevelFactor;
     wanted.keep = given->keep;
+    if (given->class_counts != nullptr) {
+        if (params->class_count == 0) {
+            return wrong("request->class_counts is for classes, and params->class_count is 0");
+        }
+        state->class_counts.assign(given->class_counts, given->class_counts + params->class_count);
+        wanted.class_counts = state->class_counts;
+    }
     if (params->metric != GEODISK_GEODESIC) {
         const auto metric = metric_of(params->metric);
         GEODISK_TRY(metric);

@@ -1,6 +1,7 @@
 // Requests of the C API.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -17,6 +18,7 @@ namespace geodisk::c {
 struct RequestState {
     std::shared_ptr<DomainState> of; ///< Its one surface, or a box.
     MeshView view;
+    std::vector<std::uint32_t> class_counts;
     SampleRequest request; ///< Request for a surface.
     BoxRequest box;        ///< Request for a box.
 };

@@ -90,6 +90,7 @@ BoxJob parse_job(const BoxOptions& options) {
     box.is_periodic = options.is_periodic;
     box.seed = options.run.parsed_seed();
     job.method = parse_method(options.method, options.count);
+    check_class_counts(job.method, 0);
     if (job.method.is_maximal) {
         fail_usage("--maximal is for surfaces; in a box, give --dense or a higher --pool-ratio");
     }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 #include "program/arguments.hpp"
 #include "program/command.hpp"
@@ -58,6 +59,21 @@ std::uint32_t parse_candidates(const std::string& option, const std::string& tex
     return static_cast<std::uint32_t>(value);
 }
 
+/// Returns true for a number for each class.
+bool has_class_counts(const std::string& count) {
+    return count.find(',') != std::string::npos;
+}
+
+std::vector<std::uint32_t> parse_class_counts(const std::string& count) {
+    std::vector<std::uint32_t> counts;
+    std::istringstream words(count + ' '); // So that a comma at the end has an empty word after it.
+    for (std::string word; std::getline(words, word, ',');) {
+        word.erase(std::remove(word.begin(), word.end(), ' '), word.end());
+        counts.push_back(parse_candidates("--count", word));
+    }
+    return counts;
+}
+
 void parse_order(const MethodOptions& options, Method& method) {
     const std::vector<std::string> names{"dart", "progressive", "farthest"};
     if (std::ranges::find(names, options.order) == names.end()) {
@@ -87,7 +103,7 @@ void parse_order(const MethodOptions& options, Method& method) {
 } // namespace
 
 std::uint32_t Method::darts_for(double samples) const {
-    if (stop_count == 0 || darts != 0) {
+    if ((stop_count == 0 && class_counts.empty()) || darts != 0) {
         return darts;
     }
     return static_cast<std::uint32_t>(
@@ -112,11 +128,29 @@ void Method::check_count(std::uint64_t samples, double min_distance, std::uint64
     }
 }
 
+void Method::check_classes(std::span<const std::uint8_t> classes, double min_distance,
+                           std::uint64_t thrown) const {
+    for (std::size_t k = 0; k < class_counts.size(); ++k) {
+        const auto samples = static_cast<std::uint64_t>(std::ranges::count(classes, k));
+        if (darts == 0 && samples < class_counts[k]) {
+            fail_usage("--count: placed only " + grouped(samples) + " of " +
+                       grouped(class_counts[k]) + " samples of class " + std::to_string(k) +
+                       ", where the largest distance is " + rounded(min_distance, 6) + ", with " +
+                       grouped(thrown) +
+                       " darts; lower the count or the distances, or accept fewer samples with "
+                       "--darts");
+        }
+    }
+}
+
 GivenFields given_fields(const MethodOptions& options, const std::string& count) {
     using Field = RequestField;
     const bool is_darts = options.throws_darts();
+    const Field field = has_class_counts(count) ? Field::class_counts
+                        : is_darts              ? Field::stop_count
+                                                : Field::count;
     GivenFields given;
-    given.add(is_darts ? Field::stop_count : Field::count, "--count", !count.empty());
+    given.add(field, "--count", !count.empty());
     given.add(Field::is_exact, "--exact", options.exact);
     given.add(Field::darts, "--method darts", is_darts);
     given.add(Field::maximal, "--maximal", options.is_maximal);
@@ -130,6 +164,11 @@ Method parse_method(const MethodOptions& options, const std::string& count) {
     given_fields(options, count).check();
     check_method(options);
     check_filling(options);
+    if (has_class_counts(count) && !options.throws_darts()) {
+        fail_usage("--count: " + in_quotes(count) +
+                   " is a number for each class, which takes --method darts; with a pool, --count "
+                   "is the number of all samples together");
+    }
     Method method;
     method.throws_darts = options.throws_darts();
     method.is_dense = options.is_dense;
@@ -142,7 +181,11 @@ Method parse_method(const MethodOptions& options, const std::string& count) {
         if (count.empty() && options.darts.empty()) {
             fail_usage("--method darts needs a number to stop at; give --count, --darts or both");
         }
-        method.stop_count = count.empty() ? 0 : parse_candidates("--count", count);
+        if (has_class_counts(count)) {
+            method.class_counts = parse_class_counts(count);
+        } else {
+            method.stop_count = count.empty() ? 0 : parse_candidates("--count", count);
+        }
         method.darts = options.darts.empty() ? 0 : parse_candidates("--darts", options.darts);
     }
     parse_order(options, method);
@@ -187,6 +230,15 @@ void check_one_distance(const MethodOptions& options,
     }
     if (found.size() > 1) {
         fail_usage(listed(found) + " contradict each other; give just one of them");
+    }
+}
+
+void check_class_counts(const Method& method, std::size_t classes) {
+    const std::size_t counts = method.class_counts.size();
+    if (counts != 0 && counts != classes) {
+        fail_usage(
+            "--count has " + std::to_string(counts) + " numbers, one for each class, but " +
+            (classes == 0 ? "there are no --classes" : "--classes has " + std::to_string(classes)));
     }
 }
 

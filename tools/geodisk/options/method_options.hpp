@@ -1,7 +1,9 @@
 // Number of candidates of a run and its end: options of the commands that sample.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -42,10 +44,12 @@ struct Method {
     double pool_ratio = kDefaultPoolRatio;
     std::uint32_t darts = 0;      ///< 0 if not given.
     std::uint32_t stop_count = 0; ///< Value of --count, if darts stop at it; else 0.
-    bool has_levels = false;      ///< --order progressive.
-    bool is_farthest = false;     ///< --order farthest.
-    std::uint32_t keep = 0;       ///< Value of --keep; 0 for all.
-    Levels levels{0};             ///< Their factor, and their number if that was given; else 0.
+    /// Values of --count, if it has one for each class; else empty.
+    std::vector<std::uint32_t> class_counts;
+    bool has_levels = false;  ///< --order progressive.
+    bool is_farthest = false; ///< --order farthest.
+    std::uint32_t keep = 0;   ///< Value of --keep; 0 for all.
+    Levels levels{0};         ///< Their factor, and their number if that was given; else 0.
 
     /// Darts to throw where there is room for so many samples: where a count alone is to stop them,
     /// they end at a number that leaves hardly any gap.
@@ -57,6 +61,9 @@ struct Method {
     /// A count asked for, with no number of darts that would do, must be reached: throws
     /// UserError(usage) if there are fewer samples.
     void check_count(std::uint64_t samples, double min_distance, std::uint64_t thrown) const;
+    /// Checks in the same way that each class has as many samples as asked for.
+    void check_classes(std::span<const std::uint8_t> classes, double min_distance,
+                       std::uint64_t thrown) const;
 };
 
 /// Returns the samples to keep of a farthest-point order, if there is one; 0 for all. Throws
@@ -68,6 +75,9 @@ void add_keep_option(Command command, std::string& keep, const std::string& grou
 
 /// Adds --order and those that go with it.
 void add_order_options(Command command, MethodOptions& options);
+
+/// Checks that there is a count for each class, if there are such counts. Throws UserError(usage).
+void check_class_counts(const Method& method, std::size_t classes);
 
 /// Returns the fields that the options set, with --count.
 GivenFields given_fields(const MethodOptions& options, const std::string& count);

@@ -150,6 +150,7 @@ SampleJob parse_job(const SampleOptions& options) {
     job.classes = parse_classes(options.classes);
     given_fields(options, job.classes).check();
     job.method = parse_method(options.method, options.count);
+    check_class_counts(job.method, job.classes.count);
     take_classes(options, job);
     if (!options.features.empty()) {
         job.features = parse_ratio("--features", options.features, 1, 180);
@@ -215,7 +216,8 @@ void add_subject_options(Command command, SampleOptions& options) {
                        "Half the minimum distance; the largest one if radii vary", distance);
     command.add_option("-n,--count", options.count, "N",
                        "Choose the distance that should give about N samples;\n"
-                       "with --method darts, stop at exactly N",
+                       "with --method darts, stop at exactly N. A,B,...: with darts\n"
+                       "and --classes, a number for each class",
                        distance);
     add_exact_option(command, options.method, distance);
 

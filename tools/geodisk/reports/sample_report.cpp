@@ -252,7 +252,7 @@ SampleHeader SampleReport::header() const {
     if (result_.frame && !is_told(*result_.frame, distance)) {
         header.entries.emplace_back(kJobFrame, job_frame_text(*result_.frame));
     }
-    if (done.cut > 0) {
+    if (done.cut > 0 && job_.method.class_counts.empty()) {
         header.entries.emplace_back("exact", std::to_string(result_.count()));
     }
     if (!job_.is_geodesic()) {

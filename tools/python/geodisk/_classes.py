@@ -50,6 +50,15 @@ class Classes:
         """How many times as many samples fit as with one distance for all."""
         return float((1 / np.diag(self.factors) ** 2).sum())
 
+    def counts_of(self, counts: Any) -> NDArray[np.uint32]:
+        """Returns the number of samples of each class to keep, as the library takes it."""
+        given = real(counts, "class_counts")
+        if given.shape != (self.count,):
+            raise e.invalid(f"class_counts has the shape {given.shape}, not ({self.count},)")
+        if not ((given >= 1) & (given < 2**32) & (given == np.floor(given))).all():
+            raise e.invalid("class_counts has other numbers than whole ones from 1 to 4294967295")
+        return given.astype(np.uint32)
+
     def existing_of(self, existing: Any, count: int) -> NDArray[np.uint8]:
         """Returns the classes of `count` samples to keep: 0 unless they have some."""
         if not isinstance(existing, Samples) or "class" not in existing.columns:

@@ -45,6 +45,7 @@ def sample_many(
     levels: int | None = None,
     level_factor: float | None = None,
     classes: ClassesLike | None = None,
+    class_counts: Sequence[int] | None = None,
     features: float | None = None,
     metric: str = "geodesic",
     weld: bool | float = False,
@@ -74,8 +75,8 @@ def sample_many(
         As for :func:`sample`.
     density, radius_factor, face_keys, face_mask, existing, avoid : sequence of one per mesh, or None
         As for :func:`sample`; None for a mesh without.
-    exact, pool_ratio, darts, stop_count, maximal, order, levels, level_factor, classes, features,
-    metric, weld, keep_seams, columns, attributes, texture, normals, frames, mesh_format,
+    exact, pool_ratio, darts, stop_count, maximal, order, levels, level_factor, classes,
+    class_counts, features, metric, weld, keep_seams, columns, attributes, texture, normals, frames, mesh_format,
     allow_outside, device, progress
         As for :func:`sample`, for all meshes.
 
@@ -141,6 +142,7 @@ def sample_many(
             levels=levels,
             level_factor=level_factor,
             classes=classes,
+            class_counts=class_counts,
             features=features,
             metric=metric,
             **own,

@@ -52,6 +52,7 @@ def sample(
     existing: ExistingLike | None = None,
     avoid: AvoidLike | None = None,
     classes: ClassesLike | None = None,
+    class_counts: Sequence[int] | None = None,
     features: float | None = None,
     metric: str = "geodesic",
     edge_lengths: ArrayLike | None = None,
@@ -135,6 +136,9 @@ def sample(
         two classes are D / sqrt(k) apart. Or a symmetric table of the distances of all pairs of
         classes, in place of the minimum distance, 0 for two classes that keep none; with `count`,
         it is scaled. ``columns["class"]`` has the classes.
+    class_counts : sequence of int, optional
+        Number of samples of each class: the first ones of each. A warning reports if fewer fit. Not
+        with `count` and `stop_count`.
     features : float, optional
         Sample corners first, then edges whose triangles meet at more than this angle in degrees (1
         to 180), borders and edges of more than two triangles, then the triangles.
@@ -228,6 +232,7 @@ def sample(
         existing=existing,
         avoid=avoid,
         classes=classes,
+        class_counts=class_counts,
         features=features,
         metric=metric,
     )

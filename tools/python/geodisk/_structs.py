@@ -208,6 +208,7 @@ class Request(_Sized):
         ("level_factor", c_double),
         ("levels", c_uint32),
         ("keep", c_uint32),
+        ("class_counts", c_void_p),
     ]
 
 

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import dataclasses
 from ctypes import byref, pointer
-from typing import Callable
+from typing import Callable, Sequence
 
+import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _errors as e
@@ -54,6 +55,7 @@ class Wanted:
         existing: ExistingLike | None,
         avoid: AvoidLike | None,
         classes: ClassesLike | None,
+        class_counts: Sequence[int] | None,
         features: float | None,
         metric: str,
     ) -> None:
@@ -83,6 +85,7 @@ class Wanted:
                 "radii": radii_name,
                 "density": None if density is None else "density",
                 "class_factors": "classes" if kinds is not None and kinds.count > 1 else None,
+                "class_counts": None if class_counts is None else "class_counts",
                 "existing": None if existing is None else "existing",
                 "avoid": None if avoid is None else "avoid",
                 "features": None if features is None else "features",
@@ -135,6 +138,12 @@ class Wanted:
             order=s.ORDERS["dart" if in_levels is None else "progressive"],
             features=degrees,
         )
+        self._class_counts = None
+        if class_counts is not None:
+            if own_classes is None or kinds is None:
+                raise e.invalid("class_counts is for classes, two or more")
+            self._class_counts = kinds.counts_of(class_counts)
+            self.request.class_counts = self._class_counts.ctypes.data
         if in_levels is not None:
             self.request.levels, self.request.level_factor = in_levels.count, in_levels.factor
 
@@ -154,6 +163,7 @@ class Wanted:
             "face_mask": face_mask is not None,
             "metric": metric != "geodesic",
             "classes": classes is not None,
+            "class_counts": class_counts is not None,
             "features": features is not None,
             "order": order != "dart",
             "maximal": maximal,
@@ -190,7 +200,7 @@ class Wanted:
             told["darts"] = str(report["candidates"])
         if self._params.is_maximal:
             told["maximal"] = "certified" if report["is_certified"] else "not certified"
-        if report["cut"]:
+        if report["cut"] and self._class_counts is None:
             told["exact"] = str(report["samples"])
         samples = samples_of(
             made,
@@ -233,3 +243,8 @@ class Wanted:
             self._degrees if samples.report["lacks_features"] else 0,
         )
         warn([e.GeodiskWarning(f"{prefix}{one}", one.kind, one.count) for one in found])
+        if self._class_counts is not None:
+            made = np.bincount(samples.classes, minlength=len(self._class_counts))
+            for number in np.flatnonzero(made < self._class_counts):
+                text = f"class {number} has {made[number]} of {self._class_counts[number]} samples"
+                warn([e.GeodiskWarning(f"{prefix}{text}", "few_of_class", int(made[number]))])

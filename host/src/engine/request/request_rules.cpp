@@ -25,6 +25,8 @@ constexpr RequestRule kRules[] = {
     {Field::maximal, Field::metric, "gaps are found along the surface"},
     {Field::class_factors, Field::radii, "classes have the distances of their table"},
     {Field::class_factors, Field::metric, "classes go by distances along the surface"},
+    {Field::class_counts, Field::count, "classes have numbers of their own"},
+    {Field::class_counts, Field::stop_count, "classes have numbers of their own"},
     {Field::features, Field::class_factors, "samples on features have no class"},
     {Field::features, Field::density, "curves have no area that a density could fill"},
     {Field::features, Field::metric, "features keep distances along the surface"},
@@ -58,6 +60,7 @@ constexpr RequestRule kRules[] = {
     {Field::processes, Field::frame, "processes have the frame of their own surface"},
     {Field::processes, Field::update, "processes sample a surface anew"},
     {Field::frames, Field::count, "a distance is found for a count by several runs"},
+    {Field::frames, Field::class_counts, "samples are left out when all are there"},
     {Field::frames, Field::maximal, "gaps are filled by several runs"},
     {Field::frames, Field::features, "features are a run of their own"},
     {Field::frames, Field::progressive, "each level is a run of its own"},
@@ -88,6 +91,7 @@ RequestFields fields_of(const SampleRequest& request) noexcept {
     RequestFields fields = fields_of(request.params);
     fields.add(Field::count, request.count != 0);
     fields.add(Field::is_exact, request.is_exact);
+    fields.add(Field::class_counts, !request.class_counts.empty());
     fields.add(Field::features, request.features != 0);
     fields.add(Field::progressive, request.order == SampleOrder::progressive);
     fields.add(Field::farthest, request.order == SampleOrder::farthest);
@@ -100,10 +104,10 @@ RequestFields fields_of(const SampleRequest& request) noexcept {
 
 const char* to_string(RequestField field) noexcept {
     constexpr const char* kNames[] = {
-        "min_distance", "count",     "is_exact",      "darts",    "stop_count", "maximal",
-        "radii",        "density",   "class_factors", "existing", "avoid",      "features",
-        "progressive",  "farthest",  "keep",          "metric",   "frame",      "split_from",
-        "update",       "processes", "frames"};
+        "min_distance", "count",       "is_exact",      "darts",        "stop_count", "maximal",
+        "radii",        "density",     "class_factors", "class_counts", "existing",   "avoid",
+        "features",     "progressive", "farthest",      "keep",         "metric",     "frame",
+        "split_from",   "update",      "processes",     "frames"};
     static_assert(std::size(kNames) == kRequestFields);
     return kNames[static_cast<std::size_t>(field)];
 }

@@ -1,13 +1,16 @@
 // The runs of a request: each try for a count samples the features, then the levels or all at once.
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <span>
 #include <string>
 #include <type_traits>
 #include <utility>
 
 #include <geodisk/request.hpp>
 
+#include "engine/domain/classes.hpp"
 #include "engine/domain/existing.hpp"
 #include "engine/domain/stages.hpp"
 #include "engine/request/check_fields.hpp"
@@ -114,6 +117,12 @@ Result<Done> SurfaceSteps::prepare() {
     if (request_.keep != 0 && request_.keep <= existing) {
         return invalid("keep is " + std::to_string(request_.keep) + ", but " +
                        std::to_string(existing) + " existing samples are kept too");
+    }
+    const std::size_t classes =
+        request_.params.class_factors.empty() ? 0 : class_count(request_.params);
+    if (!request_.class_counts.empty() && request_.class_counts.size() != classes) {
+        return invalid("class_counts has " + std::to_string(request_.class_counts.size()) +
+                       " numbers for " + std::to_string(classes) + " classes");
     }
     const Levels& levels = request_.levels;
     if (!has_levels() && (levels.count != 0 || levels.factor != Levels{0}.factor)) {
@@ -283,6 +292,21 @@ void cut_to(SampleSet& set, std::size_t dimension, std::size_t count) {
     set.existing = std::min(set.existing, count);
 }
 
+/// Leaves out all but the first samples of each class, and existing ones.
+void cut_classes(SampleSet& set, std::span<const std::uint32_t> counts, std::size_t existing) {
+    std::vector<std::uint32_t> taken(counts.size());
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < set.samples.size(); ++i) {
+        const std::uint8_t own = set.classes[i];
+        if (i < existing || taken[own] < counts[own]) {
+            ++taken[own];
+            set.samples[kept] = set.samples[i];
+            set.classes[kept++] = own;
+        }
+    }
+    cut_to(set, 0, kept);
+}
+
 } // namespace
 
 struct RequestRun::Impl {
@@ -390,6 +414,12 @@ Result<Done> RequestRun::Impl::end_try(SampleSet set) {
         const std::size_t kept = std::min(samples, max_kept());
         best.cut = samples - kept;
         cut_to(best.set, step->domain.dimension(), kept);
+        if (surface && !surface->request().class_counts.empty()) {
+            const SampleRequest& request = surface->request();
+            cut_classes(best.set, request.class_counts, request.params.existing.size());
+            best.cut = samples - best.set.samples.size();
+            best.ends = {best.set.samples.size()};
+        }
         for (std::size_t& end : best.ends) {
             end = std::min(end, kept);
         }
