@@ -244,7 +244,7 @@ class Wanted:
         )
         warn([e.GeodiskWarning(f"{prefix}{one}", one.kind, one.count) for one in found])
         if self._class_counts is not None:
-            made = np.bincount(samples.classes, minlength=len(self._class_counts))
+            made = np.bincount(samples.columns["class"], minlength=len(self._class_counts))
             for number in np.flatnonzero(made < self._class_counts):
                 text = f"class {number} has {made[number]} of {self._class_counts[number]} samples"
                 warn([e.GeodiskWarning(f"{prefix}{text}", "few_of_class", int(made[number]))])
