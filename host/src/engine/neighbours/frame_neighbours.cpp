@@ -19,6 +19,7 @@
 #include "engine/neighbours/neighbour_kernels.hpp"
 #include "engine/neighbours/neighbour_memory.hpp"
 #include "engine/neighbours/search_jobs.hpp"
+#include "engine/run/frame_calls.hpp"
 #include "engine/run/frame_growth.hpp"
 #include "engine/run/frame_run.hpp"
 #include "support/guard.hpp"
@@ -36,21 +37,12 @@ constexpr double kMinPairs = 1024;
 constexpr double kFirstSources = 256;
 // Bits in the mantissa of a length in double precision.
 constexpr int kDoubleBits = 53;
-constexpr SyncScope kCopies{VK_PIPELINE_STAGE_TRANSFER_BIT,
-                            VK_ACCESS_TRANSFER_READ_BIT | VK_ACCESS_TRANSFER_WRITE_BIT};
 
 Result<Done> check_options(const FrameNeighbourOptions& options) {
-    if (options.frames == 0 || options.frames > kMaxFrames) {
-        return invalid("FrameNeighbourOptions::frames is " + std::to_string(options.frames) +
-                       ", not from 1 to " + std::to_string(kMaxFrames));
-    }
     if (options.dispatches == 0 || options.rounds == 0) {
         return invalid("FrameNeighbourOptions::dispatches and rounds must not be 0");
     }
-    if (options.readers.stages == 0) {
-        return invalid("FrameNeighbourOptions::readers has no stage");
-    }
-    return Done{};
+    return check_frame_options("FrameNeighbourOptions", options);
 }
 
 /// Returns the largest float that is not above a length.
@@ -90,7 +82,6 @@ struct FrameNeighbours::Impl {
         std::unique_ptr<NeighbourMemory> memory;
         std::unique_ptr<NeighbourKernels> kernels;
         std::optional<ListMemory> lists;
-        std::uint64_t calls; ///< Number of calls when the last frame that uses it was recorded.
     };
 
     std::shared_ptr<const Sampler> sampler;
@@ -104,12 +95,8 @@ struct FrameNeighbours::Impl {
     std::unique_ptr<NeighbourMemory> memory;
     std::optional<ListMemory> lists;
     std::unique_ptr<NeighbourKernels> kernels;
-    std::vector<Retired> retired;
-    std::uint64_t calls = 0;      ///< Number of calls of record_next().
-    std::uint64_t first_call = 0; ///< Call that uploaded `memory`.
-    bool is_uploaded = false;
-    bool is_confirmed = false; ///< The host has seen that it is.
-    bool is_staged = true;     ///< True while the staging of `memory` exists.
+    FrameCalls<Retired> calls; ///< Calls of record_next().
+    bool is_confirmed = false; ///< The host has seen that `memory` is uploaded.
     bool are_clear = false;    ///< True if the lists were emptied.
 
     Phase phase = Phase::search;
@@ -127,7 +114,7 @@ struct FrameNeighbours::Impl {
     Impl(std::shared_ptr<const Sampler> with, const NeighbourQuery& asked,
          const FrameNeighbourOptions& given, SearchJobs of)
         : sampler(std::move(with)), query(asked), options(given), jobs(std::move(of)),
-          sizes(jobs.records_per_source()) {}
+          sizes(jobs.records_per_source()), calls(given.frames) {}
 
     const Sampler::Impl& engine() const { return Sampler::Impl::of(*sampler); }
     std::uint32_t count() const { return static_cast<std::uint32_t>(query.sources.size()); }
@@ -140,7 +127,6 @@ struct FrameNeighbours::Impl {
     /// Allocates lists for so many pairs, for what they have at `commands`, if that is not null.
     Result<Done> make_lists(std::uint32_t least, VkCommandBuffer commands);
     Result<Done> make_kernels();
-    void retire(Retired old);
     void begin_part();
 
     gpu::NeighbourPush push() const;
@@ -157,7 +143,6 @@ struct FrameNeighbours::Impl {
     Result<bool> record_write(VkCommandBuffer commands, const NeighbourTold& now);
     /// Takes fewer sources, or more room, for so many records.
     Result<Done> shrink(std::uint32_t records);
-    void free_unused(std::uint32_t lag);
 };
 
 Result<Done> FrameNeighbours::Impl::take_inputs(const Domain& all, const PreparedMesh& mesh) {
@@ -191,11 +176,6 @@ std::uint32_t FrameNeighbours::Impl::wanted_room() const {
         static_cast<double>(options.record_bytes) / sizeof(gpu::HitRec), kMinRecords, kMaxRecords));
 }
 
-void FrameNeighbours::Impl::retire(Retired old) {
-    old.calls = calls;
-    retired.push_back(std::move(old));
-}
-
 Result<Done> FrameNeighbours::Impl::make_memory(std::uint32_t room, const RunPlan* plan) {
     const std::size_t sources = sizes.sources(room, 1, count() - ready);
     const auto domain = jobs.job(ready, sources, room);
@@ -206,11 +186,10 @@ Result<Done> FrameNeighbours::Impl::make_memory(std::uint32_t room, const RunPla
     auto made = NeighbourMemory::create(*sampler, *domain, *planned, room, inputs, options.frames);
     GEODISK_TRY(made);
     if (memory) {
-        retire({std::move(memory), std::move(kernels), std::nullopt, 0});
+        calls.retire({std::move(memory), std::move(kernels), std::nullopt});
     }
     memory = std::move(*made);
-    is_uploaded = false;
-    is_staged = true;
+    calls.begin_memory();
     begin_part();
     return lists ? make_kernels() : Done{};
 }
@@ -232,7 +211,7 @@ Result<Done> FrameNeighbours::Impl::make_lists(std::uint32_t least, VkCommandBuf
     GEODISK_TRY(made);
     if (lists && commands != VK_NULL_HANDLE) {
         made->record_copy(engine().vk, commands, *lists, pairs);
-        retire({nullptr, std::move(kernels), std::move(lists), 0});
+        calls.retire({nullptr, std::move(kernels), std::move(lists)});
     }
     lists.emplace(std::move(*made));
     return make_kernels();
@@ -281,18 +260,10 @@ gpu::NeighbourPush FrameNeighbours::Impl::push() const {
 
 std::optional<NeighbourTold> FrameNeighbours::Impl::told(std::uint32_t lag,
                                                          std::uint64_t call) const {
-    if (!is_uploaded || calls < call + lag) {
+    if (!calls.is_uploaded() || !calls.has_completed(call, lag)) {
         return std::nullopt;
     }
-    return memory->told(static_cast<std::uint32_t>((calls - lag) % options.frames));
-}
-
-void FrameNeighbours::Impl::free_unused(std::uint32_t lag) {
-    std::erase_if(retired, [&](const Retired& old) { return calls - old.calls >= lag; });
-    if (is_staged && is_uploaded && calls - first_call >= lag) {
-        memory->free_staging();
-        is_staged = false;
-    }
+    return memory->told(calls.place(lag));
 }
 
 Result<Done> FrameNeighbours::Impl::shrink(std::uint32_t records) {
@@ -320,24 +291,23 @@ Result<bool> FrameNeighbours::Impl::end_search(VkCommandBuffer commands, const N
     barrier_transfer_to_compute(vk, commands);
     kernels->record_entries(commands, push());
     phase = Phase::group;
-    awaited = calls;
+    awaited = calls.count();
     return false;
 }
 
 Result<bool> FrameNeighbours::Impl::record_search(VkCommandBuffer commands, std::uint32_t lag) {
     const DeviceTable& vk = engine().vk;
-    if (!is_uploaded) {
+    if (!calls.is_uploaded()) {
         memory->record_upload(vk, commands);
         if (!are_clear) {
             lists->record_clear(vk, commands);
             are_clear = true;
         }
-        is_uploaded = true;
+        calls.note_upload();
         is_confirmed = false;
-        first_call = calls;
         return false;
     }
-    const auto now = told(lag, first_call);
+    const auto now = told(lag, calls.upload());
     if (!is_confirmed) { // Nothing is to be dispatched by what memory happens to hold.
         if (now && now->head[1] != memory->room()) {
             return invalid(
@@ -418,7 +388,7 @@ Result<bool> FrameNeighbours::Impl::record_sort(VkCommandBuffer commands) {
     kernels->record_keep(commands, push());
     kernels->record_write(commands, push());
     phase = Phase::write;
-    awaited = calls;
+    awaited = calls.count();
     return false;
 }
 
@@ -434,7 +404,7 @@ Result<bool> FrameNeighbours::Impl::record_write(VkCommandBuffer commands,
         record_barrier(vk, commands, kCopies.stages, kCopies.access, Sampler::kFirstUse.stages,
                        Sampler::kFirstUse.access);
         kernels->record_write(commands, push());
-        awaited = calls;
+        awaited = calls.count();
         return false;
     }
     ready = done;
@@ -461,9 +431,11 @@ Result<bool> FrameNeighbours::Impl::record_phase(VkCommandBuffer commands, std::
 }
 
 Result<bool> FrameNeighbours::Impl::record_next(VkCommandBuffer commands, std::uint32_t lag) {
-    free_unused(lag);
+    if (calls.free_unused(lag)) {
+        memory->free_staging();
+    }
     if (is_complete) {
-        ++calls;
+        calls.end_call();
         return true;
     }
     const DeviceTable& vk = engine().vk;
@@ -483,10 +455,9 @@ Result<bool> FrameNeighbours::Impl::record_next(VkCommandBuffer commands, std::u
     record_barrier(vk, commands, Sampler::kLastUse.stages, Sampler::kLastUse.access,
                    kCopies.stages | options.readers.stages,
                    kCopies.access | options.readers.access);
-    memory->record_told(vk, commands, *lists, ready, is_complete ? 0 : part,
-                        static_cast<std::uint32_t>(calls % options.frames));
+    memory->record_told(vk, commands, *lists, ready, is_complete ? 0 : part, calls.place());
     barrier_transfer_to_host(vk, commands);
-    ++calls;
+    calls.end_call();
     return is_complete;
 }
 
@@ -560,10 +531,10 @@ FrameNeighbourLists FrameNeighbours::lists() const noexcept {
 
 std::uint64_t FrameNeighbours::device_bytes() const noexcept {
     std::uint64_t bytes = impl_->memory->device_bytes() + impl_->lists->bytes();
-    for (const Impl::Retired& old : impl_->retired) {
+    impl_->calls.for_retired([&](const Impl::Retired& old) {
         bytes += old.memory ? old.memory->device_bytes() : 0;
         bytes += old.lists ? old.lists->bytes() : 0;
-    }
+    });
     return bytes;
 }
 

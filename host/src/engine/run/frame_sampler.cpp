@@ -9,6 +9,7 @@
 #include "engine/job/sampler_impl.hpp"
 #include "engine/request/check_fields.hpp"
 #include "engine/request/on_mesh.hpp"
+#include "engine/run/frame_calls.hpp"
 #include "engine/run/frame_growth.hpp"
 #include "engine/run/frame_memory.hpp"
 #include "engine/run/frame_run.hpp"
@@ -20,21 +21,11 @@
 namespace geodisk {
 namespace {
 
-constexpr SyncScope kCopies{VK_PIPELINE_STAGE_TRANSFER_BIT,
-                            VK_ACCESS_TRANSFER_READ_BIT | VK_ACCESS_TRANSFER_WRITE_BIT};
-
 Result<Done> check_options(const FrameSamplerOptions& options) {
-    if (options.frames == 0 || options.frames > kMaxFrames) {
-        return invalid("FrameSamplerOptions::frames is " + std::to_string(options.frames) +
-                       ", not from 1 to " + std::to_string(kMaxFrames));
-    }
     if (options.dispatches == 0 || options.rounds == 0 || options.vertices_each == 0) {
         return invalid("FrameSamplerOptions::dispatches, rounds and vertices_each must not be 0");
     }
-    if (options.readers.stages == 0) {
-        return invalid("FrameSamplerOptions::readers has no stage");
-    }
-    return Done{};
+    return check_frame_options("FrameSamplerOptions", options);
 }
 
 /// Makes the one run of all requests.
@@ -66,11 +57,6 @@ Result<RequestRuns> one_run_of(std::span<const MeshRequest> requests) {
 } // namespace
 
 struct FrameSampler::Impl {
-    struct Retired {
-        std::unique_ptr<FrameMemory> memory;
-        std::uint64_t calls; ///< Number of calls when the last frame that uses it was recorded.
-    };
-
     std::shared_ptr<const Sampler> sampler;
     std::optional<RequestRuns> runs; ///< Those of the requests, if there are any.
     const Domain& domain;
@@ -79,18 +65,15 @@ struct FrameSampler::Impl {
     std::optional<std::uint64_t> seed; ///< Seed that replaces the domain's.
 
     std::unique_ptr<FrameMemory> now;
-    std::vector<Retired> retired;
-    std::uint64_t calls = 0;      ///< Number of calls of record_next().
-    std::uint64_t first_call = 0; ///< Call that uploaded `now`.
-    bool is_uploaded = false;     ///< True if `now` is uploaded.
-    bool is_staged = true;        ///< True while the staging of `now` exists.
+    FrameCalls<std::unique_ptr<FrameMemory>> calls; ///< Calls of record_next().
     std::uint32_t ready = 0;
     bool is_complete = false;
 
     Impl(std::shared_ptr<const Sampler> with, const Domain& of, const FrameSamplerOptions& given)
-        : sampler(std::move(with)), domain(of), options(given) {}
+        : sampler(std::move(with)), domain(of), options(given), calls(given.frames) {}
     Impl(std::shared_ptr<const Sampler> with, RequestRuns of, const FrameSamplerOptions& given)
-        : sampler(std::move(with)), runs(std::move(of)), domain(*runs->job()), options(given) {}
+        : sampler(std::move(with)), runs(std::move(of)), domain(*runs->job()), options(given),
+          calls(given.frames) {}
 
     const Sampler::Impl& engine() const { return Sampler::Impl::of(*sampler); }
 
@@ -103,8 +86,6 @@ struct FrameSampler::Impl {
     Result<Done> record_work(VkCommandBuffer commands, const Advice& advice);
     /// Returns the next step from the latest control record; enlarges memory if needed.
     Result<Advice> look(std::uint32_t lag);
-    /// Frees memory that no frame uses any more.
-    void free_unused(std::uint32_t lag);
 };
 
 Result<Done> FrameSampler::Impl::prepare(std::span<const MeshView> meshes) {
@@ -124,31 +105,22 @@ Result<Done> FrameSampler::Impl::replace(const RunPlan& plan) {
     auto made = FrameMemory::create(*sampler, domain, mesh, plan, options);
     GEODISK_TRY(made);
     if (now) {
-        retired.push_back({std::move(now), calls});
+        calls.retire(std::move(now));
     }
     now = std::move(*made);
     if (seed) {
         now->job().set_seed(*seed);
     }
-    is_uploaded = false;
-    is_staged = true;
+    calls.begin_memory();
     is_complete = false;
     ready = 0;
     return Done{};
 }
 
-void FrameSampler::Impl::free_unused(std::uint32_t lag) {
-    std::erase_if(retired, [&](const Retired& old) { return calls - old.calls >= lag; });
-    if (is_staged && is_uploaded && calls - first_call >= lag) {
-        now->free_staging();
-        is_staged = false;
-    }
-}
-
 Result<Advice> FrameSampler::Impl::look(std::uint32_t lag) {
     gpu::ControlRec control{}; // Empty.
-    if (is_uploaded && calls - first_call >= lag) {
-        control = now->control(static_cast<std::uint32_t>((calls - lag) % options.frames));
+    if (calls.is_filled(lag)) {
+        control = now->control(calls.place(lag));
     }
     const auto next = advance_or_grow(now->job(), control, options.pool_bytes, engine().report);
     GEODISK_TRY(next);
@@ -192,16 +164,18 @@ Result<Done> FrameSampler::Impl::record_work(VkCommandBuffer commands, const Adv
 }
 
 Result<bool> FrameSampler::Impl::record_next(VkCommandBuffer commands, std::uint32_t lag) {
-    free_unused(lag);
+    if (calls.free_unused(lag)) {
+        now->free_staging();
+    }
     if (is_complete) {
-        ++calls;
+        calls.end_call();
         return true;
     }
     const auto advice = look(lag);
     GEODISK_TRY(advice);
     if (advice->next == Next::complete) {
         is_complete = true;
-        ++calls;
+        calls.end_call();
         return true;
     }
     const DeviceTable& vk = engine().vk;
@@ -209,19 +183,18 @@ Result<bool> FrameSampler::Impl::record_next(VkCommandBuffer commands, std::uint
         record_barrier(vk, commands, from.stages, from.access, to.stages, to.access);
     };
     barrier({options.readers.stages | kCopies.stages, kCopies.access}, Sampler::kFirstUse);
-    if (!is_uploaded) {
+    if (!calls.is_uploaded()) {
         now->record_upload(vk, commands);
-        is_uploaded = true;
-        first_call = calls;
+        calls.note_upload();
         barrier(kCopies, {Sampler::kFirstUse.stages | options.readers.stages,
                           Sampler::kFirstUse.access | options.readers.access});
     }
     GEODISK_TRY(record_work(commands, *advice));
     barrier(Sampler::kLastUse,
             {kCopies.stages | options.readers.stages, kCopies.access | options.readers.access});
-    now->record_control(vk, commands, static_cast<std::uint32_t>(calls % options.frames));
+    now->record_control(vk, commands, calls.place());
     barrier_transfer_to_host(vk, commands);
-    ++calls;
+    calls.end_call();
     return false;
 }
 
@@ -291,9 +264,7 @@ void FrameSampler::set_seed(std::uint64_t seed) noexcept {
 
 std::uint64_t FrameSampler::device_bytes() const noexcept {
     std::uint64_t bytes = impl_->now->device_bytes();
-    for (const Impl::Retired& old : impl_->retired) {
-        bytes += old.memory->device_bytes();
-    }
+    impl_->calls.for_retired([&](const auto& old) { bytes += old->device_bytes(); });
     return bytes;
 }
 
