@@ -17,5 +17,5 @@ plants() {
         --classes "0.08,0.05,0.02;0.05,0.05,0.02;0.02,0.02,0.015" "$@"
 }
 plants -o plants.ply
-plants --frames --up z -o plants.usda
+plants --frames=upright --up z -o plants.usda
 geodisk verify terrain.ply plants.ply --mask "z>0"

@@ -252,6 +252,7 @@ def surface_from(source: Source, vertices: Any, keep_seams: bool) -> Surface:
         joined=source.joined,
         columns=source.columns,
         corners=source.corners if source.joined is not None else None,
+        is_y_up=source.is_y_up,
     )
 
 

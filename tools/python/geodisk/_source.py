@@ -38,6 +38,8 @@ class Source:
     columns : dict of ndarray of uint32, shape (f,)
     corners : ndarray of uint32, shape (f, 3)
         The triangles before vertices were joined.
+    is_y_up : bool
+        True for a file of a format in which y points up.
     """
 
     vertices: NDArray[np.float64]
@@ -49,6 +51,7 @@ class Source:
     joined_edges: int
     columns: dict[str, NDArray[np.uint32]]
     corners: NDArray[np.uint32]
+    is_y_up: bool
 
 
 def read_file(
@@ -154,6 +157,7 @@ def _read(
         joined_edges=arrays.joined_edges,
         columns=named,
         corners=view_of(arrays.corners, (arrays.triangle_count, 3), handle),
+        is_y_up=bool(arrays.is_y_up),
     )
 
 

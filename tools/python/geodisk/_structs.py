@@ -374,6 +374,8 @@ class RecordParams(_Sized):
         ("normals", c_void_p),
         ("colours", c_void_p),
         ("frames", c_void_p),
+        ("frame_style", c_char_p),
+        ("up", c_char_p),
     ]
 
 
@@ -391,6 +393,7 @@ class SourceArrays(_Sized):
         ("joined_edges", c_uint64),
         ("corners", POINTER(c_uint32)),
         ("attribute_count", c_size_t),
+        ("is_y_up", c_int32),
     ]
 
 

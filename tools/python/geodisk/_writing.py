@@ -70,6 +70,10 @@ def header_of(samples: Samples) -> Header:
         header["job_frame"] = samples._frame.digits
     if samples._record is not None and samples._record.normals != "face":
         header["normals"] = samples._record.normals
+    if samples._record is not None and samples._record.frames is not None:
+        header["frames"] = samples._record.frames
+        if samples._record.up is not None:
+            header["frames_up"] = samples._record.up
     if samples.level_distances is not None:
         header["order"] = "progressive"
         header["level_distances"] = " ".join(map(repr, samples.level_distances))

@@ -17,6 +17,7 @@
 #include "c/c_cells.hpp"
 #include "c/c_mesh.hpp"
 #include "files/output/output_file.hpp"
+#include "files/samples/frame_style.hpp"
 #include "files/samples/sample_file.hpp"
 #include "files/samples/sample_format.hpp"
 #include "files/samples/sample_rows.hpp"
@@ -256,8 +257,11 @@ std::vector<SampleField> fields_of(const geodisk_task& task, const Json& options
 }
 
 void save(RunningTask& run) {
-    const SampleTarget target = sample_target(Path(run.options.at("path").get<std::string>()));
+    SampleTarget target = sample_target(Path(run.options.at("path").get<std::string>()));
     SampleFile samples = sample_file(run.task, run.options);
+    if (const std::string* const up = samples.header.find("frames_up")) {
+        target.up = find_up(*up).value_or(target.up);
+    }
     check_dimension(target, samples.dimension);
     const std::vector<SampleField> fields = fields_of(run.task, run.options);
     std::vector<std::string> names;
@@ -275,6 +279,11 @@ void save(RunningTask& run) {
     file.commit();
 }
 
+void read_frame_style(RunningTask& run) {
+    const FrameStyle style = parse_frame_style("frames", run.options.at("text").get<std::string>());
+    run.hand_over(text_of(Json{{"text", text_of(style)}, {"has_up", style.has_world()}}));
+}
+
 void run_named(std::string_view name, RunningTask& run) {
     constexpr std::pair<std::string_view, void (*)(RunningTask&)> kCommands[] = {
         {"verify", &verify},
@@ -283,6 +292,7 @@ void run_named(std::string_view name, RunningTask& run) {
         {"bake", &bake},
         {"render", &render},
         {"save", &save},
+        {"frame_style", &read_frame_style},
         {"warnings_of_mesh", [](RunningTask& one) { one.hand_over(warnings_of_mesh(one.task)); }},
         {"warnings_of_set",
          [](RunningTask& one) { one.hand_over(warnings_of_set(one.task, one.options)); }},
