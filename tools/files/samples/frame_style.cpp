@@ -41,9 +41,10 @@ FrameStyle parse_frame_style(const std::string& option, const std::string& text)
         } else if (const auto found = find_part(word)) {
             set_once(option, text, part, *found, "the part of the way to the normal");
         } else {
-            fail_usage(option + ": " + in_quotes(word) +
-                       " is neither x, y or z for the axis of the model that points up, nor upright, "
-                       "nor a number from 0 to 1 for the part of the way to the normal");
+            fail_usage(
+                option + ": " + in_quotes(word) +
+                " is neither x, y or z for the axis of the model that points up, nor upright, "
+                "nor a number from 0 to 1 for the part of the way to the normal");
         }
     }
     FrameStyle style;

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ctypes
 import os
 from dataclasses import dataclass
-from typing import Any, Sequence
+from typing import Any, NamedTuple, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -52,6 +52,22 @@ class Source:
     columns: dict[str, NDArray[np.uint32]]
     corners: NDArray[np.uint32]
     is_y_up: bool
+
+
+class MeshFile(NamedTuple):
+    """A mesh file and how it is read."""
+
+    path: str
+    weld: bool | float = False
+    keep_seams: bool = False
+    mesh_format: str | None = None
+    allow_outside: bool = False
+
+
+def absolute(path: str | os.PathLike[str]) -> str:
+    """Returns the path of a mesh file that other working folders do not change."""
+    name = path_of(path)
+    return name if name.startswith(_BUILTIN) else os.path.abspath(name)
 
 
 def read_file(

@@ -426,6 +426,9 @@ class Task(_Sized):
         ("source", c_void_p),
         ("nearest", c_void_p),
         ("stop", POINTER(c_int32)),
+        ("map_samples", c_void_p),
+        ("map_distances", c_void_p),
+        ("map_faces", c_void_p),
     ]
 
 

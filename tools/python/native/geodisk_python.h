@@ -135,6 +135,9 @@ typedef struct geodisk_task {
     const geodisk_nearest *nearest;
     /* Work ends with GEODISK_CANCELLED soon after this is no longer 0. May be NULL. */
     const volatile int32_t *stop;
+    const int32_t *map_samples; /* What `bake` handed over, for each texel. */
+    const float *map_distances;
+    const uint32_t *map_faces;
 } geodisk_task;
 
 /* Takes an array that a command made. */
@@ -147,6 +150,7 @@ typedef void (*geodisk_take_fn)(const void *bytes, size_t size);
  *             float on the mesh `to`, and the smallest distance there as double, NaN without one
  *   bake      the nearest sample of each texel of `source` as int32_t, its distance as float, the
  *             face as int32_t, and how many texels several faces cover as uint64_t
+ *   save_map  nothing; writes a map of `bake` to a file
  *   render    a PNG file
  *   frame_style  the style of frames that the option `text` names, as JSON: `text` as headers of
  *             files spell it, and `has_up`, true if they keep to an axis of the mesh
