@@ -36,8 +36,8 @@ std::vector<std::int32_t> nearest_columns(const SampleMap& map) {
 }
 
 /// Rows of one column in which the nearest texels lie: the lower envelope of parabolas, as in A.
-/// Meijster, J. Roerdink and W. Hesselink, "A general algorithm for computing distance transforms in
-/// linear time" (2000).
+/// Meijster, J. Roerdink and W. Hesselink, "A general algorithm for computing distance transforms
+/// in linear time" (2000).
 class ColumnEnvelope {
   public:
     ColumnEnvelope(const std::vector<std::int32_t>& columns, std::uint32_t width,
@@ -50,8 +50,8 @@ class ColumnEnvelope {
         }
     }
 
-    /// Calls `use(row, texel)` for each row from the top with the nearest texel that has a face, and
-    /// the square of how far it is.
+    /// Calls `use(row, texel)` for each row from the top with the nearest texel that has a face,
+    /// and the square of how far it is.
     template <class Use>
     void for_each(std::uint32_t height, const Use& use) const {
         std::size_t part = 0;

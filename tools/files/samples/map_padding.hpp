@@ -7,8 +7,8 @@
 
 namespace geodisk::tools {
 
-/// Fills texels without a face with the sample and the distance of the nearest texel that has one, up
-/// to `padding` texels away; of equally near ones the upper, then the left one. Their face stays
+/// Fills texels without a face with the sample and the distance of the nearest texel that has one,
+/// up to `padding` texels away; of equally near ones the upper, then the left one. Their face stays
 /// kNoFace. Returns their number. Takes four bytes for each texel meanwhile.
 std::uint64_t pad(SampleMap& map, std::uint32_t padding);
 

@@ -30,8 +30,9 @@ MapTarget parse_map_target(const Path& path, const std::string& style, const std
     }
     target.is_deep = depth == map_depths()[1];
     if (target.is_deep && (target.format != MapFormat::png || target.has_cells())) {
-        fail_usage("--depth 16 is for *.png with --style distance; *.npy and *.npz have distances as "
-                   "floats");
+        fail_usage(
+            "--depth 16 is for *.png with --style distance; *.npy and *.npz have distances as "
+            "floats");
     }
     return target;
 }

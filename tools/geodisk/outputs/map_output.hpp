@@ -25,9 +25,7 @@ struct MapTarget {
     bool is_deep = false; ///< 16 bits rather than 8.
 
     /// Returns true for a picture of cells, whose colours need the pairs of samples that touch.
-    bool has_cells() const {
-        return format == MapFormat::png && style == picture::Style::voronoi;
-    }
+    bool has_cells() const { return format == MapFormat::png && style == picture::Style::voronoi; }
 };
 
 /// Returns what a file of that path, --style and --depth holds. Throws UserError(usage).
