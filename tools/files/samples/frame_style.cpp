@@ -5,6 +5,7 @@
 
 #include "program/exact_text.hpp"
 #include "program/failure.hpp"
+#include "program/human_text.hpp"
 
 namespace geodisk::tools {
 namespace {

@@ -75,12 +75,16 @@ HeaderEntries RecordOptions::entries() const {
     return entries;
 }
 
-void add_record_options(Command command, RecordOptions& options, const std::string& name) {
+void add_attributes_option(Command command, RecordOptions& options, const std::string& name) {
     command.add_option("--attributes", options.attributes, "LIST",
                        "Add attributes that " + name +
                            " has at each sample: all, or names\n"
                            "separated by commas: color, uv, and others as the file calls\n"
                            "them. Integers are those of the corner with the most weight");
+}
+
+void add_record_options(Command command, RecordOptions& options, const std::string& name) {
+    add_attributes_option(command, options, name);
     command.add_option("--texture", options.texture, "IMAGE",
                        "Add the colour of a PNG or JPEG image at the texture coordinates\n"
                        "of each sample; auto: that of the materials of a glTF or OBJ file\n"

@@ -39,6 +39,10 @@ struct RecordOptions {
     HeaderEntries entries() const;
 };
 
+/// Adds --attributes, of the mesh `name`.
+void add_attributes_option(Command command, RecordOptions& options,
+                           const std::string& name = "MESH");
+
 /// Adds --attributes, --texture, --normals and --frames, of the mesh `name`.
 void add_record_options(Command command, RecordOptions& options, const std::string& name = "MESH");
 
