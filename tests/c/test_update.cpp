@@ -120,6 +120,42 @@ TEST_CASE("painted masks and radii are followed") {
     CHECK(report.missing == 0);
 }
 
+TEST_CASE("an update as its page shows it") {
+    TestMesh shape = builtin("icosphere", 3);
+    const auto made = mesh_of(shape);
+    const geodisk_mesh* const mesh = made.get();
+    geodisk_sampler* const sampler = shared_sampler();
+    const geodisk_surface_params params = job_at(0.1);
+    const std::vector<geodisk_surface_point> listed = points_of(whole_run(mesh, params));
+    const geodisk_surface_point* const points = listed.data();
+    const std::size_t count = listed.size();
+    std::vector<std::uint32_t> faces; // Those of the vertex 0.
+    for (std::uint32_t corner = 0; corner < shape.triangles.size(); ++corner) {
+        if (shape.triangles[corner] == 0) {
+            faces.push_back(corner / 3);
+        }
+    }
+    shape.positions[2] *= 1.1;
+    const auto made_after = mesh_of(shape);
+    const geodisk_mesh* const edited = made_after.get();
+    const std::uint32_t* const changed = faces.data();
+    const std::size_t changed_count = faces.size();
+
+    geodisk_error error = {sizeof error};
+    geodisk_update_info info = {sizeof info};
+    geodisk_updater* updater = NULL;
+    geodisk_samples* samples = NULL;
+    if (geodisk_updater_create(mesh, &params, NULL, points, count, &updater, &error) ||
+        geodisk_update(updater, sampler, edited, &params, changed, changed_count, NULL, NULL, &info,
+                       &error) ||
+        geodisk_updater_samples(updater, &samples, &error)) {
+        FAIL(error.message);
+    }
+    CHECK(geodisk_samples_count(samples) == count - info.removed + info.added);
+    geodisk_samples_release(samples);
+    geodisk_updater_release(updater);
+}
+
 TEST_CASE("an edited mesh is found out about, and existing samples are followed") {
     TestMesh shape = builtin("torus-knot", 8);
     const auto before = mesh_of(shape);

@@ -2,8 +2,11 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <filesystem>
+#include <numbers>
+#include <sstream>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -65,6 +68,63 @@ TEST_CASE("attributes and frames are columns behind those of every file") {
     INFO(batch.err);
     REQUIRE(batch.status == 0);
     CHECK(table_of(folder, "out/r.csv")[0] == bare[0] + ",u,v");
+}
+
+TEST_CASE("frames are upright, or turn a part of the way to the normal") {
+    const TemporaryFolder folder; // A slope of 45 degrees, whose normal is (0, -1, 1).
+    folder.write("slope.obj", "v 0 0 0\nv 1 0 0\nv 1 1 1\nv 0 1 1\nf 1 2 3 4\n");
+    const auto frame_with = [&](const Arguments& more) {
+        const Outcome made =
+            run(folder, joined({"sample", "slope.obj", "-o", "a.csv", "-d", "0.8"}, more));
+        INFO(made.err);
+        REQUIRE(made.status == 0);
+        std::istringstream numbers(table_of(folder, "a.csv").at(1));
+        std::vector<double> frame;
+        for (std::string number; std::getline(numbers, number, ',');) {
+            frame.push_back(std::stod(number));
+        }
+        frame.erase(frame.begin(), frame.end() - 4);
+        std::filesystem::remove(folder / "a.csv");
+        return frame;
+    };
+    const auto is_close = [](const std::vector<double>& a, const std::vector<double>& b) {
+        return std::ranges::equal(a, b, [](double x, double y) { return std::abs(x - y) < 1e-6; });
+    };
+    const std::vector<double> upright = frame_with({"--frames=upright"});
+    const double s = upright[2], c = upright[3]; // Of half the random angle about z.
+    CHECK(is_close(upright, {0, 0, s, c}));
+    CHECK(s != 0);
+    // A turn about x by 45 degrees or a part of that follows; x is a step along the contour.
+    const auto tilted = [&](double angle) {
+        const double x = std::sin(angle / 2), w = std::cos(angle / 2);
+        return std::vector{x * c, -x * s, w * s, w * c};
+    };
+    CHECK(is_close(frame_with({"--frames"}), tilted(std::numbers::pi / 4)));
+    CHECK(is_close(frame_with({"--frames=0.5"}), tilted(std::numbers::pi / 8)));
+    CHECK(is_close(frame_with({"--frames=z,0.25"}), tilted(std::numbers::pi / 16)));
+    // A model whose y points up turns about y, and then by 90 degrees about x, which takes y to z.
+    const double half = std::sqrt(0.5);
+    CHECK(is_close(frame_with({"--frames=y,upright"}), {half * c, half * s, half * s, half * c}));
+    CHECK(is_close(frame_with({"--frames=y,upright", "--up", "y"}), {0, s, 0, c}));
+
+    const Arguments command{"sample", "slope.obj",         "-o", "a.usda", "-d",
+                            "0.8",    "--frames=y,upright"};
+    const Outcome scene = run(folder, command);
+    CHECK(contains(scene.out, "frames        y,upright, where z points up; --up sets it\n"));
+    CHECK(contains(scene.out, "scene         z up, as --frames has it; --up sets it"));
+    CHECK(contains(bytes_of(folder / "a.usda"), "points = [(0, 0, 1), (0.866"));
+    const auto fails = [&](const char* reason, const Arguments& more) {
+        check_fails(folder, 2, reason,
+                    joined({"sample", "slope.obj", "-o", "b.csv", "-d", "0.5"}, more));
+    };
+    fails("--frames: 'flat' is neither x, y or z for the axis", {"--frames=flat"});
+    fails("--frames: '1.5' is neither", {"--frames=1.5"});
+    fails("--frames: 'y,z' gives the axis of the model twice", {"--frames=y,z"});
+    fails("--frames: 'upright,0.5' gives the part of the way to the normal twice",
+          {"--frames=upright,0.5"});
+    fails("if it is the value of --frames, give --frames=y", {"--frames", "y"});
+    fails("--up is for samples in *.gltf, *.glb and *.usda, for pictures, and for --frames=upright",
+          {"--frames=y", "--up", "z"});
 }
 
 TEST_CASE("normals are those of faces, of the file, or smooth") {

@@ -153,6 +153,34 @@ TEST_CASE("bake: overlaps and repeats are reported") {
     CHECK(bytes_of(folder / "again.npz") == npz);
 }
 
+TEST_CASE("bake: padding surrounds islands") {
+    const TemporaryFolder folder;
+    write_mesh_file(folder, "square.obj", kBakedSquare);
+    write_mesh_file(folder, "ends.csv", kEnds);
+    const Arguments bake{"bake", "square.obj", "ends.csv", "--size", "64x32", "--padding", "3"};
+    const Outcome outcome = run(folder, joined(bake, {"-o", "cells.png", "--json", "map.json"}));
+    INFO(outcome.err);
+    REQUIRE(outcome.status == 0);
+    CHECK(contains(outcome.out, "padding       96 texels"));
+    CHECK(Json::parse(bytes_of(folder / "map.json"))["texels"]["padded"] == 96);
+    const PngImage cells = read_png(folder / "cells.png");
+    const Pixel right = cells.pixels[31];
+    for (std::size_t i = 0; i < cells.pixels.size(); ++i) {
+        const std::size_t column = i % 64;
+        REQUIRE((cells.pixels[i] == right) == (column >= 16 && column < 35));
+        REQUIRE(cells.pixels[i].alpha == (column < 35 ? 255 : 0));
+    }
+    REQUIRE(run(folder, joined(bake, {"-o", "map.npy", "-q"})).status == 0);
+    const std::string npy = bytes_of(folder / "map.npy");
+    CHECK(contains(npy, "'descr': '<f4', 'fortran_order': False, 'shape': (32, 64)"));
+    CHECK(npy.size() == 128 + 4 * 32 * 64);
+    REQUIRE(run(folder, joined(bake, {"-o", "deep.png", "--style", "distance", "--depth", "16"}))
+                .status == 0);
+    const PngImage deep = read_png(folder / "deep.png"); // As 8 bits.
+    CHECK(deep.pixels[15].red > 240);
+    CHECK(deep.pixels[35].alpha == 0);
+}
+
 TEST_CASE("bake: what cannot be made leaves no file") {
     const TemporaryFolder folder;
     write_mesh_file(folder, "square.obj", kBakedSquare);
@@ -171,8 +199,18 @@ TEST_CASE("bake: what cannot be made leaves no file") {
     check_bake_refused(folder, 3, "no face covers", {"tiny.obj", "corner.csv", "-o", "no.npz"});
     check_bake_refused(folder, 3, "too far from 0", {"far.obj", "corner.csv", "-o", "no.npz"});
     check_bake_refused(folder, 3, "none.csv", {"square.obj", "none.csv", "-o", "no.npz"});
-    check_bake_refused(folder, 2, "maps are written as .npz or .png",
+    check_bake_refused(folder, 2, "maps are written as .npz, .npy or .png",
                        {"square.obj", "ends.csv", "-o", "no.tif"});
+    check_bake_refused(folder, 2, "for distances as floats, write .npy",
+                       {"square.obj", "ends.csv", "-o", "no.exr"});
+    for (const char* const padding : {"-1", "1.5", "20000", "all"}) {
+        check_bake_refused(folder, 2, "--padding takes 0 to 16384 texels",
+                           {"square.obj", "ends.csv", "-o", "no.npz", "--padding", padding});
+    }
+    check_bake_refused(folder, 2, "--depth: '32' is neither 8 nor 16",
+                       {"square.obj", "ends.csv", "-o", "no.png", "--depth", "32"});
+    check_bake_refused(folder, 2, "--depth 16 is for *.png with --style distance",
+                       {"square.obj", "ends.csv", "-o", "no.png", "--depth", "16"});
     for (const char* const size : {"0", "20000", "16x", "x16", "16x16x16", "many"}) {
         check_bake_refused(folder, 2, "--size",
                            {"square.obj", "ends.csv", "-o", "no.npz", "--size", size});

@@ -2,9 +2,11 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <numeric>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -40,6 +42,15 @@ std::vector<double> last_column(const std::string& csv, const std::string& name)
     return values;
 }
 
+std::vector<std::string> cells_of(const std::string& line) {
+    std::istringstream text(line);
+    std::vector<std::string> cells;
+    for (std::string cell; std::getline(text, cell, ',');) {
+        cells.push_back(cell);
+    }
+    return cells;
+}
+
 void check_cells_refused(const TemporaryFolder& folder, int status, const std::string& message,
                          Arguments arguments) {
     arguments.insert(arguments.begin(), "cells");
@@ -51,6 +62,60 @@ void check_cells_refused(const TemporaryFolder& folder, int status, const std::s
 }
 
 } // namespace
+
+TEST_CASE("cells: the dual mesh carries attributes") {
+    const TemporaryFolder folder;
+    // Two triangles with colours and texture coordinates that follow x, a label and a height.
+    write_file(
+        folder, "square.obj",
+        "v 0 0 0 0 0 0\nv 1 0 0 1 0 0\nv 1 1 0 1 0 0\nv 0 1 0 0 0 0\nvt 0 0\nvt 1 0\nvt 1 1\n"
+        "vt 0 1\nf 1/1 2/2 3/3 4/4\n");
+    write_file(
+        folder, "square.ply",
+        "ply\nformat ascii 1.0\nelement vertex 4\nproperty double x\nproperty double y\n"
+        "property double z\nproperty uchar red\nproperty uchar green\nproperty uchar blue\n"
+        "property float height\nproperty int label\nelement face 1\n"
+        "property list uchar int vertex_indices\nend_header\n"
+        "0 0 0 0 0 0 0 3\n1 0 0 255 0 0 2 3\n1 1 0 255 0 0 2 3\n0 1 0 0 0 0 0 3\n4 0 1 2 3\n");
+    write_file(folder, "points.csv",
+               "x,y,z\n0.2,0.2,0\n0.8,0.2,0\n0.8,0.8,0\n0.2,0.8,0\n0.5,0.5,0\n");
+    const auto cells = [&](const char* mesh, const char* out, const char* dual, const char* names) {
+        const Outcome outcome = run(folder, {"cells", mesh, "points.csv", "-o", out, "--dual", dual,
+                                             "--attributes", names, "-q"});
+        INFO(outcome.err);
+        REQUIRE(outcome.status == 0);
+    };
+    cells("square.obj", "a.csv", "dual.obj", "color,uv");
+    CHECK(contains(bytes_of(folder / "a.csv"), ",area,red,green,blue,u,v\n"));
+    CHECK(contains(bytes_of(folder / "a.csv"), "# attributes: color,uv\n"));
+    const std::string dual = bytes_of(folder / "dual.obj");
+    CHECK(std::ranges::count(lines_of(dual).front(), ' ') == 6); // With a colour.
+    CHECK(contains(dual, "\nvt 0.5 0.5\n"));
+    CHECK(contains(dual, "/5\n"));
+    cells("square.ply", "b.csv", "dual.ply", "all");
+    cells("square.ply", "c.csv", "dual.npz", "all");
+    CHECK(contains(bytes_of(folder / "dual.npz"), "height.npy"));
+    // The dual is a mesh with these attributes.
+    const Outcome sampled =
+        run(folder, {"sample", "dual.ply", "-d", "0.1", "--attributes", "all", "-o", "s.csv"});
+    INFO(sampled.err);
+    REQUIRE(sampled.status == 0);
+    const std::vector<std::string> lines = lines_of(bytes_of(folder / "s.csv"));
+    const auto head = std::ranges::find_if(lines, [](const auto& line) { return line[0] != '#'; });
+    CHECK(head->ends_with(",red,green,blue,height,label"));
+    for (auto line = head + 1; line != lines.end(); ++line) {
+        const double x = std::stod(*line);
+        const std::vector<std::string> cut = cells_of(*line);
+        CHECK(std::abs(std::stod(cut[cut.size() - 5]) - x) < 0.01);
+        CHECK(std::abs(std::stod(cut[cut.size() - 2]) - 2 * x) < 1e-5);
+        CHECK(cut.back() == "3");
+    }
+    check_cells_refused(
+        folder, 2, "--dual: .obj has no attribute 'height', just color and uv",
+        {"square.ply", "points.csv", "-o", "no.csv", "--dual", "no.obj", "--attributes", "height"});
+    check_cells_refused(folder, 3, "has no attribute 'weight'",
+                        {"square.ply", "points.csv", "-o", "no.csv", "--attributes", "weight"});
+}
 
 TEST_CASE("cells: areas and dual graph of the corners of a cube") {
     const TemporaryFolder folder;
@@ -108,8 +173,8 @@ TEST_CASE("cells: what cannot be found leaves no file") {
     write_file(folder, "none.csv", "x,y,z\n");
     write_file(folder, "far.csv", "x,y,z\n7,7,7\n");
     const std::string mesh = "builtin:cube:4";
-    check_cells_refused(folder, 2, "the dual graph is written as .obj or .npz",
-                        {mesh, "corners.csv", "-o", "no.csv", "--dual", "no.ply"});
+    check_cells_refused(folder, 2, "the dual graph is written as .obj, .ply or .npz",
+                        {mesh, "corners.csv", "-o", "no.csv", "--dual", "no.stl"});
     check_cells_refused(folder, 2, "xyz", {mesh, "corners.csv", "-o", "no.xyz"});
     check_cells_refused(folder, 2, "no.obj",
                         {mesh, "corners.csv", "-o", "no.obj", "--dual", "no.obj"});

@@ -8,6 +8,7 @@ import subprocess
 import sys
 
 import numpy as np
+import pytest
 
 import geodisk
 
@@ -39,10 +40,16 @@ def verified(*files):
     run(COMMAND, "verify", *files, "--quiet")
 
 
-def test_trees(tmp_path):
-    run_guide("trees.py", tmp_path)
-    verified(tmp_path / "terrain.obj", tmp_path / "samples.csv")
-    with open(tmp_path / "trees.csv") as file:
+@pytest.fixture
+def folder(tmp_path):
+    """A folder that the programs make."""
+    return tmp_path / "new" / "folder"
+
+
+def test_trees(folder):
+    run_guide("trees.py", folder)
+    verified(folder / "terrain.obj", folder / "samples.csv")
+    with open(folder / "trees.csv") as file:
         rows = list(csv.DictReader(file))
     assert list(rows[0]) == ["x", "y", "z", "nx", "ny", "nz", "scale", "turn"]
     x, y, z, nx, ny, nz, scale, turn = np.array([list(row.values()) for row in rows], float).T
@@ -54,9 +61,9 @@ def test_trees(tmp_path):
     assert np.median(scale[nz > 0.99]) < 0.6 * np.median(scale[nz < 0.8])
 
 
-def test_training(tmp_path):
-    run_guide("training.py", tmp_path)
-    epochs = [np.load(tmp_path / f"epoch-{k}.npz") for k in range(3)]
+def test_training(folder):
+    run_guide("training.py", folder)
+    epochs = [np.load(folder / f"epoch-{k}.npz") for k in range(3)]
     for epoch in epochs:
         points = epoch["points"]
         assert points.shape == epoch["normals"].shape == epoch["barycentric"].shape == (2048, 3)
@@ -70,9 +77,9 @@ def test_training(tmp_path):
     assert not np.array_equal(epochs[0]["face_index"], epochs[1]["face_index"])
 
 
-def test_remesh(tmp_path):
-    run_guide("remesh.py", tmp_path)
-    lines = [line.split() for line in open(tmp_path / "coarse.obj")]
+def test_remesh(folder):
+    run_guide("remesh.py", folder)
+    lines = [line.split() for line in open(folder / "coarse.obj")]
     vertices = [line for line in lines if line[0] == "v"]
     triangles = [tuple(int(at) for at in line[1:]) for line in lines if line[0] == "f"]
     # Closed, oriented and a torus still.
@@ -83,10 +90,10 @@ def test_remesh(tmp_path):
     assert 250 < len(vertices) and len(vertices) - len(edges) / 2 + len(triangles) == 0
 
 
-def test_tile(tmp_path):
-    run_guide("tile.sh", tmp_path)
-    verified(tmp_path / "tile.csv")
-    text = (tmp_path / "tile.csv").read_text()
+def test_tile(folder):
+    run_guide("tile.sh", folder)
+    verified(folder / "tile.csv")
+    text = (folder / "tile.csv").read_text()
     rows = [line for line in text.splitlines() if not line.startswith("#")]
     points = np.array([row.split(",") for row in rows[1:]], float)
     assert points.shape == (1000, 2) and 0 <= points.min() and points.max() < 1
@@ -95,26 +102,26 @@ def test_tile(tmp_path):
     between = np.linalg.norm(between - np.round(between), axis=-1)
     np.fill_diagonal(between, 9)
     assert between.min() >= 0.0253
-    assert (tmp_path / "spectrum.csv").stat().st_size > 0
+    assert (folder / "spectrum.csv").stat().st_size > 0
 
 
-def test_scene(tmp_path):
-    run_guide("scene.sh", tmp_path)
-    plants = geodisk.read(tmp_path / "plants.ply")
+def test_scene(folder):
+    run_guide("scene.sh", folder)
+    plants = geodisk.read(folder / "plants.ply")
     kinds = np.bincount(plants.classes)
     assert kinds[0] >= 40 and kinds[2] > kinds[1] > kinds[0]
     assert plants.columns["existing"].sum() == 40 and plants.points[:, 2].min() > 0
-    scene = (tmp_path / "plants.usda").read_text()
+    scene = (folder / "plants.usda").read_text()
     assert scene.count("def Mesh") == 3 and 'upAxis = "Z"' in scene
 
 
-def test_cluster(tmp_path):
-    run_guide("cluster.sh", tmp_path)
-    logs = sorted((tmp_path / "samples").glob("batch-*-of-3.jsonl"))
+def test_cluster(folder):
+    run_guide("cluster.sh", folder)
+    logs = sorted((folder / "samples").glob("batch-*-of-3.jsonl"))
     entries = [[json.loads(line) for line in open(log)] for log in logs]
     assert [len(entry) for entry in entries] == [2, 2, 2]
-    meshes = sorted((tmp_path / "meshes").iterdir())
+    meshes = sorted((folder / "meshes").iterdir())
     assert len(meshes) == 6
-    assert json.loads((tmp_path / "all.json").read_text())["skipped"] == 6
+    assert json.loads((folder / "all.json").read_text())["skipped"] == 6
     for mesh in meshes:
-        verified(mesh, tmp_path / "samples" / mesh.name)
+        verified(mesh, folder / "samples" / mesh.name)

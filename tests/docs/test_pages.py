@@ -3,6 +3,8 @@
 import pathlib
 import re
 
+import pytest
+
 SOURCE = pathlib.Path(__file__).parents[2]
 GUIDES = SOURCE / "host/docs/guides.md"
 
@@ -28,13 +30,21 @@ def test_guides_show_their_programs():
     assert shown >= 6
 
 
-def test_embedding_shows_what_tests_compile():
-    """The block of FrameNeighbours is part of its test, but for comments."""
-    page = (SOURCE / "host/docs/embedding.md").read_text()
-    block = re.search(r"^```cpp\n(FrameNeighbours .*?)^```$", page, re.M | re.S).group(1)
-    program = lines_of((SOURCE / "tests/embed/test_frame_neighbours.cpp").read_text())
-    shown = [line for line in lines_of(block) if not line.startswith("//")]
-    assert len(shown) >= 3 and all(line in program for line in shown)
+@pytest.mark.parametrize(
+    "page, language, first, test",
+    [
+        ("embedding", "cpp", "FrameNeighbours ", "embed/test_frame_neighbours.cpp"),
+        ("update", "cpp", "const PreparedMesh prepared", "gpu/test_update.cpp"),
+        ("update", "c", "geodisk_error error", "c/test_update.cpp"),
+    ],
+)
+def test_pages_show_what_tests_compile(page, language, first, test):
+    """The block that begins so is part of a test, but for comments."""
+    text = (SOURCE / f"host/docs/{page}.md").read_text()
+    block = re.search(rf"^```{language}\n({first}.*?)^```$", text, re.M | re.S).group(1)
+    program = lines_of((SOURCE / "tests" / test).read_text())
+    shown = [line for line in lines_of(block) if not line.startswith(("//", "/*")) and line]
+    assert len(shown) >= 3 and [line for line in shown if line not in program] == []
 
 
 def test_every_guide_is_told_of():

@@ -379,6 +379,32 @@ TEST_SUITE("update") {
                                         "change all samples; sample the surface again");
     }
 
+    TEST_CASE("an update as its page shows it") {
+        TestMesh shape = builtin("icosphere", 3);
+        const MeshView mesh = shape.view();
+        std::vector<double>& positions = shape.positions;
+        std::vector<std::uint32_t> changed; // Faces of the vertex 0.
+        for (std::uint32_t corner = 0; corner < shape.triangles.size(); ++corner) {
+            if (shape.triangles[corner] == 0) {
+                changed.push_back(corner / 3);
+            }
+        }
+        Runner& runner = test::runner();
+        const SampleParams params{.min_distance = 0.1, .seed = 7};
+
+        const PreparedMesh prepared = expect(PreparedMesh::prepare(mesh));
+        const JobFrame frame = expect(frame_of(prepared, params));
+        const SampleSet before = expect(runner.sample_and_wait(prepared, params));
+        Updater updater = expect(Updater::create(mesh, params, frame, before.samples));
+
+        positions[2] *= 1.1; // An edit of vertex 0: `changed` lists its faces.
+        const UpdateReport report = expect(updater.update(runner, mesh, params, changed));
+        const std::span<const Sample> after = updater.samples();
+
+        CHECK(after.size() == before.samples.size() - report.removed + report.added);
+        CHECK(report.removed + report.added > 0);
+    }
+
     TEST_CASE("edits of another job are refused") {
         Scene ball(builtin("icosphere", 3), 300, 14);
         ball.begin();

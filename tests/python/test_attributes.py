@@ -265,6 +265,64 @@ def test_sample_transfer_and_many_have_one_record(roof, tmp_path):
     assert np.array_equal(few[0].attributes["frames"], samples.attributes["frames"][3])
 
 
+def turned(frames, v):
+    """Returns a vector as each of the frames turns it."""
+    axis, w = frames[:, :3], frames[:, 3:]
+    return v + 2 * w * np.cross(axis, v) + 2 * np.cross(axis, np.cross(axis, v))
+
+
+def test_frames_are_upright_or_a_part_of_the_way_to_the_normal(roof):
+    def frames(style, **given):
+        samples = geodisk.sample(roof, min_distance=0.2, seed=5, frames=style, **given)
+        return samples, samples.attributes["frames"]
+
+    samples, upright = frames("upright")
+    assert np.allclose(upright[:, :2], 0)  # Turns about z alone.
+    assert len(np.unique(upright[:, 2])) == len(samples)
+    assert np.array_equal(frames("1")[1], frames(True)[1])
+    y, z = np.eye(3)[1:]
+    assert np.allclose(turned(frames("y")[1], y), samples.normals, atol=1e-6)
+    assert np.allclose(turned(frames("y,upright")[1], y), z)
+    assert np.allclose(turned(frames("upright", up="y")[1], z), y)
+    half = turned(frames("0.5")[1], z)  # The roof has slopes of 45 degrees.
+    assert np.allclose(half[:, 2], np.cos(np.pi / 8), atol=1e-6)
+    assert np.allclose(half[:, 0], np.sin(np.pi / 8) * np.sign(samples.normals[:, 0]), atol=1e-6)
+
+
+def test_frames_keep_their_style(roof, tmp_path):
+    style = dict(frames="y,0.25", up="x")
+    samples = geodisk.sample(roof, min_distance=0.2, seed=5, **style)
+    (many,) = geodisk.sample_many([roof], min_distance=0.2, seed=5, **style)
+    others = [many, geodisk.transfer(samples, roof), geodisk.update(samples, roof)]
+    for kind in ("npz", "csv", "ply"):
+        samples.save(tmp_path / f"a.{kind}")
+        others.append(geodisk.transfer(geodisk.read(tmp_path / f"a.{kind}"), roof, roof))
+    expected = samples.attributes["frames"]
+    for other in others:
+        assert np.allclose(other.attributes["frames"], expected, atol=1e-6)
+    there = geodisk.transfer(samples, roof, up="z")
+    assert not np.allclose(there.attributes["frames"], expected, atol=0.01)
+    program = [os.environ.get("GEODISK_COMMAND", "geodisk"), "sample", str(roof), "-q", "-d", "0.2"]
+    out = tmp_path / "b.csv"
+    subprocess.run([*program, "--seed", "5", "--frames=y,0.25", "--up", "x", "-o", out], check=True)
+    assert np.allclose(geodisk.read(out).attributes["frames"], expected, atol=1e-6)
+    assert "# frames: y,0.25\n# frames_up: x\n" in (tmp_path / "a.csv").read_text()
+    assert "# frames: y,0.25\n# frames_up: x\n" in out.read_text()
+
+
+def test_frames_keep_to_y_on_a_mesh_of_gltf(tmp_path):
+    trimesh = pytest.importorskip("trimesh")
+    trimesh.creation.icosphere(1).export(tmp_path / "a.glb")
+    mesh = geodisk.Mesh(tmp_path / "a.glb")
+    for one in (mesh, pickle.loads(pickle.dumps(mesh)), tmp_path / "a.glb"):
+        samples = geodisk.sample(one, min_distance=0.3, frames="upright")
+        assert np.allclose(turned(samples.attributes["frames"], np.eye(3)[2]), np.eye(3)[1])
+    samples.save(tmp_path / "b.usda")
+    assert 'upAxis = "Y"' in (tmp_path / "b.usda").read_text()
+    geodisk.sample(mesh, min_distance=0.3, frames="upright", up="z").save(tmp_path / "b.usda")
+    assert 'upAxis = "Z"' in (tmp_path / "b.usda").read_text()
+
+
 def test_dataframe_has_the_record(roof, tmp_path):
     pytest.importorskip("pandas")
     samples = geodisk.sample(
@@ -379,8 +437,14 @@ def test_records_that_cannot_be(obj, roof, tmp_path):
             call(texture=tmp_path / "none.png")
         with pytest.raises(geodisk.InvalidArgument, match="normals is 'round'"):
             call(normals="round")
-        with pytest.raises(TypeError, match="frames is 'no'"):
+        with pytest.raises(TypeError, match="frames is 1, neither True, False nor a text"):
+            call(frames=1)
+        with pytest.raises(geodisk.InvalidArgument, match="frames: 'no' is neither x, y or z"):
             call(frames="no")
+        with pytest.raises(geodisk.InvalidArgument, match="up is for frames"):
+            call(frames="y", up="y")
+        with pytest.raises(geodisk.InvalidArgument, match="up is 'w'"):
+            call(frames="upright", up="w")
     with pytest.raises(geodisk.MeshRejected, match="no normals"):
         geodisk.sample(obj, min_distance=0.2, normals="file")
     with pytest.raises(geodisk.InvalidArgument, match="color"):

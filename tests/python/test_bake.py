@@ -1,5 +1,11 @@
 """Maps of the nearest sample, against other means."""
 
+import os
+import pickle
+import struct
+import subprocess
+import zlib
+
 import numpy as np
 import pytest
 
@@ -110,6 +116,96 @@ def test_parts_without_samples_and_texels_without_faces(tmp_path):
     assert np.isnan(found.distance[:8, :8]).all()
 
 
+def test_meshes_of_files_are_baked(pipe, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    mesh = geodisk.Mesh("pipe.obj")
+    samples = geodisk.sample(mesh, count=60)
+    expected = geodisk.bake("pipe.obj", samples, size=32)
+    monkeypatch.chdir("/")
+    for one in (mesh, pickle.loads(pickle.dumps(mesh))):
+        found = geodisk.bake(one, samples, size=32)
+        assert np.array_equal(found.sample, expected.sample)
+        assert np.array_equal(found.distance, expected.distance)
+    pipe.write_text(pipe.read_text().replace("v 1.0 0.0 0.0", "v 1.5 0.0 0.0"))
+    with pytest.raises(geodisk.InvalidArgument, match="changed since the mesh was read"):
+        geodisk.bake(mesh, samples, size=32)
+    pipe.unlink()
+    with pytest.raises(FileNotFoundError):
+        geodisk.bake(mesh, samples, size=32)
+
+
+def quarter(path):
+    """A sheet in the lower left quarter of its texture."""
+    points, uvs, faces = sheet(4)
+    return write_obj(path, points, 0.5 * uvs, faces)
+
+
+@pytest.mark.parametrize("padding", [1, 3, 100])
+def test_padding_has_the_values_of_the_nearest_texel(tmp_path, padding):
+    path = quarter(tmp_path / "a.obj")
+    samples = geodisk.sample(path, count=20)
+    bare = geodisk.bake(path, samples, size=(24, 16))
+    found = geodisk.bake(path, samples, size=(24, 16), padding=padding)
+    assert np.array_equal(found.face, bare.face)
+    rows, columns = np.nonzero(bare.face >= 0)
+    for y in range(16):
+        for x in range(24):
+            square = (rows - y) ** 2 + (columns - x) ** 2
+            near = square.argmin()
+            if square[near] <= padding**2:
+                assert found.sample[y, x] == bare.sample[rows[near], columns[near]]
+                assert found.distance[y, x] == bare.distance[rows[near], columns[near]]
+            else:
+                assert found.sample[y, x] == -1 and np.isnan(found.distance[y, x])
+
+
+def png_of_16_bits(path):
+    """Returns the channels of a PNG file as the standard has it, from 0 to 65535."""
+    data, at, idat = path.read_bytes(), 8, b""
+    while at < len(data):
+        size, kind = struct.unpack(">I4s", data[at : at + 8])
+        content = data[at + 8 : at + 8 + size]
+        assert zlib.crc32(kind + content) == int.from_bytes(data[at + 8 + size :][:4], "big")
+        if kind == b"IHDR":
+            width, height, bits, colour = struct.unpack(">IIBB", content[:10])
+        idat += content if kind == b"IDAT" else b""
+        at += size + 12
+    channels = {0: 1, 4: 2}[colour]
+    rows = np.frombuffer(zlib.decompress(idat), np.uint8).reshape(height, -1)
+    assert bits == 16 and (rows[:, 0] == 1).all()
+    pixels = rows[:, 1:].reshape(height, width, 2 * channels).cumsum(axis=1, dtype=np.uint8)
+    return pixels.view(">u2")
+
+
+def test_maps_are_saved_as_the_program_writes_them(tmp_path, pipe):
+    path = quarter(tmp_path / "a.obj")
+    samples = geodisk.sample(path, count=20)
+    samples.save(tmp_path / "s.npz")
+    samples.save(tmp_path / "s.ply")
+    found = geodisk.bake(path, samples, size=64, padding=2)
+    program = [os.environ.get("GEODISK_COMMAND", "geodisk"), "bake", str(path), str(tmp_path / "s.ply")]
+    program += ["-q", "--size", "64", "--padding", "2", "--style", "distance", "-o"]
+    for name, more in (("a.npz", []), ("a.npy", []), ("a.png", []), ("deep.png", ["--depth", "16"])):
+        found.save(tmp_path / name, depth=16 if more else 8)
+        subprocess.run([*program, str(tmp_path / f"p-{name}"), *more], check=True)
+        assert (tmp_path / name).read_bytes() == (tmp_path / f"p-{name}").read_bytes(), name
+    assert np.array_equal(np.load(tmp_path / "a.npy"), found.distance, equal_nan=True)
+    grey, alpha = np.moveaxis(png_of_16_bits(tmp_path / "deep.png"), 2, 0)
+    assert np.array_equal(alpha == 65535, ~np.isnan(found.distance)) and set(alpha.ravel()) == {0, 65535}
+    filled = np.nan_to_num(found.distance)
+    assert np.abs(grey / 65535 - filled / filled.max()).max() <= 0.51 / 65535
+    whole = geodisk.bake(pipe, geodisk.sample(pipe, count=9), size=16)
+    whole.save(tmp_path / "whole.png", depth=16)
+    assert png_of_16_bits(tmp_path / "whole.png").shape == (16, 16, 1)
+    for name, depth, message in (
+        ("a.exr", 8, "written as .npz, .npy or .png; for distances as floats, write .npy"),
+        ("a.png", 12, "'12' is neither 8 nor 16"),
+        ("a.npy", 16, "^depth 16 is for"),
+    ):
+        with pytest.raises(geodisk.InvalidArgument, match=message):
+            found.save(tmp_path / name, depth=depth)
+
+
 def test_what_cannot_be_baked(pipe, tmp_path):
     samples = geodisk.sample(pipe, count=10)
     bare = tmp_path / "bare.obj"
@@ -117,8 +213,12 @@ def test_what_cannot_be_baked(pipe, tmp_path):
     corner = geodisk.Samples([[0, 0, 0]])
     with pytest.raises(geodisk.InvalidArgument, match="no texture coordinates"):
         geodisk.bake(bare, corner)
-    with pytest.raises(geodisk.InvalidArgument, match="No such file"):
+    with pytest.raises(FileNotFoundError, match="nowhere.obj"):
         geodisk.bake(tmp_path / "nowhere.obj", corner)
+    with pytest.raises(geodisk.InvalidArgument, match="no texture coordinates"):
+        geodisk.bake(geodisk.Mesh(bare), corner)
+    with pytest.raises(geodisk.InvalidArgument, match="padding is -1, not from 0 to 16384"):
+        geodisk.bake(pipe, samples, padding=-1)
     with pytest.raises(geodisk.InvalidArgument, match="size is 0, not from 1 to 16384"):
         geodisk.bake(pipe, samples, size=0)
     for size in (20000, (16, -1), (1, 2, 3)):
@@ -127,7 +227,7 @@ def test_what_cannot_be_baked(pipe, tmp_path):
     with pytest.raises(TypeError, match="size is 1.5, not an integer"):
         geodisk.bake(pipe, samples, size=1.5)
     with pytest.raises(TypeError, match="path"):
-        geodisk.bake(geodisk.Mesh(pipe), samples)
+        geodisk.bake(geodisk.Mesh(*sheet(4)[::2]), samples)
     with pytest.raises(TypeError, match="Samples"):
         geodisk.bake(pipe, samples.points)
     with pytest.raises(geodisk.InvalidArgument):

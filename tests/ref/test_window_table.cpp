@@ -9,6 +9,7 @@
 #include <doctest/doctest.h>
 
 #include "picture/flat_box.hpp"
+#include "picture/nearest_windows.hpp"
 #include "picture/window_table.hpp"
 #include "support/meshes.hpp"
 #include "support/oracle_geodesic.hpp"
@@ -108,6 +109,56 @@ TEST_CASE("distances in pictures are exact") {
     check_table("cube, small disks", builtin("cube", 1), 0.05, 2000, 300);
     check_table("two-sided square", builtin("plate", 1), 0.3, 60, 400);
     check_table("obtuse fan", flat_obtuse_fan(8), 0.3, 40, 400);
+}
+
+TEST_CASE("windows of far samples are dropped, those of the nearest kept") {
+    constexpr double kReach = 3, kMargin = 0.05;
+    struct Case {
+        const char* name;
+        TestMesh mesh;
+        double size; ///< Largest radius.
+    };
+    for (const Case& one :
+         {Case{"icosphere", builtin("icosphere", 3), 0.3},
+          Case{"terrain", builtin("terrain", 24), 0.2}, Case{"cube", builtin("cube", 1), 0.3},
+          Case{"obtuse fan", flat_obtuse_fan(8), 0.2}}) {
+        INFO(one.name);
+        const PreparedMesh surface = prepared(one.mesh);
+        std::vector<SurfaceDisk> disks;
+        std::vector<double> radii;
+        for (const Point& point : random_points(surface, 3, 150)) { // As three classes.
+            const double radius = one.size / static_cast<double>(1 + disks.size() % 3);
+            disks.push_back({point.face, point.weight1, point.weight2, kReach * radius});
+            radii.push_back(radius);
+        }
+        const WindowTable whole = make_window_table(surface, disks, one.size, {});
+        WindowTable table = whole;
+        std::vector<double> in_units = radii;
+        std::ranges::for_each(in_units, [&](double& radius) { radius /= table.unit; });
+        tools::picture::keep_nearest(table, in_units, kReach, kMargin);
+        CHECK(table.windows.size() < whole.windows.size() / 2);
+        CHECK(table.starts.back() == table.windows.size());
+        std::size_t wrong = 0, seen = 0;
+        for (const Point& point : random_points(surface, 4, 1000)) {
+            const auto in_radii = [&](const WindowTable& from) {
+                std::vector<double> distances = look_up(from, point, disks.size());
+                for (std::size_t i = 0; i < distances.size(); ++i) {
+                    distances[i] /= radii[i];
+                }
+                return distances;
+            };
+            const std::vector<double> all = in_radii(whole), kept = in_radii(table);
+            const double nearest = std::ranges::min(all);
+            for (std::size_t i = 0; i < all.size() && nearest < kFar; ++i) {
+                if (all[i] <= nearest + kMargin) {
+                    wrong += kept[i] != all[i];
+                    ++seen;
+                }
+            }
+        }
+        CHECK(seen > 500);
+        CHECK(wrong == 0);
+    }
 }
 
 TEST_CASE("windows in a cell are in the order of their samples") {

@@ -9,6 +9,8 @@
 #include "png_bytes.hpp"
 #include "test_files.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
@@ -304,18 +306,48 @@ TEST_CASE("binary PCD has the bits of a colour in a float, as the Point Cloud Li
     CHECK(with_alpha.ends_with(std::string_view("\0\x80\xff\x33\0\xff\0", 7)));
 }
 
-TEST_CASE("frames turn z to the normal, by an angle that other samples do not change") {
-    for (const Vec3& normal : {Vec3{0, 0, 1}, Vec3{0, 0, -1}, Vec3{1, 0, 0}, Vec3{0.6, 0, -0.8},
-                               normalize(Vec3{1, 2, 3})}) {
-        CAPTURE(normal.z);
-        const auto q = frame_of(normal, 2);
-        const Vec3 v{q[0], q[1], q[2]};
-        const Vec3 z{0, 0, 1}; // Turned by q: z + 2 w (v x z) + 2 v x (v x z).
-        const Vec3 turned = z + 2 * q[3] * cross(v, z) + 2.0 * cross(v, cross(v, z));
-        CHECK(length(turned - normal) < 1e-12);
-        CHECK(q[3] >= 0);
-        CHECK(length(v) * length(v) + q[3] * q[3] == doctest::Approx(1));
+namespace {
+
+/// Returns `v` as a quaternion turns it: v + 2 w (q x v) + 2 q x (q x v).
+Vec3 turned(const std::array<double, 4>& frame, const Vec3& v) {
+    const Vec3 q{frame[0], frame[1], frame[2]};
+    return v + 2 * frame[3] * cross(q, v) + 2.0 * cross(q, cross(q, v));
+}
+
+Vec3 vector_of(Up up) {
+    return {up == Up::x ? 1.0 : 0, up == Up::y ? 1.0 : 0, up == Up::z ? 1.0 : 0};
+}
+
+constexpr Up kUps[] = {Up::x, Up::y, Up::z};
+
+} // namespace
+
+TEST_CASE("frames turn the axis of a model to the normal, or a part of the way") {
+    for (const Vec3& normal : {Vec3{0, 0, 1}, Vec3{0, 0, -1}, Vec3{1, 0, 0}, Vec3{-1, 0, 0},
+                               Vec3{0, -1, 0}, Vec3{0.6, 0, -0.8}, normalize(Vec3{1, 2, 3})}) {
+        for (const Up model : kUps) {
+            for (const Up world : kUps) {
+                CAPTURE(normal.z);
+                const Vec3 axis = vector_of(model), up = vector_of(world);
+                const auto full = frame_of(normal, 2, {model, world, 1});
+                CHECK(length(turned(full, axis) - normal) < 1e-12);
+                CHECK(length(turned(frame_of(normal, 2, {model, world, 0}), axis) - up) < 1e-12);
+                const Vec3 part = turned(frame_of(normal, 2, {model, world, 0.25}), axis);
+                const double whole = std::acos(dot(up, normal));
+                CHECK(std::acos(std::min(dot(up, part), 1.0)) ==
+                      doctest::Approx(whole / 4).epsilon(1e-6));
+                CHECK(std::acos(std::clamp(dot(part, normal), -1.0, 1.0)) ==
+                      doctest::Approx(whole * 3 / 4).epsilon(1e-6));
+                CHECK(full[3] >= 0);
+                CHECK(full[0] * full[0] + full[1] * full[1] + full[2] * full[2] +
+                          full[3] * full[3] ==
+                      doctest::Approx(1));
+            }
+        }
     }
+}
+
+TEST_CASE("frames have an angle that other samples do not change") {
     const auto flat = frame_of({0, 0, 1}, 1);
     CHECK(flat[2] == doctest::Approx(std::sin(0.5)));
     const float weights[3] = {0.25F, 0.5F, 0.25F};

@@ -64,11 +64,12 @@ CellResult run_cells(std::span<const SampleRow> rows, bool has_dual, const MeshI
 }
 
 SampleField area_field(const SurfaceCells& cells) {
-    return {"area", {"area"}, false, false, cells.areas};
+    return {kAreaColumn, {kAreaColumn}, false, false, cells.areas};
 }
 
-DualMesh dual_mesh(const CellResult& result, const MeshInput& mesh) {
-    return {result.points, mesh.dimension(), result.cells.edges, result.cells.triangles};
+DualMesh dual_mesh(const CellResult& result, const MeshInput& mesh,
+                   std::span<const SampleField> fields) {
+    return {result.points, mesh.dimension(), result.cells.edges, result.cells.triangles, fields};
 }
 
 } // namespace geodisk::tools

@@ -35,9 +35,11 @@ CellResult run_cells(std::span<const SampleRow> rows, bool has_dual, const MeshI
                      RunDevice& device, std::uint64_t bytes, ProgressLine& progress);
 
 /// Returns the column `area` of a sample file.
+inline constexpr const char* kAreaColumn = "area";
 SampleField area_field(const SurfaceCells& cells);
 
-/// Returns the dual graph to write. `result` must outlive it.
-DualMesh dual_mesh(const CellResult& result, const MeshInput& mesh);
+/// Returns the dual graph to write, with attributes of the samples. Both must outlive it.
+DualMesh dual_mesh(const CellResult& result, const MeshInput& mesh,
+                   std::span<const SampleField> fields);
 
 } // namespace geodisk::tools

@@ -11,6 +11,7 @@
 #include <geodisk/cells.hpp>
 #include <geodisk/nearest.hpp>
 
+#include "files/samples/map_padding.hpp"
 #include "geodisk/cell_run.hpp"
 #include "geodisk/search_progress.hpp"
 #include "program/failure.hpp"
@@ -83,7 +84,8 @@ Texels texels_of(const MeshFile& mesh, TextureSize size, const std::string& path
     return texels;
 }
 
-MapResult look_up_all(Texels texels, const NearestSamples& disks, ProgressLine& progress) {
+MapResult look_up_all(Texels texels, std::uint32_t padding, const NearestSamples& disks,
+                      ProgressLine& progress) {
     const TextureSize size = texels.size();
     MapResult result;
     progress.begin_stage("finding nearest samples");
@@ -100,6 +102,7 @@ MapResult look_up_all(Texels texels, const NearestSamples& disks, ProgressLine& 
     progress.clear();
     static_assert(SampleMap::kNoFace == Texels::kNone);
     result.map.faces = std::move(texels).take_faces();
+    result.padded = pad(result.map, padding);
     result.covered = texels.covered();
     result.overlapping = texels.overlapping();
     result.repeating = texels.repeating();
@@ -109,15 +112,16 @@ MapResult look_up_all(Texels texels, const NearestSamples& disks, ProgressLine& 
 
 } // namespace
 
-MapResult look_up_map(const MeshFile& mesh, TextureSize size, const std::string& path,
+MapResult look_up_map(const MeshFile& mesh, MapSize size, const std::string& path,
                       const NearestSamples& disks, ProgressLine& progress) {
-    return look_up_all(texels_of(mesh, size, path, progress), disks, progress);
+    return look_up_all(texels_of(mesh, size.texture, path, progress), size.padding, disks,
+                       progress);
 }
 
-MapResult run_map(std::span<const SampleRow> rows, TextureSize size, const std::string& path,
+MapResult run_map(std::span<const SampleRow> rows, MapSize size, const std::string& path,
                   const MeshInput& mesh, bool has_touching, RunDevice& device, std::uint64_t bytes,
                   ProgressLine& progress) {
-    Texels texels = texels_of(mesh.file, size, path, progress);
+    Texels texels = texels_of(mesh.file, size.texture, path, progress);
     Stopwatch watch;
     device.open(progress);
     const double open_seconds = watch.seconds();
@@ -140,7 +144,7 @@ MapResult run_map(std::span<const SampleRow> rows, TextureSize size, const std::
         touching = find_touching(disks, progress);
     }
     watch = Stopwatch();
-    MapResult result = look_up_all(std::move(texels), disks, progress);
+    MapResult result = look_up_all(std::move(texels), size.padding, disks, progress);
     result.touching = std::move(touching);
     result.done.open_seconds = open_seconds;
     result.done.device = device.context().report();

@@ -11,7 +11,7 @@ namespace geodisk::tools {
 
 void check_record(const RecordOptions& options, const MeshInput& mesh) {
     const bool is_face = options.normal_kind() == NormalKind::face;
-    if ((!is_face || options.frames) && mesh.dimension() != 3) {
+    if ((!is_face || !options.frames.empty()) && mesh.dimension() != 3) {
         fail_usage(std::string(is_face ? "--frames" : "--normals") +
                    " needs a mesh with 3 coordinates per vertex; this one has " +
                    (mesh.dimension() == 0 ? "none" : std::to_string(mesh.dimension())));
@@ -37,14 +37,14 @@ void set_normals(const RecordOptions& options, const MeshInput& mesh, std::span<
     }
 }
 
-std::vector<SampleField> record_fields(const RecordOptions& options, const MeshInput& mesh,
-                                       std::span<const SampleRow> rows, std::uint64_t seed) {
+std::vector<SampleField> record_fields(const MeshInput& mesh, std::span<const SampleRow> rows,
+                                       std::uint64_t seed, const std::optional<FrameStyle>& style) {
     std::vector<SampleField> fields = sample_fields(mesh.file, rows);
     if (mesh.textures) {
         fields.push_back(texture_colours(mesh.file, *mesh.textures, rows));
     }
-    if (options.frames) {
-        fields.push_back(sample_frames(rows, seed));
+    if (style) {
+        fields.push_back(sample_frames(rows, seed, *style));
     }
     return fields;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -19,8 +20,8 @@ void check_record(const RecordOptions& options, const MeshInput& mesh);
 /// to zero stays that of the face.
 void set_normals(const RecordOptions& options, const MeshInput& mesh, std::span<SampleRow> rows);
 
-/// Returns the attributes of the mesh at `rows`, and their frames where `options` ask for them.
-std::vector<SampleField> record_fields(const RecordOptions& options, const MeshInput& mesh,
-                                       std::span<const SampleRow> rows, std::uint64_t seed);
+/// Returns the attributes of the mesh at `rows`, and their frames where there is a style of them.
+std::vector<SampleField> record_fields(const MeshInput& mesh, std::span<const SampleRow> rows,
+                                       std::uint64_t seed, const std::optional<FrameStyle>& style);
 
 } // namespace geodisk::tools

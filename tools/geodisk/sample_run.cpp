@@ -289,7 +289,7 @@ void write_sample_file(AtomicFile& file, const SampleJob& job, const MeshInput& 
                        const SampleResult& result, const SampleReport& report) {
     const std::vector<ExtraColumn> numbers = extra_columns(job, mesh, result);
     std::vector<SampleField> fields =
-        record_fields(job.out.record, mesh, result.rows, job.params.seed);
+        record_fields(mesh, result.rows, job.params.seed, frame_style(job.out, job.mesh));
     if (result.farthest && takes_column(job.out, kCoverColumn)) {
         std::ranges::copy(result.farthest->columns(), std::back_inserter(fields));
     }

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 
 #include "files/output/block_writer.hpp"
 #include "picture/srgb.hpp"
@@ -37,7 +38,7 @@ template <class Set>
 Pixels draw(const SampleMap& map, const Set& set) {
     Pixels pixels{map.width, map.height, std::vector<std::uint8_t>(4 * map.samples.size())};
     for_rows(map.samples.size(), [&](std::size_t i) {
-        if (map.faces[i] == SampleMap::kNoFace) {
+        if (std::isnan(map.distances[i])) {
             return;
         }
         std::uint8_t* const rgba = &pixels.rgba[4 * i];
@@ -51,6 +52,21 @@ Pixels draw(const SampleMap& map, const Set& set) {
     return pixels;
 }
 
+float largest_distance(const SampleMap& map) {
+    float largest = 0;
+    for (const float distance : map.distances) {
+        largest = std::isfinite(distance) ? std::max(largest, distance) : largest;
+    }
+    return largest;
+}
+
+/// Returns the grey of a distance: 0 at a sample, the maximum at the largest one and beyond.
+template <class Level>
+Level level(float distance, float largest) {
+    const float part = distance > 0 ? std::min(distance / largest, 1.0f) : 0.0f;
+    return static_cast<Level>(std::lround(part * float{std::numeric_limits<Level>::max()}));
+}
+
 } // namespace
 
 Pixels cell_pixels(const SampleMap& map, std::span<const std::uint32_t> colors) {
@@ -61,14 +77,21 @@ Pixels cell_pixels(const SampleMap& map, std::span<const std::uint32_t> colors) 
 }
 
 Pixels distance_pixels(const SampleMap& map) {
-    float largest = 0;
-    for (const float distance : map.distances) {
-        largest = std::isfinite(distance) ? std::max(largest, distance) : largest;
-    }
+    const float largest = largest_distance(map);
     return draw(map, [&](std::size_t i, std::uint8_t* rgba) {
-        const float part = largest > 0 ? map.distances[i] / largest : 0;
-        std::fill_n(rgba, 3, static_cast<std::uint8_t>(std::lround(255 * part)));
+        std::fill_n(rgba, 3, level<std::uint8_t>(map.distances[i], largest));
     });
+}
+
+DeepPixels deep_distance_pixels(const SampleMap& map) {
+    const float largest = largest_distance(map);
+    DeepPixels pixels{map.width, map.height, std::vector<DeepPixels::Texel>(map.distances.size())};
+    for_rows(map.distances.size(), [&](std::size_t i) {
+        if (!std::isnan(map.distances[i])) {
+            pixels.texels[i] = {level<std::uint16_t>(map.distances[i], largest), true};
+        }
+    });
+    return pixels;
 }
 
 } // namespace geodisk::tools::picture

@@ -39,6 +39,19 @@ struct Pixels {
     std::vector<std::uint8_t> rgba; ///< Row by row from the top, sRGB, alpha not multiplied in.
 };
 
+/// Grey in 16 bits.
+struct DeepPixels {
+    struct Texel {
+        std::uint16_t grey = 0;
+        bool is_opaque = false;
+
+        std::uint16_t alpha() const { return is_opaque ? 65535 : 0; }
+    };
+
+    std::uint32_t width = 0, height = 0;
+    std::vector<Texel> texels; ///< Row by row from the top.
+};
+
 /// A colour behind the surface, sRGB.
 struct Background {
     std::uint8_t red = 255, green = 255, blue = 255, alpha = 255;

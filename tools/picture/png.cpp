@@ -1,9 +1,13 @@
 #include "picture/png.hpp"
 
+#include <algorithm>
+#include <cstdlib>
 #include <exception>
+#include <memory>
 #include <utility>
 #include <vector>
 
+#include "files/archives/checksum.hpp"
 #include "program/failure.hpp"
 
 #if defined(__GNUC__)
@@ -39,6 +43,47 @@ void take_bytes(void* context, void* data, int size) {
     }
 }
 
+// Names the filter of a row: each byte is the difference from that of the pixel before.
+constexpr char kSubFilter = 1;
+
+void append_big_endian(std::string& bytes, std::uint32_t value) {
+    for (const int shift : {24, 16, 8, 0}) {
+        bytes += static_cast<char>(value >> shift);
+    }
+}
+
+void append_difference(std::string& bytes, std::uint16_t value, std::uint16_t& before) {
+    bytes += static_cast<char>((value >> 8) - (before >> 8));
+    bytes += static_cast<char>(value - before);
+    before = value;
+}
+
+/// Returns a chunk of a type and its content.
+std::string chunk(const std::string& typed) {
+    std::string bytes;
+    append_big_endian(bytes, static_cast<std::uint32_t>(typed.size() - 4));
+    bytes += typed;
+    append_big_endian(bytes, crc32_of(typed));
+    return bytes;
+}
+
+[[noreturn]] void fail_for_memory() {
+    throw UserError(ExitCode::out_of_memory, "the host has too little memory for the picture");
+}
+
+std::string compressed(std::string& bytes) {
+    constexpr int kQuality = 8; // As stb has it for pictures.
+    int size = 0;
+    const std::unique_ptr<unsigned char, decltype(&std::free)> data(
+        stbi_zlib_compress(reinterpret_cast<unsigned char*>(bytes.data()),
+                           static_cast<int>(bytes.size()), &size, kQuality),
+        &std::free);
+    if (!data) {
+        fail_for_memory();
+    }
+    return {reinterpret_cast<const char*>(data.get()), static_cast<std::size_t>(size)};
+}
+
 } // namespace
 
 std::string png_of(const Pixels& pixels) {
@@ -63,9 +108,34 @@ std::string png_of(const Pixels& pixels) {
         std::rethrow_exception(sink.error);
     }
     if (written == 0) {
-        throw UserError(ExitCode::out_of_memory, "the host has too little memory for the picture");
+        fail_for_memory();
     }
     return std::move(sink.bytes);
+}
+
+std::string png_of(const DeepPixels& pixels) {
+    const bool is_opaque = std::ranges::all_of(pixels.texels, &DeepPixels::Texel::is_opaque);
+    const std::size_t width = pixels.width, channels = is_opaque ? 1 : 2,
+                      row = 1 + 2 * channels * width;
+    std::string rows;
+    rows.reserve(row * pixels.height);
+    for (std::size_t y = 0; y < pixels.height; ++y) {
+        rows += kSubFilter;
+        std::uint16_t before = 0, alpha_before = 0;
+        for (std::size_t x = 0; x < width; ++x) {
+            const DeepPixels::Texel& texel = pixels.texels[y * width + x];
+            append_difference(rows, texel.grey, before);
+            if (!is_opaque) {
+                append_difference(rows, texel.alpha(), alpha_before);
+            }
+        }
+    }
+    std::string size;
+    append_big_endian(size, pixels.width);
+    append_big_endian(size, pixels.height);
+    const char kinds[] = {16, static_cast<char>(is_opaque ? 0 : 4), 0, 0, 0};
+    return "\x89PNG\r\n\x1a\n" + chunk("IHDR" + size + std::string(kinds, sizeof(kinds))) +
+           chunk("IDAT" + compressed(rows)) + chunk("IEND");
 }
 
 void write_png(AtomicFile& file, const Pixels& pixels) {

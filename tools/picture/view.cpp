@@ -154,14 +154,8 @@ std::optional<View> parse_view(const std::string& option, const std::string& tex
 }
 
 Up parse_up(const std::string& option, const std::string& text) {
-    if (text == "x") {
-        return Up::x;
-    }
-    if (text == "y") {
-        return Up::y;
-    }
-    if (text == "z") {
-        return Up::z;
+    if (const auto up = find_up(text)) {
+        return *up;
     }
     fail_usage(option + " takes x, y or z, not " + in_quotes(text));
 }

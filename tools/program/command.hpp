@@ -15,6 +15,9 @@ class Option;
 
 namespace geodisk::tools {
 
+/// What a flag of text is set to where no value follows it.
+inline constexpr const char* kBareFlag = "true";
+
 /// Facts about an option, flag or argument, for manuals and completion.
 struct OptionFacts {
     std::vector<std::string> names; ///< With their dashes, or of an argument its one name.
@@ -91,7 +94,7 @@ class Command {
                       const std::string& group = "Options") const;
 
     /// Adds an option that is set when it is given. Value: bool, or std::string, which is then
-    /// "true" or what follows a "=".
+    /// kBareFlag or what follows a "=".
     template <class Value>
     Option add_flag(const std::string& names, Value& value, const std::string& text,
                     const std::string& group = "Options") const;

@@ -4,6 +4,7 @@
 # usage: cluster.sh FOLDER
 # Writes meshes/, and their samples with a log of each shard to samples/.
 set -eu
+mkdir -p "$1"
 cd "$1"
 
 # Meshes; yours lie in a folder that all nodes see.

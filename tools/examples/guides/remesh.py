@@ -12,6 +12,7 @@ import geodisk
 import numpy as np
 
 folder = pathlib.Path(sys.argv[1])
+folder.mkdir(parents=True, exist_ok=True)
 
 # A torus of 20,000 triangles; yours may be any mesh that is much finer than the new one.
 rings, sides = 140, 72

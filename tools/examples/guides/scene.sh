@@ -5,6 +5,7 @@
 # Writes terrain.ply, trees.ply, plants.ply with a column class, and plants.usda with an instancer that
 # has a prototype for each class.
 set -eu
+mkdir -p "$1"
 cd "$1"
 
 # Replace both by yours: a mesh, and the trees as samples of it or as points (*.csv with x,y,z,class).
@@ -17,5 +18,5 @@ plants() {
         --classes "0.08,0.05,0.02;0.05,0.05,0.02;0.02,0.02,0.015" "$@"
 }
 plants -o plants.ply
-plants --frames --up z -o plants.usda
+plants --frames=upright --up z -o plants.usda
 geodisk verify terrain.ply plants.ply --mask "z>0"

@@ -4,6 +4,7 @@
 # usage: tile.sh FOLDER
 # Writes tile.csv, points with 0 <= x, y < 1, and spectrum.csv, their power by frequency.
 set -eu
+mkdir -p "$1"
 cd "$1"
 
 # Exactly 1,000 points, at a distance that leaves room for a few more.

@@ -11,6 +11,7 @@ import geodisk
 import numpy as np
 
 folder = pathlib.Path(sys.argv[1])
+folder.mkdir(parents=True, exist_ok=True)
 
 # A torus whose faces have labels, one of four quarters; yours come with your data set.
 rings, sides = 96, 48

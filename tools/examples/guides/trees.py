@@ -11,6 +11,7 @@ import geodisk
 import numpy as np
 
 folder = pathlib.Path(sys.argv[1])
+folder.mkdir(parents=True, exist_ok=True)
 
 # A terrain of 1000 m x 1000 m by heights on a grid; yours may be any mesh.
 n = 81

@@ -14,17 +14,24 @@ namespace geodisk::tools {
 /// "<f8" and "(2, 3)".
 std::string array_header(const std::string& type, const std::string& shape);
 
-/// Adds an array; `type` is that of its values.
+/// Returns a .npy file with an array; `type` is that of its values.
 template <class Value>
-void add_shaped(ZipWriter& zip, const std::string& name, const std::string& type,
-                std::span<const Value> values, const std::string& shape) {
+std::string shaped_array(const std::string& type, std::span<const Value> values,
+                         const std::string& shape) {
     std::string bytes = array_header(type, shape);
     const std::size_t first = bytes.size();
     bytes.resize(first + values.size_bytes());
     for_rows(values.size(), [&](std::size_t i) {
         store_little_endian(bytes.data() + first + i * sizeof(Value), values[i]);
     });
-    zip.add(name + ".npy", bytes);
+    return bytes;
+}
+
+/// Adds an array.
+template <class Value>
+void add_shaped(ZipWriter& zip, const std::string& name, const std::string& type,
+                std::span<const Value> values, const std::string& shape) {
+    zip.add(name + ".npy", shaped_array(type, values, shape));
 }
 
 /// Adds an array of one dimension, or of rows of `columns` values.

@@ -399,6 +399,10 @@ void check_no_numbers(const MeshSources& sources) {
     }
 }
 
+std::string extension_of(const Path& path, const std::string& format) {
+    return format.empty() ? lower_extension(path) : '.' + format;
+}
+
 } // namespace
 
 MeshFile split_into_triangles(const MeshSources& sources, PolygonMesh&& polygons) {
@@ -434,8 +438,7 @@ MeshFile read_mesh(const MeshSources& sources) {
         return mesh;
     }
     const FileScope scope(path, sources.allows_outside);
-    const std::string extension =
-        sources.format.empty() ? lower_extension(path) : '.' + sources.format;
+    const std::string extension = extension_of(path, sources.format);
     if (extension == ".obj") {
         check_no_attributes(sources);
         return to_triangles(
@@ -456,7 +459,7 @@ MeshFile read_mesh(const MeshSources& sources) {
         check_no_numbers(sources);
         return to_triangles(sources, read_stl(path, sources.progress), true);
     }
-    if (extension == ".gltf" || extension == ".glb") {
+    if (has_y_up(path, sources.format)) {
         return to_triangles(sources, read_gltf(path, sources.fields, scope));
     }
     if (!sources.format.empty()) {
@@ -467,6 +470,11 @@ MeshFile read_mesh(const MeshSources& sources) {
     check_no_folder(path);
     fail_input(path, "unknown mesh format; known are .gltf, .glb, .obj, .off, .ply, .stl and "
                      "builtin:NAME, or give --mesh-format");
+}
+
+bool has_y_up(const Path& path, const std::string& format) {
+    const std::string extension = extension_of(path, format);
+    return extension == ".gltf" || extension == ".glb";
 }
 
 std::vector<std::string> mesh_formats() {

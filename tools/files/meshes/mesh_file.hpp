@@ -56,6 +56,10 @@ MeshFile split_into_triangles(const MeshSources& sources, PolygonMesh&& polygons
 /// The names of all formats: "obj".
 std::vector<std::string> mesh_formats();
 
+/// Returns true for the formats in which y points up: glTF. `format` is "" for that of the
+/// extension.
+bool has_y_up(const Path& path, const std::string& format);
+
 /// Returns true if `path` is "builtin:NAME" rather than a file.
 bool is_builtin(const std::string& path);
 

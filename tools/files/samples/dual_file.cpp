@@ -1,13 +1,18 @@
 #include "files/samples/dual_file.hpp"
 
+#include <algorithm>
 #include <cstddef>
+#include <ranges>
 
 #include "files/archives/npz_arrays.hpp"
 #include "files/archives/zip_writer.hpp"
 #include "files/input_file.hpp"
 #include "files/output/block_writer.hpp"
+#include "files/samples/row_format.hpp"
+#include "files/samples/sample_writers.hpp"
 #include "program/exact_text.hpp"
 #include "program/failure.hpp"
+#include "program/human_text.hpp"
 
 namespace geodisk::tools {
 namespace {
@@ -23,55 +28,161 @@ std::vector<std::uint32_t> flattened(std::span<const std::array<std::uint32_t, c
     return all;
 }
 
+/// Returns the attribute of that name, or null.
+const SampleField* find_field(const DualMesh& mesh, std::string_view name) {
+    const auto found = std::ranges::find(mesh.fields, name, &SampleField::name);
+    return found == mesh.fields.end() ? nullptr : &*found;
+}
+
+/// Appends the first `count` numbers of a row of numbers, each after a blank.
+void append_numbers(std::string& bytes, std::span<const double> values, std::size_t row,
+                    std::size_t width, std::size_t count) {
+    for (const double value : values.subspan(row * width, count)) {
+        bytes += ' ';
+        append_number(bytes, value);
+    }
+}
+
 void write_obj_dual(AtomicFile& file, const DualMesh& mesh) {
-    write_rows(file, mesh.points.size() / 3,
-               [&](std::string& bytes, std::size_t begin, std::size_t end) {
-                   for (std::size_t i = 3 * begin; i < 3 * end; i += 3) {
-                       bytes += 'v';
-                       for (std::size_t axis = 0; axis < 3; ++axis) {
-                           bytes += ' ';
-                           append_number(bytes, mesh.points[i + axis]);
-                       }
-                       bytes += '\n';
-                   }
-               });
+    const std::size_t samples = mesh.points.size() / 3;
+    const SampleField* const colour = find_field(mesh, kColourField);
+    const SampleField* const uv = find_field(mesh, kUvField);
+    const auto write_lines = [&](std::size_t count, const auto& append) {
+        write_rows(file, count, [&](std::string& bytes, std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) {
+                append(bytes, i);
+                bytes += '\n';
+            }
+        });
+    };
+    write_lines(samples, [&](std::string& bytes, std::size_t i) {
+        bytes += 'v';
+        append_numbers(bytes, mesh.points, i, 3, 3);
+        if (colour != nullptr) {
+            append_numbers(bytes, colour->values, i, colour->components.size(), 3);
+        }
+    });
+    if (uv != nullptr) {
+        write_lines(samples, [&](std::string& bytes, std::size_t i) {
+            bytes += "vt";
+            append_numbers(bytes, uv->values, i, uv->components.size(), 2);
+        });
+    }
+    write_lines(mesh.triangles.size(), [&](std::string& bytes, std::size_t i) {
+        bytes += 'f';
+        for (const std::uint32_t corner : mesh.triangles[i]) {
+            bytes += ' ';
+            append_number(bytes, corner + 1);
+            if (uv != nullptr) {
+                bytes += '/';
+                append_number(bytes, corner + 1);
+            }
+        }
+    });
+}
+
+void write_ply_dual(AtomicFile& file, const DualMesh& mesh) {
+    SampleLayout layout{3, 3, false, false};
+    layout.is_on_surface = false;
+    layout.further.fields = mesh.fields;
+    layout.colours = ColourEncoding::bytes;
+    const std::size_t samples = mesh.points.size() / 3;
+    file.write("ply\nformat binary_little_endian 1.0\nelement vertex " + std::to_string(samples) +
+               '\n' + ply_properties(layout) + "element face " +
+               std::to_string(mesh.triangles.size()) +
+               "\nproperty list uchar int vertex_indices\nend_header\n");
+    write_rows(file, samples, [&](std::string& bytes, std::size_t begin, std::size_t end) {
+        SampleRow row;
+        for (std::size_t i = begin; i < end; ++i) {
+            std::copy_n(&mesh.points[3 * i], 3, row.position);
+            append_binary_row(bytes, row, i, layout);
+        }
+    });
     write_rows(file, mesh.triangles.size(),
                [&](std::string& bytes, std::size_t begin, std::size_t end) {
                    for (std::size_t i = begin; i < end; ++i) {
-                       bytes += 'f';
+                       bytes += '\3';
                        for (const std::uint32_t corner : mesh.triangles[i]) {
-                           bytes += ' ';
-                           append_number(bytes, corner + 1);
+                           append_little_endian(bytes, corner);
                        }
-                       bytes += '\n';
                    }
                });
+}
+
+void add_field(ZipWriter& zip, const SampleField& field) {
+    const std::size_t size = field.components.size();
+    if (field.is_whole) {
+        const std::vector<std::int32_t> values(field.values.begin(), field.values.end());
+        add_array<std::int32_t>(zip, field.name, "<i4", values, size);
+    } else {
+        add_array<double>(zip, field.name, "<f8", field.values, size);
+    }
+}
+
+constexpr const char *kPoints = "points", *kEdges = "edges", *kTriangles = "triangles";
+
+void write_npz_dual(AtomicFile& file, const DualMesh& mesh) {
+    const std::vector<std::uint32_t> edges = flattened(mesh.edges);
+    const std::vector<std::uint32_t> triangles = flattened(mesh.triangles);
+    ZipWriter zip(file);
+    if (mesh.dimension > 0) {
+        add_array<double>(zip, kPoints, "<f8", mesh.points, mesh.dimension);
+    }
+    add_array<std::uint32_t>(zip, kEdges, "<u4", edges, 2);
+    add_array<std::uint32_t>(zip, kTriangles, "<u4", triangles, 3);
+    for (const SampleField& field : mesh.fields) {
+        add_field(zip, field);
+    }
+    zip.finish();
 }
 
 } // namespace
 
 DualFormat dual_format(const Path& path) {
     const std::string extension = lower_extension(path);
-    if (extension != ".obj" && extension != ".npz") {
-        fail_usage(path.string() + ": the dual graph is written as .obj or .npz");
+    if (extension == ".obj") {
+        return DualFormat::obj;
     }
-    return extension == ".obj" ? DualFormat::obj : DualFormat::npz;
+    if (extension == ".ply") {
+        return DualFormat::ply;
+    }
+    if (extension == ".npz") {
+        return DualFormat::npz;
+    }
+    fail_usage(path.string() + ": the dual graph is written as .obj, .ply or .npz");
+}
+
+void check_dual(DualFormat format, std::uint32_t dimension, std::span<const MeshField> fields) {
+    if (format != DualFormat::npz && dimension != 3) {
+        fail_usage(std::string("--dual: .") + (format == DualFormat::obj ? "obj" : "ply") +
+                   " has vertices of three coordinates, but the mesh has " +
+                   std::to_string(dimension) + "; write .npz");
+    }
+    for (const std::string& name : std::views::transform(fields, &MeshField::name)) {
+        if (format == DualFormat::obj && name != kColourField && name != kUvField) {
+            fail_usage("--dual: .obj has no attribute " + in_quotes(name) +
+                       ", just color and uv; write .ply or .npz");
+        }
+        if (format == DualFormat::npz &&
+            (name == kPoints || name == kEdges || name == kTriangles)) {
+            fail_usage("--dual: .npz has an array " + in_quotes(name) +
+                       " that is no attribute; write .ply");
+        }
+    }
 }
 
 void write_dual(AtomicFile& file, DualFormat format, const DualMesh& mesh) {
-    if (format == DualFormat::obj) {
+    switch (format) {
+    case DualFormat::obj:
         write_obj_dual(file, mesh);
         return;
+    case DualFormat::ply:
+        write_ply_dual(file, mesh);
+        return;
+    case DualFormat::npz:
+        write_npz_dual(file, mesh);
+        return;
     }
-    const std::vector<std::uint32_t> edges = flattened(mesh.edges);
-    const std::vector<std::uint32_t> triangles = flattened(mesh.triangles);
-    ZipWriter zip(file);
-    if (mesh.dimension > 0) {
-        add_array<double>(zip, "points", "<f8", mesh.points, mesh.dimension);
-    }
-    add_array<std::uint32_t>(zip, "edges", "<u4", edges, 2);
-    add_array<std::uint32_t>(zip, "triangles", "<u4", triangles, 3);
-    zip.finish();
 }
 
 } // namespace geodisk::tools

@@ -8,11 +8,13 @@
 #include <vector>
 
 #include "files/output/output_file.hpp"
+#include "files/samples/sample_file.hpp"
+#include "geometry/mesh.hpp"
 #include "program/path.hpp"
 
 namespace geodisk::tools {
 
-enum class DualFormat : std::uint8_t { obj, npz };
+enum class DualFormat : std::uint8_t { obj, ply, npz };
 
 /// Returns the format of that extension. Throws UserError(usage) for another one.
 DualFormat dual_format(const Path& path);
@@ -23,10 +25,16 @@ struct DualMesh {
     std::uint32_t dimension = 3;
     std::span<const std::array<std::uint32_t, 2>> edges;
     std::span<const std::array<std::uint32_t, 3>> triangles;
+    std::span<const SampleField> fields; ///< Attributes of the samples.
 };
 
-/// Writes vertices and triangles as OBJ, or the arrays points, edges and triangles as an .npz
-/// archive. Coordinates read back as they are. OBJ is for three dimensions.
+/// Throws UserError(usage) for coordinates and attributes that the format does not hold, naming
+/// --dual: OBJ and PLY hold three coordinates, OBJ the attributes color and uv alone.
+void check_dual(DualFormat format, std::uint32_t dimension, std::span<const MeshField> fields);
+
+/// Writes vertices and triangles as OBJ or PLY, with attributes of the vertices, or the arrays
+/// points, edges, triangles and those of attributes as an .npz archive. Coordinates read back as
+/// they are.
 void write_dual(AtomicFile& file, DualFormat format, const DualMesh& mesh);
 
 } // namespace geodisk::tools

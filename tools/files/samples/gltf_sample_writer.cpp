@@ -226,8 +226,9 @@ void add_instances(GltfDocument& gltf, json node, const Points& points, const js
     const auto radius = common_radius(header, layout);
     attributes["SCALE"] =
         instances.add(3, [&](std::size_t i, std::size_t) { return scale_of(rows[i], radius); });
-    Points corners(gltf, kMarker.size());
-    corners.add("POSITION", 3, [](std::size_t i, std::size_t k) { return kMarker[i][k]; });
+    const auto marker = marker_of(header);
+    Points corners(gltf, marker.size());
+    corners.add("POSITION", 3, [&](std::size_t i, std::size_t k) { return marker[i][k]; });
     if (node.contains("name")) {
         node["name"] = node["name"].get<std::string>() + "Instances";
     }

@@ -20,12 +20,15 @@ struct SampleMap {
     std::vector<std::uint32_t> faces; ///< The face that covers the centre, or kNoFace.
 };
 
-enum class MapFormat : std::uint8_t { npz, png };
+enum class MapFormat : std::uint8_t { npz, npy, png };
 
 /// Returns the format of that extension. Throws UserError(usage) for another one.
 MapFormat map_format(const Path& path);
 
 /// Writes the arrays sample, distance and face, of the shape (height, width), as an .npz archive.
-void write_map(AtomicFile& file, const SampleMap& map);
+void write_arrays(AtomicFile& file, const SampleMap& map);
+
+/// Writes the distances alone, as an .npy array.
+void write_distances(AtomicFile& file, const SampleMap& map);
 
 } // namespace geodisk::tools

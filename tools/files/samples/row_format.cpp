@@ -32,10 +32,7 @@ std::string ply_head(const SampleHeader& header, std::uint64_t count, bool is_te
         is_text ? "ply\nformat ascii 1.0\n" : "ply\nformat binary_little_endian 1.0\n";
     head += entry_lines(header, "comment ");
     head += "element vertex " + std::to_string(count) + '\n';
-    visit_columns({}, 0, layout, [&](std::string_view name, auto value) {
-        head += std::string("property ") + ply_type(value) + ' ' + std::string(name) + '\n';
-    });
-    return head + "end_header\n";
+    return head + ply_properties(layout) + "end_header\n";
 }
 
 std::string csv_head(const SampleHeader& header, std::uint64_t count, const SampleLayout& layout) {
@@ -60,6 +57,14 @@ void append_point(std::string& text, const SampleRow& row) {
 }
 
 } // namespace
+
+std::string ply_properties(const SampleLayout& layout) {
+    std::string lines;
+    visit_columns({}, 0, layout, [&](std::string_view name, auto value) {
+        lines += std::string("property ") + ply_type(value) + ' ' + std::string(name) + '\n';
+    });
+    return lines;
+}
 
 bool RowFormat::is_one(SampleFormat format) {
     return facts_of(format).write == write_by_row;

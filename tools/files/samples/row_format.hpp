@@ -9,6 +9,9 @@
 
 namespace geodisk::tools {
 
+/// Returns the lines of a PLY header for the columns of a row.
+std::string ply_properties(const SampleLayout& layout);
+
 /// PLY, CSV and XYZ. Whoever knows where a row begins can write it, whatever the others are.
 class RowFormat {
   public:

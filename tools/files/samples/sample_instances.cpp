@@ -8,6 +8,7 @@
 
 #include "files/images/srgb_encoding.hpp"
 #include "files/meshes/mesh_fields.hpp"
+#include "files/samples/frame_style.hpp"
 #include "program/exact_text.hpp"
 
 namespace geodisk::tools {
@@ -22,6 +23,19 @@ constexpr vec3 kColours[] = {
 };
 
 } // namespace
+
+Marker marker_of(const SampleHeader& header) {
+    constexpr float kMarker[3][2] = {{1, 0}, {-0.5F, 0.8660254F}, {-0.5F, -0.8660254F}};
+    const std::string* const frames = header.find("frames");
+    const Up up = frames != nullptr ? parse_frame_style("frames", *frames).model : Up::z;
+    const std::size_t first = (std::size_t(up) + 1) % 3;
+    Marker marker{};
+    for (std::size_t i = 0; i < marker.size(); ++i) {
+        marker[i][first] = kMarker[i][0];
+        marker[i][(first + 1) % 3] = kMarker[i][1];
+    }
+    return marker;
+}
 
 std::optional<double> common_radius(const SampleHeader& header, const SampleLayout& layout) {
     if (layout.has_radius) {

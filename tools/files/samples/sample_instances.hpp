@@ -13,10 +13,13 @@
 
 namespace geodisk::tools {
 
-/// A triangle in the plane of x and y with a circumradius of 1. Its first corner lies on x, so that
-/// it shows how a frame is turned.
-inline constexpr std::array<std::array<float, 3>, 3> kMarker{
-    {{1, 0, 0}, {-0.5F, 0.8660254F, 0}, {-0.5F, -0.8660254F, 0}}};
+/// Corners of a triangle.
+using Marker = std::array<std::array<float, 3>, 3>;
+
+/// Returns a triangle with a circumradius of 1, across the axis of a model that points
+/// up by the frames that `header` tells of. Its first corner lies on the axis after that, x after
+/// z, so that it shows how a frame is turned.
+Marker marker_of(const SampleHeader& header);
 
 /// Returns the radius that all samples have, if the header says it; nothing if radii vary.
 std::optional<double> common_radius(const SampleHeader& header, const SampleLayout& layout);

@@ -7,7 +7,6 @@
 #include "files/output/block_writer.hpp"
 #include "files/samples/sample_columns.hpp"
 #include "files/samples/sample_fields.hpp"
-#include "geometry/frames.hpp"
 #include "geometry/vertex_normals.hpp"
 
 namespace geodisk::tools {
@@ -48,7 +47,8 @@ void set_file_normals(const MeshFile& mesh, std::span<SampleRow> rows) {
     set_normals(rows, [&](const SampleRow& row) { return file_normal(mesh, row); });
 }
 
-SampleField sample_frames(std::span<const SampleRow> rows, std::uint64_t seed) {
+SampleField sample_frames(std::span<const SampleRow> rows, std::uint64_t seed,
+                          const FrameStyle& style) {
     const std::size_t size = kFrameColumnNames.size();
     SampleField frames{std::string(kFramesField),
                        {kFrameColumnNames.begin(), kFrameColumnNames.end()},
@@ -59,7 +59,7 @@ SampleField sample_frames(std::span<const SampleRow> rows, std::uint64_t seed) {
     for_rows(rows.size(), [&](std::size_t i) {
         const SampleRow& row = rows[i];
         const Vec3 normal = direction({row.normal[0], row.normal[1], row.normal[2]});
-        std::ranges::copy(frame_of(normal, frame_angle(seed, row.face, row.bary)),
+        std::ranges::copy(frame_of(normal, frame_angle(seed, row.face, row.bary), style),
                           &frames.values[i * size]);
     });
     return frames;

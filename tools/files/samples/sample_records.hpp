@@ -5,6 +5,7 @@
 #include <span>
 
 #include "files/samples/sample_file.hpp"
+#include "geometry/frames.hpp"
 #include "geometry/mesh.hpp"
 
 namespace geodisk::tools {
@@ -17,6 +18,7 @@ void set_smooth_normals(const MeshFile& mesh, std::span<SampleRow> rows);
 void set_file_normals(const MeshFile& mesh, std::span<SampleRow> rows);
 
 /// Returns a quaternion for each sample, by its normal, face and weights, see frame_of().
-SampleField sample_frames(std::span<const SampleRow> rows, std::uint64_t seed);
+SampleField sample_frames(std::span<const SampleRow> rows, std::uint64_t seed,
+                          const FrameStyle& style);
 
 } // namespace geodisk::tools

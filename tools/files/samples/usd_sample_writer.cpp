@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -165,18 +166,18 @@ void add_surface(Properties& properties, std::span<const SampleRow> rows,
 /// Returns the shape that stands for a sample: a triangle where frames turn it, else a ball. It has
 /// the colour of a class, unless that is null.
 std::string prototype(const std::string& name, const std::array<double, 3>* colour,
-                      bool is_turned) {
-    std::string text = "        def " + std::string(is_turned ? "Mesh" : "Sphere") + " \"" + name +
-                       "\"\n        {\n";
+                      const std::optional<Marker>& marker) {
+    std::string text =
+        "        def " + std::string(marker ? "Mesh" : "Sphere") + " \"" + name + "\"\n        {\n";
     if (colour != nullptr) {
         text += "            color3f[] primvars:displayColor = [(" + float_text((*colour)[0]) +
                 ", " + float_text((*colour)[1]) + ", " + float_text((*colour)[2]) + ")]\n";
     }
-    if (!is_turned) {
+    if (!marker) {
         return text + "            double radius = 1\n        }\n";
     }
     std::string points;
-    for (const std::array<float, 3>& corner : kMarker) {
+    for (const std::array<float, 3>& corner : *marker) {
         points += (points.empty() ? "(" : ", (") + exact_text(corner[0]) + ", " +
                   exact_text(corner[1]) + ", " + exact_text(corner[2]) + ')';
     }
@@ -193,20 +194,24 @@ struct Prototypes {
     std::vector<std::uint32_t> of_row; ///< Their numbers.
     std::string paths, shapes;
 
-    Prototypes(std::span<const SampleRow> rows, const SampleLayout& layout) : of_row(rows.size()) {
-        const bool is_turned = find_frames(layout.further) != nullptr;
+    Prototypes(std::span<const SampleRow> rows, const SampleHeader& header,
+               const SampleLayout& layout)
+        : of_row(rows.size()) {
+        const auto marker = find_frames(layout.further) != nullptr
+                                ? std::optional(marker_of(header))
+                                : std::nullopt;
         const std::vector<SampleClass> classes = sample_classes(rows, layout);
         for (const SampleClass& one : classes) {
             for (const std::uint32_t row : one.rows) {
                 of_row[row] = static_cast<std::uint32_t>(&one - classes.data());
             }
             paths += (paths.empty() ? "[<" : ", <") + path_of(one.name);
-            shapes += prototype(one.name, has_colours(layout) ? nullptr : &one.colour, is_turned);
+            shapes += prototype(one.name, has_colours(layout) ? nullptr : &one.colour, marker);
         }
         paths += classes.empty() ? "" : "]";
         if (classes.empty()) {
             paths = "<" + path_of("Sample");
-            shapes = prototype("Sample", nullptr, is_turned);
+            shapes = prototype("Sample", nullptr, marker);
         }
     }
 
@@ -232,7 +237,7 @@ void write_usd(AtomicFile& file, const SampleHeader& header, std::span<const Sam
     properties.add("point3f[] positions", 3, [&](std::size_t i, std::size_t k) {
         return static_cast<float>(rows[i].position[k] - origin[k]);
     });
-    const Prototypes prototypes(rows, layout);
+    const Prototypes prototypes(rows, header, layout);
     properties.add("int[] protoIndices", 1,
                    [&](std::size_t i, std::size_t) { return prototypes.of_row[i]; });
     const auto radius = common_radius(header, layout);

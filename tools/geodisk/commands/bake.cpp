@@ -3,7 +3,6 @@
 #include <string_view>
 #include <vector>
 
-#include "files/samples/map_file.hpp"
 #include "geodisk/checks/run_warnings.hpp"
 #include "geodisk/checks/sample_input.hpp"
 #include "geodisk/commands/commands.hpp"
@@ -14,23 +13,20 @@
 #include "geodisk/options/mesh_options.hpp"
 #include "geodisk/options/run_options.hpp"
 #include "geodisk/options/tolerance_option.hpp"
+#include "geodisk/outputs/map_output.hpp"
 #include "geodisk/outputs/outputs.hpp"
 #include "geodisk/reports/map_report.hpp"
-#include "picture/distinct_colors.hpp"
-#include "picture/map_picture.hpp"
-#include "picture/png.hpp"
 #include "program/command.hpp"
 #include "program/exact_text.hpp"
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
-#include "program/suggestion.hpp"
 
 namespace geodisk::tools {
 namespace {
 
 constexpr const char* kBakeExamples[] = {
     "geodisk bake spot.obj points.ply -o nearest.npz",
-    "geodisk bake spot.obj points.ply -o cells.png --size 2048",
+    "geodisk bake spot.obj points.ply -o cells.png --size 2048 --padding 8",
 };
 
 constexpr std::uint32_t kMaxTexels = 16384; // Along each side.
@@ -39,7 +35,7 @@ struct BakeOptions {
     MeshOptions mesh;
     OutputOptions out;
     RunOptions run;
-    std::string samples, tolerance, size = "1024", style = "voronoi";
+    std::string samples, tolerance, size = "1024", padding = "0", style = "voronoi", depth = "8";
 };
 
 std::uint32_t parse_side(const std::string& text, std::string_view side) {
@@ -58,16 +54,13 @@ TextureSize parse_size(const std::string& text) {
     return {width, by == std::string::npos ? width : parse_side(text, size.substr(by + 1))};
 }
 
-const std::vector<std::string>& style_names() {
-    static const std::vector<std::string> names{"voronoi", "distance"};
-    return names;
-}
-
-picture::Style parse_map_style(const std::string& text) {
-    if (text != style_names()[0] && text != style_names()[1]) {
-        fail_choice("--style", text, style_names());
+std::uint32_t parse_padding(const std::string& text) {
+    const auto padding = parse_integer<std::uint32_t>(text);
+    if (!padding || *padding > kMaxTexels) {
+        fail_usage("--padding takes 0 to " + std::to_string(kMaxTexels) + " texels, not " +
+                   in_quotes(text));
     }
-    return picture::parse_style("--style", text);
+    return *padding;
 }
 
 void check_files(const BakeOptions& options) {
@@ -77,9 +70,8 @@ void check_files(const BakeOptions& options) {
 }
 
 void run_bake(BakeOptions options) {
-    const MapFormat format = map_format(options.out.output);
-    const TextureSize size = parse_size(options.size);
-    const picture::Style style = parse_map_style(options.style);
+    const MapTarget target = parse_map_target(options.out.output, options.style, options.depth);
+    const MapSize size{parse_size(options.size), parse_padding(options.padding)};
     options.mesh.fields.uvs = true;
     const RunnerOptions runner = options.run.runner();
     check_tolerance(options.tolerance);
@@ -98,23 +90,13 @@ void run_bake(BakeOptions options) {
     print_warnings(warnings);
     warnings.insert(warnings.begin(), mesh.warnings.begin(), mesh.warnings.end());
     RunDevice device(options.run.device, runner);
-    const bool is_cells = format == MapFormat::png && style == picture::Style::voronoi;
-    MapResult result = run_map(file.rows, size, options.mesh.mesh, mesh, is_cells, device,
+    MapResult result = run_map(file.rows, size, options.mesh.mesh, mesh, target.has_cells(), device,
                                runner.device_bytes, progress);
     check_validation(device.context());
     const MapReport report{options.mesh,      mesh, warnings, result, file.rows.size(),
                            options.out.output};
     write_outputs(options.out, "the map", progress, report, [&](AtomicFile& map) {
-        if (format == MapFormat::npz) {
-            write_map(map, result.map);
-            return;
-        }
-        const picture::Pixels pixels =
-            is_cells ? picture::cell_pixels(
-                           result.map, picture::distinct_colors(file.rows.size(), result.touching))
-                     : picture::distance_pixels(result.map);
-        result.map = {size.width, size.height, {}, {}, {}}; // Room for what writing takes.
-        picture::write_png(map, pixels);
+        write_map(map, target, result.map, file.rows.size(), result.touching);
     });
 }
 
@@ -132,17 +114,27 @@ void add_bake_command(Command app) {
                     "nearest face")
         .required();
     add_output_argument(command, options->out,
-                        "Map to write: *.npz (arrays sample, distance, face) or\n"
-                        "*.png (a picture)");
+                        "Map to write: *.npz (arrays sample, distance, face), *.npy\n"
+                        "(distances) or *.png (a picture)");
     command
         .add_option("--size", options->size, "SIZE",
                     "Texels along each side, or WIDTHxHEIGHT, up to 16384")
         .shows_default();
     command
+        .add_option("--padding", options->padding, "N",
+                    "Also fill texels up to N away from islands of the texture, from\n"
+                    "the nearest texel that has a face, up to 16384")
+        .shows_default();
+    command
         .add_option("--style", options->style, "STYLE",
                     "What *.png shows: voronoi, cells in colours, or distance, from\n"
                     "black at samples to white at the largest")
-        .offers(style_names())
+        .offers(map_style_names())
+        .shows_default();
+    command
+        .add_option("--depth", options->depth, "BITS",
+                    "Bits of each channel of *.png: 8, or 16 for --style distance")
+        .offers(map_depths())
         .shows_default();
     add_mesh_options(command, options->mesh);
     add_tolerance_option(command, options->tolerance);

@@ -1,9 +1,11 @@
+#include <algorithm>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include <geodisk/version.hpp>
 
+#include "files/samples/sample_fields.hpp"
 #include "files/samples/sample_format.hpp"
 #include "geodisk/cell_run.hpp"
 #include "geodisk/checks/run_warnings.hpp"
@@ -30,6 +32,7 @@ namespace {
 constexpr const char* kCellsExamples[] = {
     "geodisk cells bunny.ply points.ply -o areas.csv",
     "geodisk cells bunny.ply points.ply -o areas.ply --dual remeshed.obj",
+    "geodisk cells scan.ply points.ply -o areas.csv --dual remeshed.ply --attributes all",
 };
 
 struct CellOptions {
@@ -53,15 +56,19 @@ void check_files(const CellOptions& options) {
     if (!options.dual.empty()) {
         check_writable(options.dual);
     }
-    const std::vector<std::string> columns{"area"};
+    const std::vector<std::string> columns{kAreaColumn};
     check_columns(options.out.target(), columns);
     options.out.check_scene(false);
 }
 
-void check_dual_dimension(const CellOptions& options, std::uint32_t dimension) {
-    if (!options.dual.empty() && dimension != 3 && dual_format(options.dual) == DualFormat::obj) {
-        fail_usage("--dual: .obj has vertices of three coordinates, but the mesh has " +
-                   std::to_string(dimension) + "; write .npz");
+void check_attributes(const CellOptions& options, const MeshInput& mesh) {
+    const std::vector<MeshField>& fields = mesh.file.fields;
+    if (std::ranges::find(fields, kAreaColumn, &MeshField::name) != fields.end()) {
+        fail_usage(
+            "--attributes: area is the column of the areas of cells; name the other attributes");
+    }
+    if (!options.dual.empty()) {
+        check_dual(dual_format(options.dual), mesh.dimension(), fields);
     }
 }
 
@@ -75,8 +82,11 @@ SampleHeader header_with_areas(const CellOptions& options, const SampleHeader& s
             {{"version", "geodisk " GEODISK_VERSION_STRING}, {"mesh", options.mesh.mesh}});
     }
     std::erase_if(header.entries, [](const auto& entry) {
-        return entry.first == "area_error" || entry.first == "area_unreached";
+        return entry.first == "area_error" || entry.first == "area_unreached" ||
+               entry.first == "attributes";
     });
+    const HeaderEntries record = options.out.record.entries();
+    header.entries.insert(header.entries.end(), record.begin(), record.end());
     header.entries.emplace_back("area_error", exact_text(cells.area_error));
     if (cells.unreached > 0) {
         header.entries.emplace_back("area_unreached", exact_text(cells.unreached));
@@ -84,7 +94,8 @@ SampleHeader header_with_areas(const CellOptions& options, const SampleHeader& s
     return header;
 }
 
-void run_cells_command(const CellOptions& options) {
+void run_cells_command(CellOptions options) {
+    options.mesh.fields = options.out.record.fields();
     const RunnerOptions runner = options.run.runner();
     check_tolerance(options.tolerance);
     check_files(options);
@@ -92,7 +103,7 @@ void run_cells_command(const CellOptions& options) {
     ProgressLine progress(options.out.quiet);
     const MeshInput mesh = load_masked_mesh(options.mesh, progress, options.mask);
     check_dimension(options.out.target(), mesh.dimension());
-    check_dual_dimension(options, mesh.dimension());
+    check_attributes(options, mesh);
     std::vector<MeshWarning> warnings;
     const HeaderEntries additions = options.mesh.additions();
     SampleFile file = read_samples_silently_on(options.samples, options.mesh.mesh, mesh, &additions,
@@ -111,11 +122,14 @@ void run_cells_command(const CellOptions& options) {
     check_validation(device.context());
     print_precision_note(options.out, file.rows, mesh.dimension());
     const SampleHeader header = header_with_areas(options, file.header, result.cells);
-    const std::vector<SampleField> fields{area_field(result.cells)};
+    const std::vector<SampleField> attributes = sample_fields(mesh.file, file.rows);
+    std::vector<SampleField> fields{area_field(result.cells)};
+    fields.insert(fields.end(), attributes.begin(), attributes.end());
     std::vector<FurtherFile> further;
     if (!options.dual.empty()) {
         further.push_back({{"the dual graph", options.dual}, [&](AtomicFile& dual) {
-                               write_dual(dual, dual_format(options.dual), dual_mesh(result, mesh));
+                               write_dual(dual, dual_format(options.dual),
+                                          dual_mesh(result, mesh, attributes));
                            }});
     }
     const CellReport report{options.mesh,
@@ -151,9 +165,10 @@ void add_cells_command(Command app) {
                         wrapped("File to write: the samples with a column `area`, as " +
                                 listed_formats(&FormatFacts::has_columns, "*.")));
     command.add_option("--dual", options->dual, "FILE",
-                       "Write the dual graph too: *.obj (samples as vertices, a\n"
+                       "Write the dual graph too: *.obj or *.ply (samples as vertices, a\n"
                        "triangle where three cells meet) or *.npz (arrays points,\n"
                        "edges, triangles)");
+    add_attributes_option(command, options->out.record);
     add_mesh_options(command, options->mesh);
     add_mask_options(command, options->mask, OptionUse::choosing);
     add_tolerance_option(command, options->tolerance);

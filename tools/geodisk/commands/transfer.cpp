@@ -132,6 +132,7 @@ SampleHeader transferred_header(const TransferOptions& options, const Transfer& 
     add({{"transferred_from", options.samples},
          {std::string(kDigest), digest_of(done.samples.rows)}});
     add(options.out.record.entries());
+    add(frame_entries(frame_style(options.out, options.to)));
     if (done.farthest) {
         add(farthest_entries(*done.farthest));
     }
@@ -176,7 +177,7 @@ std::string summary_text(const TransferOptions& options, const Transfer& done) {
     }
     out << "smallest      " << closest_text(done.closest) << '\n'
         << "file          " << one_line(options.out.output) << '\n'
-        << scene_line(done.scene);
+        << frame_line(frame_style(options.out, options.to)) << scene_line(done.scene);
     return out.str();
 }
 
@@ -246,8 +247,8 @@ void run_transfer(const TransferOptions& options) {
     set_normals(options.out.record, to, samples.rows);
     done.closest = find_closest(to, samples.rows, progress);
     print_precision_note(options.out, samples.rows, to.dimension());
-    std::vector<SampleField> fields =
-        record_fields(options.out.record, to, samples.rows, seed_of(samples.header));
+    std::vector<SampleField> fields = record_fields(to, samples.rows, seed_of(samples.header),
+                                                    frame_style(options.out, options.to));
     if (done.farthest && takes_column(options.out, kCoverColumn)) {
         std::ranges::copy(done.farthest->columns(), std::back_inserter(fields));
     }

@@ -14,8 +14,7 @@ constexpr const char* kSurfaceGroup = "Surface";
 
 constexpr const char* kMeshFormats = ":\n*.gltf, *.glb, *.obj, *.off, *.ply, *.stl or builtin:NAME";
 
-/// Value that a flag without one gets, and the name for it.
-constexpr const char* kBareFlag = "true";
+/// What bare --weld means, in headers.
 constexpr const char* kExact = "exact";
 
 } // namespace

@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "files/samples/frame_style.hpp"
 #include "program/command.hpp"
 #include "program/failure.hpp"
 #include "program/suggestion.hpp"
@@ -27,6 +28,13 @@ NormalKind RecordOptions::normal_kind() const {
     return NormalKind(found - normal_names().begin());
 }
 
+std::optional<FrameStyle> RecordOptions::frame_style() const {
+    if (frames.empty()) {
+        return std::nullopt;
+    }
+    return parse_frame_style("--frames", frames == kBareFlag ? "" : frames);
+}
+
 WantedFields RecordOptions::fields() const {
     WantedFields fields = parse_fields(attributes);
     fields.normals = normal_kind() == NormalKind::file;
@@ -42,7 +50,7 @@ WantedFields RecordOptions::fields() const {
 void RecordOptions::check(const SampleTarget& target) const {
     for (const auto& [is_given, columns] : {std::pair{!attributes.empty(), "of --attributes"},
                                             {!texture.empty(), "of --texture"},
-                                            {frames, "of --frames"}}) {
+                                            {frame_style().has_value(), "of --frames"}}) {
         if (is_given) {
             check_columns(target, std::vector<std::string>{columns});
         }
@@ -64,18 +72,19 @@ HeaderEntries RecordOptions::entries() const {
     if (normal_kind() != NormalKind::face) {
         entries.emplace_back("normals", normals);
     }
-    if (frames) {
-        entries.emplace_back("frames", "yes");
-    }
     return entries;
 }
 
-void add_record_options(Command command, RecordOptions& options, const std::string& name) {
+void add_attributes_option(Command command, RecordOptions& options, const std::string& name) {
     command.add_option("--attributes", options.attributes, "LIST",
                        "Add attributes that " + name +
                            " has at each sample: all, or names\n"
                            "separated by commas: color, uv, and others as the file calls\n"
                            "them. Integers are those of the corner with the most weight");
+}
+
+void add_record_options(Command command, RecordOptions& options, const std::string& name) {
+    add_attributes_option(command, options, name);
     command.add_option("--texture", options.texture, "IMAGE",
                        "Add the colour of a PNG or JPEG image at the texture coordinates\n"
                        "of each sample; auto: that of the materials of a glTF or OBJ file\n"
@@ -89,7 +98,10 @@ void add_record_options(Command command, RecordOptions& options, const std::stri
     command.add_flag("--frames", options.frames,
                      "Add a quaternion qx qy qz qw to each sample, which rotates z\n"
                      "to its normal, with a random turn about it; glTF and USD then\n"
-                     "place a triangle at each sample");
+                     "place a triangle at each sample. --frames=y: for models whose\n"
+                     "y points up. --frames=upright: keep them upright, as plants on\n"
+                     "a hillside; --frames=0.3: turn them 0.3 of the way from there\n"
+                     "to the normal; --frames=y,0.3: both. --up says where up is");
 }
 
 } // namespace geodisk::tools

@@ -23,8 +23,10 @@ void OutputOptions::check_scene(bool has_picture) const {
     if (!units.empty()) {
         fail_usage("--units is for samples in " + scenes);
     }
-    if (!has_picture) {
-        fail_usage("--up is for samples in " + scenes + ", and for pictures");
+    const auto frames = record.frame_style();
+    if (!has_picture && !(frames && frames->has_world())) {
+        fail_usage("--up is for samples in " + scenes +
+                   ", for pictures, and for --frames=upright or --frames=PART");
     }
 }
 
@@ -89,8 +91,9 @@ void add_scene_options(Command command, OutputOptions& options) {
     command
         .add_option("--up", options.up, "AXIS",
                     wrapped("Axis that points up in " + scenes +
-                            ", and in a picture: x, y or z (default: guess from the mesh; y for "
-                            "a mesh of glTF). glTF is turned, as y points up there"))
+                            ", in a picture, and for --frames: x, y or z (default: y for a mesh of "
+                            "glTF, else a guess; else z for --frames, which guess nothing). glTF "
+                            "is turned, as y points up there"))
         .offers({"x", "y", "z"});
     command.add_option("--units", options.units, "UNIT",
                        wrapped("Unit of the mesh in " + scenes +

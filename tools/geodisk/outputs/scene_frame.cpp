@@ -1,6 +1,7 @@
 #include "geodisk/outputs/scene_frame.hpp"
 
-#include "files/input_file.hpp"
+#include "files/meshes/mesh_file.hpp"
+#include "files/samples/frame_style.hpp"
 #include "files/samples/sample_format.hpp"
 #include "geodisk/reports/json.hpp"
 #include "picture/scene.hpp"
@@ -10,13 +11,54 @@
 namespace geodisk::tools {
 namespace {
 
-bool is_of_gltf(const MeshOptions& mesh) {
-    const std::string extension =
-        mesh.format.empty() ? lower_extension(mesh.mesh) : '.' + mesh.format;
-    return extension == ".gltf" || extension == ".glb";
+/// An axis that points up, and why.
+struct KnownUp {
+    Up up;
+    const char* reason;
+};
+
+/// Returns what needs no guess.
+std::optional<KnownUp> known_up(const OutputOptions& options, const MeshOptions& of_mesh) {
+    if (!options.up.empty()) {
+        return KnownUp{picture::parse_up("--up", options.up), "as --up says"};
+    }
+    if (has_y_up(of_mesh.mesh, of_mesh.format)) {
+        return KnownUp{Up::y, "as the mesh is of glTF"};
+    }
+    const auto style = options.record.frame_style();
+    return style && style->has_world()
+               ? std::optional(KnownUp{FrameStyle().world, "as --frames has it; --up sets it"})
+               : std::nullopt;
 }
 
 } // namespace
+
+std::optional<FrameStyle> frame_style(const OutputOptions& options, const MeshOptions& of_mesh) {
+    auto style = options.record.frame_style();
+    if (style && style->has_world()) {
+        style->world = known_up(options, of_mesh)->up;
+    }
+    return style;
+}
+
+HeaderEntries frame_entries(const std::optional<FrameStyle>& style) {
+    if (!style) {
+        return {};
+    }
+    HeaderEntries entries{{"frames", text_of(*style)}};
+    if (style->has_world()) {
+        entries.emplace_back("frames_up", std::string{small_letter(style->world)});
+    }
+    return entries;
+}
+
+std::string frame_line(const std::optional<FrameStyle>& style) {
+    if (!style || !style->has_world()) {
+        return "";
+    }
+    return "frames        " + text_of(*style) + ", where " + small_letter(style->world) +
+           " points up; --up sets it\n";
+}
 
 std::optional<SceneFrame> scene_frame(const OutputOptions& options, const MeshOptions& of_mesh,
                                       const MeshInput& mesh) {
@@ -25,11 +67,9 @@ std::optional<SceneFrame> scene_frame(const OutputOptions& options, const MeshOp
         return std::nullopt;
     }
     SceneFrame frame;
-    if (!options.up.empty()) {
-        frame.up = picture::parse_up("--up", options.up);
-        frame.reason = "as --up says";
-    } else if (is_of_gltf(of_mesh)) {
-        frame.reason = "as the mesh is of glTF";
+    if (const auto known = known_up(options, of_mesh)) {
+        frame.up = known->up;
+        frame.reason = known->reason;
     } else {
         frame.up = picture::likely_up(
             picture::make_scene(mesh.file.positions, mesh.dimension(), mesh.file.triangles));

@@ -29,6 +29,7 @@ std::string MapReport::json(double write_seconds) const {
                   {"texels",
                    {{"covered", result.covered},
                     {"overlapping", result.overlapping},
+                    {"padded", result.padded},
                     {"unreached", result.unreached}}},
                   {"repeating_faces", result.repeating},
                   {"largest_distance", result.largest_distance},
@@ -50,6 +51,9 @@ std::string MapReport::summary(double write_seconds) const {
         << "samples       " << grouped(samples) << ", at most "
         << rounded(result.largest_distance, 6) << " away, exact to " << rounded(result.error, 2)
         << '\n';
+    if (result.padded > 0) {
+        out << "padding       " << counted(result.padded, "texel", "texels") << " around these\n";
+    }
     if (result.overlapping > 0) {
         out << "overlaps      " << counted(result.overlapping, "texel has", "texels have")
             << " several faces; the lowest counts\n";

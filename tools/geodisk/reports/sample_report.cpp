@@ -268,9 +268,10 @@ SampleHeader SampleReport::header() const {
         header.entries.emplace_back("maximal",
                                     done.run.maximal.certified ? "certified" : "not certified");
     }
-    for (const HeaderEntries& more : {job_.out.record.entries(), job_.constraints.entries(),
-                                      level_entries(told_levels(result_, distance)),
-                                      part_name_entries(mesh_.file, job_.columns)}) {
+    for (const HeaderEntries& more :
+         {job_.out.record.entries(), frame_entries(frame_style(job_.out, job_.mesh)),
+          job_.constraints.entries(), level_entries(told_levels(result_, distance)),
+          part_name_entries(mesh_.file, job_.columns)}) {
         header.entries.insert(header.entries.end(), more.begin(), more.end());
     }
     if (result_.farthest) {
@@ -373,7 +374,8 @@ std::string SampleReport::summary(const SecondsByStage& after) const {
     if (result_.farthest) {
         out << farthest_line(*result_.farthest);
     }
-    out << run_text(result_.done, seconds(after), job_.out.output) << scene_line(result_.scene);
+    out << run_text(result_.done, seconds(after), job_.out.output)
+        << frame_line(frame_style(job_.out, job_.mesh)) << scene_line(result_.scene);
     if (result_.picture) {
         out << "picture       " << one_line(job_.picture) << '\n';
     }

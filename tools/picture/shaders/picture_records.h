@@ -22,6 +22,8 @@ GEODISK_PICTURE_CONSTANT kDrawDensity = 4u;
 // faces it.
 GEODISK_PICTURE_CONSTANT kDrawArea = 5u;
 GEODISK_PICTURE_CONSTANT kMaxTilt = 5u;
+// Width of the borders of cells, as parts of a radius.
+GEODISK_PICTURE_CONSTANT kBordersPerRadius = 20u;
 // The edges of a box, beside balls.
 GEODISK_PICTURE_CONSTANT kDrawFrame = 6u;
 

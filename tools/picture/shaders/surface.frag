@@ -57,7 +57,7 @@ vec3 surface_color(Nearest nearest, float density) {
         }
         const float border = nearest.second - q;
         const SampleRec own = samples[nearest.sample_index];
-        return q < 0.12 || border < 0.05 ? kMark : cell_color(own.color, own.kind);
+        return q < 0.12 || border < 1.0 / float(kBordersPerRadius) ? kMark : cell_color(own.color, own.kind);
     }
     if (kDraw == kDrawDistance) {
         return has_sample ? distance_color(q) : kOverlap;

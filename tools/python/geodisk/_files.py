@@ -6,7 +6,10 @@ import contextlib
 import os
 import secrets
 import stat
-from typing import BinaryIO, Iterator
+import tempfile
+from typing import BinaryIO, Callable, Iterator
+
+from . import _errors as e
 
 _BINARY = getattr(os, "O_BINARY", 0)
 
@@ -42,6 +45,18 @@ def complete(path: str) -> Iterator[BinaryIO]:
         with contextlib.suppress(OSError):
             os.unlink(partial)
         raise
+
+
+def bytes_of(suffix: str, write: Callable[[str], object]) -> bytes:
+    """Returns the file that `write(path)` writes."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = os.path.join(folder, "samples" + suffix)
+        try:
+            write(path)
+        except e.InvalidArgument as error:
+            raise e.invalid(str(error).replace(path + ": ", "")) from None
+        with open(path, "rb") as file:
+            return file.read()
 
 
 def _replaced(path: str, target: str) -> os.stat_result | None:

@@ -23,23 +23,25 @@ class Wanted:
 
     texture: str | os.PathLike[str] | None
     normals: str | None
-    frames: bool | None
+    frames: bool | str | None
+    up: str | None
     attributes: str | Sequence[str] | None = None
     has_colours: bool = False  #: Whether what is made keeps the colours of a texture already.
 
     def given(self) -> Record:
         """Returns what the caller asks for."""
         frames = False if self.frames is None else self.frames
-        return Record(self.texture, "face" if self.normals is None else self.normals, frames)
+        normals = "face" if self.normals is None else self.normals
+        return Record(self.texture, normals, frames, None if self.frames is None else self.up)
 
     def inherited(self, samples: Samples) -> Record:
         """Returns what the caller asks for, and else what the samples had."""
         given, had = self.given(), record_of(samples)
-        return Record(
-            had.texture if self.texture is None and not self.has_colours else given.texture,
-            had.normals if self.normals is None else given.normals,
-            had.frames if self.frames is None else given.frames,
-        )
+        texture = had.texture if self.texture is None and not self.has_colours else given.texture
+        normals = had.normals if self.normals is None else given.normals
+        frames = had if self.frames is None else given
+        up = frames.up if self.up is None else self.up
+        return Record(texture, normals, frames.frames or False, up)
 
     def mesh(self, samples: Samples, own: Sequence[str], make: MakeMesh) -> tuple[Mesh, Record]:
         """Returns a mesh and its record: all that is wanted, or what the mesh has of it.
@@ -84,4 +86,4 @@ def record_of(samples: Samples) -> Record:
 def _without_file(wanted: Record, given: Record) -> Record:
     """Returns what a mesh of arrays can have, and what the caller asks for."""
     normals = given.normals if wanted.normals == "file" else wanted.normals
-    return Record(given.texture, normals, wanted.frames)
+    return Record(given.texture, normals, wanted.frames or False, wanted.up)

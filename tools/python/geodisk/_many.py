@@ -54,7 +54,8 @@ def sample_many(
     attributes: str | Sequence[str] = (),
     texture: str | os.PathLike[str] | None = None,
     normals: str = "face",
-    frames: bool = False,
+    frames: bool | str = False,
+    up: str | None = None,
     mesh_format: str | None = None,
     allow_outside: bool = False,
     device: DeviceLike | None = None,
@@ -76,7 +77,8 @@ def sample_many(
     density, radius_factor, face_keys, face_mask, existing, avoid : sequence of one per mesh, or None
         As for :func:`sample`; None for a mesh without.
     exact, pool_ratio, darts, stop_count, maximal, order, levels, level_factor, classes,
-    class_counts, features, metric, weld, keep_seams, columns, attributes, texture, normals, frames, mesh_format,
+    class_counts, features, metric, weld, keep_seams, columns, attributes, texture, normals, frames,
+    up, mesh_format,
     allow_outside, device, progress
         As for :func:`sample`, for all meshes.
 
@@ -100,7 +102,7 @@ def sample_many(
     >>> bool((b.points == alone.points).all())
     True
     """
-    record = Record(texture, normals, frames)
+    record = Record(texture, normals, frames, up)
     several = listed(meshes)
     if several is None:
         raise TypeError(f"meshes is {reprlib.repr(meshes)}, not a list of meshes")

@@ -19,7 +19,7 @@ from ._oddities import oddities_of, warn
 from ._polygons import Polygons
 from ._protocols import Faces, MeshLike
 from ._record import NOTHING, Record, check_record
-from ._source import Source, read_file, split
+from ._source import MeshFile, Source, absolute, read_file, split
 from ._surface import Surface
 from ._values import flag, names, text, weld_of
 
@@ -105,6 +105,7 @@ class Mesh:
     """
 
     _source: c.Handle | None = None  # Which pickles do not have.
+    _file: MeshFile | None = None  # What it was read from.
 
     def __init__(
         self,
@@ -146,6 +147,7 @@ class Mesh:
                 )
             )
             surface = surface_from(source, source.vertices, keep_seams)
+            self._file = MeshFile(absolute(path), weld, keep_seams, mesh_format, allow_outside)
         else:
             if attributes or columns or mesh_format is not None:
                 raise TypeError("attributes, columns and mesh_format are for meshes from files")
@@ -228,11 +230,13 @@ class Mesh:
         return {
             "surface": self._surface,
             "warnings": self.warnings,
+            "file": self._file,
             "joined_edges": self._info.joined_edges if self._surface.joined is not None else 0,
         }
 
     def __setstate__(self, state: dict[str, Any]) -> None:
         self._prepare(state["surface"], state["joined_edges"])
+        self._file = state["file"]
         self.warnings = state["warnings"]  # Which were shown when it was made.
 
     def __copy__(self) -> Mesh:
@@ -252,6 +256,7 @@ def surface_from(source: Source, vertices: Any, keep_seams: bool) -> Surface:
         joined=source.joined,
         columns=source.columns,
         corners=source.corners if source.joined is not None else None,
+        is_y_up=source.is_y_up,
     )
 
 

@@ -93,7 +93,10 @@ def _samples(header: Header, **arrays: Any) -> Samples:
         arrays["report"] = {"options": options}
     if "version" in header:
         arrays["_record"] = Record(
-            None, header.get("normals", "face"), "frames" in arrays.get("attributes", {})
+            None,
+            header.get("normals", "face"),
+            "frames" in arrays.get("attributes", {}) and header.get("frames", True),
+            header.get("frames_up"),
         )
     arrays["seed"] = int(header["seed"]) if "seed" in header else None
     arrays["_frame"] = JobFrame(header["job_frame"]) if "job_frame" in header else None

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import copy
 import dataclasses
+import json
 import os
+import reprlib
 from ctypes import byref
 from typing import TYPE_CHECKING
 
@@ -17,7 +20,7 @@ from ._background import interruptible
 from ._polygons import from_rows
 from ._source import split
 from ._surface import Surface
-from ._values import choice, flag, path_of
+from ._values import choice, path_of, text
 
 if TYPE_CHECKING:
     from ._mesh import Mesh
@@ -35,17 +38,42 @@ class Record:
     texture : str or None
         Path of an image, or "auto" for the materials of the mesh.
     normals : {"face", "file", "smooth"}
-    frames : bool
+    frames : str or None
+        Style of frames, as files spell it; None for no frames.
+    up : {"x", "y", "z"} or None
+        Axis that frames keep to, where they do; None for that of the mesh.
     """
 
     def __init__(
-        self, texture: str | os.PathLike[str] | None, normals: str, frames: bool
+        self,
+        texture: str | os.PathLike[str] | None,
+        normals: str,
+        frames: bool | str,
+        up: str | None = None,
     ) -> None:
         self.texture = None if texture is None else path_of(texture, "texture")
         if self.texture == _AUTO and not isinstance(texture, str):
             self.texture = os.path.join(os.curdir, _AUTO)  # A path means a file of that name.
         self.normals = choice(normals, "normals", s.NORMALS)
-        self.frames = flag(frames, "frames")
+        self.frames, has_up = _style_of(frames)
+        self.up = None if up is None else choice(up, "up", "xyz")
+        if up is not None and not has_up:
+            raise e.invalid("up is for frames that are 'upright', or a part of the way to the normal")
+        self._has_up = has_up
+
+    def on(self, surface: Surface) -> Record:
+        """Returns the same with the axis that frames on a mesh keep to."""
+        if not self._has_up or self.up is not None:
+            return self
+        found = copy.copy(self)
+        found.up = "y" if surface.is_y_up else "z"
+        return found
+
+    def with_texture(self, texture: str) -> Record:
+        """Returns the same with another texture."""
+        found = copy.copy(self)
+        found.texture = texture
+        return found
 
     def check_no_file(self) -> None:
         """Raises TypeError for what only the reader of a file finds."""
@@ -66,7 +94,18 @@ class Record:
         return self.texture == _AUTO
 
     def is_nothing(self) -> bool:
-        return self.texture is None and self.normals == "face" and not self.frames
+        return self.texture is None and self.normals == "face" and self.frames is None
+
+
+def _style_of(frames: bool | str) -> tuple[str | None, bool]:
+    """Returns the style of frames, and whether they keep to an axis of the mesh."""
+    if isinstance(frames, (bool, np.bool_)):
+        return ("yes" if frames else None), False
+    if not isinstance(frames, str):
+        raise TypeError(f"frames is {reprlib.repr(frames)}, neither True, False nor a text")
+    (style,) = c.run("frame_style", text=text(frames, "frames"))
+    read = json.loads(style)
+    return read["text"], read["has_up"]
 
 
 NOTHING = Record(None, "face", False)
@@ -77,6 +116,7 @@ def recorded(samples: Samples, mesh: Mesh, record: Record) -> Samples:
     if record.is_nothing():
         return dataclasses.replace(samples, _record=record)
     assert samples.face_index is not None and samples.barycentric is not None
+    record = record.on(mesh._surface)
     normals = np.array(samples.normals, np.float64, order="C")
     added = _record(
         mesh, record, samples.face_index, samples.barycentric, normals, samples.seed or 0
@@ -101,7 +141,7 @@ def coloured(samples: Samples, mesh: Mesh, texture: str | None) -> Samples:
     return dataclasses.replace(
         samples,
         attributes={**samples.attributes, **added},
-        _record=Record(texture, had.normals, had.frames),
+        _record=had.with_texture(texture),
     )
 
 
@@ -137,7 +177,9 @@ def _record(
         added["color"] = np.empty((count, 3))
         params.texture = os.fsencode(record.texture)
         params.colours = added["color"].ctypes.data
-    if record.frames:
+    if record.frames is not None:
+        params.frame_style = record.frames.encode()
+        params.up = (record.up or "").encode()
         added["frames"] = np.empty((count, 4))
         params.frames = added["frames"].ctypes.data
     source = mesh._source or _source_of(mesh._surface)

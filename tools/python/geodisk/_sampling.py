@@ -62,7 +62,8 @@ def sample(
     attributes: str | Sequence[str] = (),
     texture: str | os.PathLike[str] | None = None,
     normals: str = "face",
-    frames: bool = False,
+    frames: bool | str = False,
+    up: str | None = None,
     mesh_format: str | None = None,
     allow_outside: bool = False,
     device: DeviceLike | None = None,
@@ -153,9 +154,14 @@ def sample(
         file and their images. Colours are from 0 to 1, as sRGB encodes them.
     normals : {"face", "file", "smooth"}
         Normals of triangles, those of the mesh file, or interpolated means at vertices.
-    frames : bool
+    frames : bool or str
         Add ``attributes["frames"]``, shape (n, 4): quaternions (x, y, z, w) that turn z to the
-        normal, after a random angle about z.
+        normal, after a random angle about z. "y" turns y, for models whose y points up. "upright"
+        keeps models upright, and "0.3" turns them 0.3 of the way from there to the normal. "y,0.3"
+        is both.
+    up : {"x", "y", "z"}, optional
+        Axis of the mesh that points up, for frames that are upright or turned a part of the way. By
+        default y for a file of glTF, else z.
     device : Device, int or str, optional
         One of :func:`devices`, its index, its UUID or a part of its name. The default is the
         environment variable GEODISK_DEVICE, else the best device.
@@ -203,7 +209,7 @@ def sample(
     """
     if isinstance(faces, numbers.Real):
         raise TypeError(f"faces is {faces!r}; for about so many samples give count={faces!r}")
-    record = Record(texture, normals, frames)
+    record = Record(texture, normals, frames, up)
 
     def read_mesh() -> Mesh:
         return mesh_of(

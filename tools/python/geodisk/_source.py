@@ -5,7 +5,7 @@ from __future__ import annotations
 import ctypes
 import os
 from dataclasses import dataclass
-from typing import Any, Sequence
+from typing import Any, NamedTuple, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -38,6 +38,8 @@ class Source:
     columns : dict of ndarray of uint32, shape (f,)
     corners : ndarray of uint32, shape (f, 3)
         The triangles before vertices were joined.
+    is_y_up : bool
+        True for a file of a format in which y points up.
     """
 
     vertices: NDArray[np.float64]
@@ -49,6 +51,23 @@ class Source:
     joined_edges: int
     columns: dict[str, NDArray[np.uint32]]
     corners: NDArray[np.uint32]
+    is_y_up: bool
+
+
+class MeshFile(NamedTuple):
+    """A mesh file and how it is read."""
+
+    path: str
+    weld: bool | float = False
+    keep_seams: bool = False
+    mesh_format: str | None = None
+    allow_outside: bool = False
+
+
+def absolute(path: str | os.PathLike[str]) -> str:
+    """Returns the path of a mesh file that other working folders do not change."""
+    name = path_of(path)
+    return name if name.startswith(_BUILTIN) else os.path.abspath(name)
 
 
 def read_file(
@@ -154,6 +173,7 @@ def _read(
         joined_edges=arrays.joined_edges,
         columns=named,
         corners=view_of(arrays.corners, (arrays.triangle_count, 3), handle),
+        is_y_up=bool(arrays.is_y_up),
     )
 
 

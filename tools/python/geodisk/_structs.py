@@ -386,6 +386,8 @@ class RecordParams(_Sized):
         ("normals", c_void_p),
         ("colours", c_void_p),
         ("frames", c_void_p),
+        ("frame_style", c_char_p),
+        ("up", c_char_p),
     ]
 
 
@@ -403,6 +405,7 @@ class SourceArrays(_Sized):
         ("joined_edges", c_uint64),
         ("corners", POINTER(c_uint32)),
         ("attribute_count", c_size_t),
+        ("is_y_up", c_int32),
     ]
 
 
@@ -435,6 +438,9 @@ class Task(_Sized):
         ("source", c_void_p),
         ("nearest", c_void_p),
         ("stop", POINTER(c_int32)),
+        ("map_samples", c_void_p),
+        ("map_distances", c_void_p),
+        ("map_faces", c_void_p),
     ]
 
 

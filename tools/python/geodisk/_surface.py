@@ -43,6 +43,8 @@ class Surface:
         The lowest vertex that each one was joined with as the mesh was read.
     corners : ndarray of uint32, shape (f, 3), optional
         The faces before vertices were joined as the mesh was read.
+    is_y_up : bool
+        True for a file of a format in which y points up.
     """
 
     vertices: Any
@@ -55,6 +57,7 @@ class Surface:
     joined: NDArray[np.uint32] | None = None
     columns: dict[str, NDArray[np.uint32]] = field(default_factory=dict)
     corners: NDArray[np.uint32] | None = None
+    is_y_up: bool = False
 
     def indices(self) -> NDArray[Any]:
         """Returns the faces as uint32 or uint16."""

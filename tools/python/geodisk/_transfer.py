@@ -30,7 +30,8 @@ def transfer(
     attributes: str | Sequence[str] = (),
     texture: str | os.PathLike[str] | None = None,
     normals: str | None = None,
-    frames: bool | None = None,
+    frames: bool | str | None = None,
+    up: str | None = None,
     edge_lengths: ArrayLike | None = None,
     weld: bool | float = False,
     keep_seams: bool = False,
@@ -54,9 +55,9 @@ def transfer(
     normals : {"face", "file", "smooth"}, optional
         Normals of triangles, those of the file `to`, or interpolated means at vertices. By default
         as the samples have them.
-    frames : bool, optional
-        Add ``attributes["frames"]``, shape (n, 4): quaternions (x, y, z, w) that turn z to the
-        normal, after a random angle about z. By default if the samples have them.
+    frames : bool or str, optional
+    up : {"x", "y", "z"}, optional
+        Add ``attributes["frames"]``, as for :func:`sample`. By default as the samples have them.
     vertices, faces, edge_lengths, weld, keep_seams
         Mesh of the samples, as for :func:`sample`. Needed for samples that were read from a file.
     allow_outside : bool
@@ -97,7 +98,7 @@ def transfer(
     source = surface_of(samples, vertices, faces, edge_lengths, weld, keep_seams)
     if source is None:
         raise e.invalid("samples in a box have no mesh")
-    wanted = Wanted(texture, normals, frames, attributes, has_colours=True)
+    wanted = Wanted(texture, normals, frames, up, attributes, has_colours=True)
     own_faces, own_weld, own_seams = source.faces, source.weld, source.keep_seams
 
     def make(record: Record, read: Sequence[str]) -> Mesh:

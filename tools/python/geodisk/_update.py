@@ -50,7 +50,8 @@ def update(
     attributes: str | Sequence[str] | None = None,
     texture: str | os.PathLike[str] | None = None,
     normals: str | None = None,
-    frames: bool | None = None,
+    frames: bool | str | None = None,
+    up: str | None = None,
     vertices: ArrayLike | MeshLike | None = None,
     faces: Faces | None = None,
     weld: bool | float = False,
@@ -83,7 +84,7 @@ def update(
     before : mapping, optional
         The same parameters on the mesh before, by name. Needed for samples that were read from a file,
         if they were made with any. `pool_ratio` may be there too; files tell it.
-    attributes, texture, normals, frames
+    attributes, texture, normals, frames, up
         As for :func:`sample`. By default what the samples have. Where only positions change,
         attributes and colours are those of the mesh before.
     vertices, faces, weld, keep_seams
@@ -127,7 +128,7 @@ def update(
     >>> int(masked.face_index.max())
     2
     """
-    wanted = Wanted(texture, normals, frames, attributes)
+    wanted = Wanted(texture, normals, frames, up, attributes)
     wanted.given()  # Raises for what is wrong.
     before_edit = _mesh_before(
         samples, vertices, faces, weld, keep_seams, allow_outside, wanted

@@ -5,8 +5,6 @@ from __future__ import annotations
 import dataclasses
 import json
 import math
-import os
-import tempfile
 from typing import TYPE_CHECKING, Any, BinaryIO
 
 import numpy as np
@@ -15,6 +13,7 @@ from numpy.typing import NDArray
 from . import _errors as e
 from . import _library as c
 from ._attributes import columns_of_attributes, is_colour, with_bytes
+from ._files import bytes_of
 from ._job import TOLD
 
 if TYPE_CHECKING:
@@ -70,6 +69,10 @@ def header_of(samples: Samples) -> Header:
         header["job_frame"] = samples._frame.digits
     if samples._record is not None and samples._record.normals != "face":
         header["normals"] = samples._record.normals
+    if samples._record is not None and samples._record.frames is not None:
+        header["frames"] = samples._record.frames
+        if samples._record.up is not None:
+            header["frames_up"] = samples._record.up
     if samples.level_distances is not None:
         header["order"] = "progressive"
         header["level_distances"] = " ".join(map(repr, samples.level_distances))
@@ -185,17 +188,13 @@ def bytes_as(suffix: str, samples: Samples) -> bytes:
         )
         columns.update(own)
     table = np.stack(list(columns.values()), axis=1).astype(np.float64, order="C")
-    with tempfile.TemporaryDirectory() as folder:
-        path = os.path.join(folder, "samples" + suffix)
-        try:
-            c.run(
-                "save", {"samples": table}, columns=list(columns), count=len(samples), path=path,
-                fields=fields, header=header_of(samples),
-            )
-        except e.InvalidArgument as error:
-            raise e.invalid(str(error).replace(path + ": ", "")) from None
-        with open(path, "rb") as file:
-            return file.read()
+    return bytes_of(
+        suffix,
+        lambda path: c.run(
+            "save", {"samples": table}, columns=list(columns), count=len(samples), path=path,
+            fields=fields, header=header_of(samples),
+        ),
+    )
 
 
 def is_whole(column: NDArray[Any]) -> bool:

@@ -17,6 +17,7 @@
 #include "c/c_cells.hpp"
 #include "c/c_mesh.hpp"
 #include "files/output/output_file.hpp"
+#include "files/samples/frame_style.hpp"
 #include "files/samples/sample_file.hpp"
 #include "files/samples/sample_format.hpp"
 #include "files/samples/sample_rows.hpp"
@@ -28,6 +29,7 @@
 #include "geodisk/inputs/mesh_input.hpp"
 #include "geodisk/map_run.hpp"
 #include "geodisk/options/tolerance_option.hpp"
+#include "geodisk/outputs/map_output.hpp"
 #include "geodisk/outputs/progress.hpp"
 #include "geodisk/picture_run.hpp"
 #include "geodisk/reports/json.hpp"
@@ -190,13 +192,29 @@ void transfer(RunningTask& run) {
 }
 
 void bake(RunningTask& run) {
-    const TextureSize size{run.options.at("width"), run.options.at("height")};
+    const MapSize size{{run.options.at("width"), run.options.at("height")},
+                       run.options.at("padding")};
     const MapResult found = look_up_map(run.task.source->mesh, size, run.options.at("path"),
                                         run.task.nearest->disks, run.progress);
     run.hand_over(found.map.samples);
     run.hand_over(found.map.distances);
     run.hand_over(found.map.faces);
     run.hand_over(std::array{found.overlapping});
+}
+
+/// Writes a map that `bake` handed over, as arrays or a picture of distances.
+void save_map(RunningTask& run) {
+    const geodisk_task& task = run.task;
+    const Path path = run.options.at("path").get<std::string>();
+    const MapTarget target = parse_map_target(path, "distance", run.options.at("depth"));
+    SampleMap map{run.options.at("width"), run.options.at("height"), {}, {}, {}};
+    const std::size_t texels = std::size_t{map.width} * map.height;
+    map.samples.assign(task.map_samples, task.map_samples + texels);
+    map.distances.assign(task.map_distances, task.map_distances + texels);
+    map.faces.assign(task.map_faces, task.map_faces + texels);
+    AtomicFile file(path);
+    write_map(file, target, map, 0, {});
+    file.commit();
 }
 
 /// Opens a device that draws. Python warns of missing drivers.
@@ -256,8 +274,11 @@ std::vector<SampleField> fields_of(const geodisk_task& task, const Json& options
 }
 
 void save(RunningTask& run) {
-    const SampleTarget target = sample_target(Path(run.options.at("path").get<std::string>()));
+    SampleTarget target = sample_target(Path(run.options.at("path").get<std::string>()));
     SampleFile samples = sample_file(run.task, run.options);
+    if (const std::string* const up = samples.header.find("frames_up")) {
+        target.up = find_up(*up).value_or(target.up);
+    }
     check_dimension(target, samples.dimension);
     const std::vector<SampleField> fields = fields_of(run.task, run.options);
     std::vector<std::string> names;
@@ -275,14 +296,21 @@ void save(RunningTask& run) {
     file.commit();
 }
 
+void read_frame_style(RunningTask& run) {
+    const FrameStyle style = parse_frame_style("frames", run.options.at("text").get<std::string>());
+    run.hand_over(text_of(Json{{"text", text_of(style)}, {"has_up", style.has_world()}}));
+}
+
 void run_named(std::string_view name, RunningTask& run) {
     constexpr std::pair<std::string_view, void (*)(RunningTask&)> kCommands[] = {
         {"verify", &verify},
         {"place", [](RunningTask& one) { static_cast<void>(place(one)); }},
         {"transfer", &transfer},
         {"bake", &bake},
+        {"save_map", &save_map},
         {"render", &render},
         {"save", &save},
+        {"frame_style", &read_frame_style},
         {"warnings_of_mesh", [](RunningTask& one) { one.hand_over(warnings_of_mesh(one.task)); }},
         {"warnings_of_set",
          [](RunningTask& one) { one.hand_over(warnings_of_set(one.task, one.options)); }},

@@ -59,6 +59,7 @@ typedef struct geodisk_source_arrays {
     uint64_t joined_edges;     /* Border edges joined to others along seams. */
     const uint32_t *corners;   /* Vertices of triangles before any were joined, as `triangles`. */
     size_t attribute_count;
+    int32_t is_y_up;           /* Not 0 for a file of a format in which y points up. */
 } geodisk_source_arrays;
 
 GEODISK_C_API geodisk_status geodisk_source_describe(const geodisk_source *source,
@@ -104,6 +105,8 @@ typedef struct geodisk_record_params {
     double *normals;       /* In: those of the triangles, three for each sample. Out: those asked for. */
     double *colours;       /* Out: red, green and blue of the texture. */
     double *frames;        /* Out: quaternions x y z w, or NULL. */
+    const char *frame_style; /* As headers of files spell it. */
+    const char *up;        /* Axis of the mesh to keep frames to: "x", "y", "z", or "" for none. */
 } geodisk_record_params;
 
 /* Fails with GEODISK_INVALID_ARGUMENT for a damaged image, and for normals, texture coordinates or
@@ -132,6 +135,9 @@ typedef struct geodisk_task {
     const geodisk_nearest *nearest;
     /* Work ends with GEODISK_CANCELLED soon after this is no longer 0. May be NULL. */
     const volatile int32_t *stop;
+    const int32_t *map_samples; /* What `bake` handed over, for each texel. */
+    const float *map_distances;
+    const uint32_t *map_faces;
 } geodisk_task;
 
 /* Takes an array that a command made. */
@@ -144,7 +150,10 @@ typedef void (*geodisk_take_fn)(const void *bytes, size_t size);
  *             float on the mesh `to`, and the smallest distance there as double, NaN without one
  *   bake      the nearest sample of each texel of `source` as int32_t, its distance as float, the
  *             face as int32_t, and how many texels several faces cover as uint64_t
+ *   save_map  nothing; writes a map of `bake` to a file
  *   render    a PNG file
+ *   frame_style  the style of frames that the option `text` names, as JSON: `text` as headers of
+ *             files spell it, and `has_up`, true if they keep to an axis of the mesh
  *   warnings_of_mesh     what the program prints about `mesh`, made of `source` or else of arrays of
  *                        the caller, as a JSON list: open seams first
  *   warnings_of_set      the same about samples on `mesh` or in a box

@@ -6,6 +6,7 @@
 #include "c/c_call.hpp"
 #include "files/images/textures.hpp"
 #include "files/meshes/mesh_fields.hpp"
+#include "files/samples/frame_style.hpp"
 #include "files/samples/sample_fields.hpp"
 #include "files/samples/sample_records.hpp"
 #include "program/failure.hpp"
@@ -69,7 +70,9 @@ void record(const MeshFile& mesh, const geodisk_record_params& params) {
         std::ranges::copy(texture_colours(mesh, textures, rows).values, params.colours);
     }
     if (params.frames != nullptr) {
-        std::ranges::copy(sample_frames(rows, params.seed).values, params.frames);
+        FrameStyle style = parse_frame_style("frames", params.frame_style);
+        style.world = find_up(params.up).value_or(style.world);
+        std::ranges::copy(sample_frames(rows, params.seed, style).values, params.frames);
     }
 }
 

@@ -82,6 +82,8 @@ std::unique_ptr<geodisk_source> source_of(const geodisk_source_params& params) {
     const std::vector<std::string> names = parse_part_columns(text_of(params.columns));
     auto source = std::make_unique<geodisk_source>();
     source->mesh = mesh_of(params);
+    source->is_y_up =
+        params.path != nullptr && has_y_up(Path(params.path), text_of(params.mesh_format));
     check_parts(text_of(params.path), source->mesh, names);
     for (const std::string& name : names) {
         source->columns.push_back(part_column_of_triangles(source->mesh, name));
@@ -141,6 +143,7 @@ geodisk_status geodisk_source_describe(const geodisk_source* source, geodisk_sou
         value.joined_edges = mesh.weld ? mesh.weld->joined_edges : 0;
         value.corners = mesh.corners_in_file().data();
         value.attribute_count = mesh.fields.size();
+        value.is_y_up = source->is_y_up ? 1 : 0;
         return give(arrays, "arrays", value);
     });
 }

@@ -10,4 +10,5 @@
 struct geodisk_source {
     geodisk::tools::MeshFile mesh;
     std::vector<std::vector<std::uint32_t>> columns; ///< A value for each triangle.
+    bool is_y_up = false;                            ///< Read from a format in which y points up.
 };
