@@ -136,9 +136,8 @@ TEST_CASE("samples lie where a property holds") {
     fails({"--mask", "p<3"}, 3, "m.ply: has no face that --mask allows, so no samples fit");
     fails({"--mask", "q>7", "--only", "part:0", "--mask", "q<9"}, 3,
           "has no face that --only and --mask allow");
-    fails({"--mask", "r>7"}, 3,
-          "m.ply: has no scalar property 'r' of faces or vertices; it has q, ");
-    fails({"--mask", "twice>0"}, 3, "both faces and vertices have a property 'twice'");
+    fails({"--mask", "r>7"}, 3, "m.ply: has no attribute 'r'; it has p, twice, q and face_twice");
+    fails({"--mask", "face_twice>0"}, 3, "so no samples fit: 'face_twice' is from 0 to 0");
     fails({"--mask", "q"}, 2, "--mask: 'q' is not PROPERTY<VALUE");
     fails({"--mask", "q>x"}, 2, "--mask: 'q>x' is not PROPERTY<VALUE");
     fails({"--mask", "q>nan"}, 2, "--mask: 'q>nan' is not PROPERTY<VALUE");
@@ -154,7 +153,7 @@ TEST_CASE("samples lie where a property holds") {
                 "m.obj: no face is of material:red wod, as --only requests; the materials are "
                 "'red wood' and 'steel'; did you mean red wood?",
                 {"sample", "m.obj", "-o", "a.ply", "-d", "0.1", "--only", "material:red wod"});
-    check_fails(folder, 3, "has no properties of faces or vertices, so no 'q'",
+    check_fails(folder, 3, "m.obj: has no attribute 'q'; it has uv",
                 {"sample", "m.obj", "-o", "a.ply", "-d", "0.1", "--mask", "q>0"});
     check_fails(folder, 3, "does not have the group of a face, as --columns requests; use an OBJ",
                 {"sample", "m.ply", "-o", "a.ply", "-d", "0.1", "--columns", "group"});

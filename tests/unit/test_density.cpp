@@ -5,6 +5,7 @@
 #include "files/meshes/sidecar_files.hpp"
 #include "files/samples/sample_file.hpp"
 #include "geometry/mean_curvature.hpp"
+#include "geometry/vertex_uvs.hpp"
 #include "jpeg_bytes.hpp"
 #include "png_bytes.hpp"
 #include "shapes/builtin_shapes.hpp"
@@ -26,7 +27,7 @@ MeshFile mesh_with_uvs(std::string_view name, std::string_view bytes) {
     const TemporaryFolder folder;
     MeshSources sources;
     sources.mesh = folder.write(name, bytes).string();
-    sources.has_uvs = true;
+    sources.fields.uvs = true;
     return read_mesh(sources);
 }
 
@@ -122,7 +123,7 @@ TEST_CASE("texture coordinates of OBJ files belong to corners") {
                                                  "f 1/1 2/2/1 3/3\nvt 2e-1 .5\nf 1/-1 3/3 4/1\n");
     const std::vector<VertexUv> want{
         {0, 0, 0}, {0, 0.2, 0.5}, {1, 0.5, 0.25}, {2, 1, -1}, {3, 0, 0}};
-    CHECK(mesh.uvs == want);
+    CHECK(vertex_uvs(mesh) == want);
     const std::string start = "v 0 0 0\nv 1 0 0\nv 1 1 0\nvt 0 0\n";
     uvs_fail("a.obj", start + "f 1/1 2 3/1\n", "line 5: vertex 2 has no texture coordinates");
     uvs_fail("a.obj", start + "f 1/1 2//1 3/1\n", "line 5: vertex 2 has no texture coordinates");
@@ -133,7 +134,7 @@ TEST_CASE("texture coordinates of OBJ files belong to corners") {
     uvs_fail("a.obj", start + "vt 1 nan\nf 1/1 2/1 3/1\n", "line 5: 'nan' is not a finite number");
     // Who does not ask is not bothered.
     const TemporaryFolder folder;
-    CHECK(read_mesh(folder.write("b.obj", start + "vt x\nf 1/1 2/9 3\n").string()).uvs.empty());
+    CHECK(!read_mesh(folder.write("b.obj", start + "vt x\nf 1/1 2/9 3\n").string()).texture_uvs);
 }
 
 TEST_CASE("texture coordinates of PLY files belong to vertices") {
@@ -145,17 +146,17 @@ TEST_CASE("texture coordinates of PLY files belong to vertices") {
         const MeshFile mesh = mesh_with_uvs(
             "a.ply", ply_with(properties, "0 0 0 0.5 1\n1 0 0 0 0\n0 1 0 0.25 0.75\n"));
         const std::vector<VertexUv> want{{0, 0.5, 1}, {1, 0, 0}, {2, 0.25, 0.75}};
-        CHECK(mesh.uvs == want);
+        CHECK(vertex_uvs(mesh) == want);
     }
     uvs_fail("a.ply", ply_with("property float s\n", "0 0 0 1\n1 0 0 1\n0 1 0 1\n"),
-             "no texture coordinates: none of s t, u v and texture_u texture_v");
+             "has no texture coordinates");
     uvs_fail(
         "a.ply",
         ply_with("property float s\nproperty float t\n", "0 0 0 1 1\n1 0 0 inf 0\n0 1 0 1 1\n"),
-        "element face, record 0: vertex 1 has texture coordinates that are not finite");
+        "element face, record 0: 'uv' is not finite");
     MeshSources sources;
     sources.mesh = "builtin:cube";
-    sources.has_uvs = true;
+    sources.fields.uvs = true;
     check_fails(ExitCode::bad_input, "builtin:cube: has no texture coordinates",
                 [&] { read_mesh(sources); });
 }

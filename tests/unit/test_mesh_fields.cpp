@@ -220,7 +220,7 @@ TEST_CASE("texture colours are those at the texture coordinates") {
     CHECK(colours.name == "color");
     CHECK(colours.values == Values{1, 0, 0, 0, 0, 1, 0.5, 0, 0.5});
     sources.mesh = folder.write("b.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").string();
-    check_fails(ExitCode::bad_input, "has no texture coordinates, which a texture needs",
+    check_fails(ExitCode::bad_input, "has no texture coordinates, which an image needs",
                 [&] { read_mesh(sources); });
 }
 

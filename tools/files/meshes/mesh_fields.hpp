@@ -1,4 +1,4 @@
-// The attributes of mesh files that are read to be interpolated at samples.
+// The attributes of mesh files that are read, to be interpolated at samples or as numbers.
 #pragma once
 
 #include <string>
@@ -19,9 +19,10 @@ inline constexpr std::string_view kAutoTexture = "auto";
 /// The attributes of a mesh file to read.
 struct WantedFields {
     std::vector<std::string> names;
-    bool all = false;       ///< All that the file has.
-    bool normals = false;   ///< The normals of the file too, which are no attribute.
-    bool uvs = false;       ///< Texture coordinates too, to look up a texture.
+    bool all = false;                 ///< All that the file has.
+    std::vector<std::string> numbers; ///< Names of MeshFile::numbers.
+    bool normals = false;             ///< The normals of the file too, which are no attribute.
+    bool uvs = false;                 ///< Texture coordinates too, to look up a texture.
     bool materials = false; ///< Colours of materials too, with their images and coordinates.
 
     /// Returns true for what is to be read.
@@ -31,7 +32,7 @@ struct WantedFields {
     /// Returns which of `names` means it, or their number for none.
     std::size_t place_of(std::string_view name) const;
     /// Returns true if any attribute is to be read; normals are none.
-    bool are_given() const { return all || uvs || materials || !names.empty(); }
+    bool are_given() const { return all || uvs || materials || !names.empty() || !numbers.empty(); }
 };
 
 /// Reads "all", or names with commas between; nothing for "". Throws UserError(usage) for an empty
@@ -50,8 +51,9 @@ void scale_colours(MeshField& colours);
 
 struct PolygonMesh;
 
-/// Moves the wanted attributes into `mesh`, which has its parts, and whose faces are split already
-/// but not joined.
+/// Moves the wanted attributes and numbers into `mesh`, which has its parts, and whose faces are
+/// split already but not joined. The name of a number is that of an attribute or of one of its
+/// components, as "red"; "color" is the luminance.
 /// Throws UserError(bad_input) for those that the file lacks or has for some corners only, values
 /// that are not finite, and names of other columns. With WantedFields::all, attributes of some
 /// corners only are left out, with a warning.

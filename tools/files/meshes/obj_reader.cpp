@@ -138,12 +138,11 @@ class ObjParts {
 
 class ObjReader {
   public:
-    ObjReader(const Path& path, std::string_view bytes, bool has_uvs, const WantedFields& fields,
+    ObjReader(const Path& path, std::string_view bytes, const WantedFields& fields,
               const FileScope& scope, const ReadingProgress& progress)
         : path_(path), scope_(scope), lines_(bytes, progress),
-          has_uvs_(has_uvs || fields.materials || fields.has(kUvField)),
-          has_normals_(fields.normals), has_colours_(fields.has(kColourField)),
-          has_materials_(fields.materials) {
+          has_uvs_(fields.materials || fields.has(kUvField)), has_normals_(fields.normals),
+          has_colours_(fields.has(kColourField)), has_materials_(fields.materials) {
         mesh_.names.first_vertex = 1;
     }
 
@@ -400,15 +399,15 @@ class ObjReader {
 
 } // namespace
 
-PolygonMesh read_obj(const Path& path, bool has_uvs, const WantedFields& fields,
-                     const FileScope& scope, const ReadingProgress& progress) {
+PolygonMesh read_obj(const Path& path, const WantedFields& fields, const FileScope& scope,
+                     const ReadingProgress& progress) {
     std::string bytes = read_text(path);
     const std::size_t nuls = drop_final_nuls(bytes);
     if (bytes.empty()) {
         fail_input(path, "is empty");
     }
     refuse_other_mesh(path, bytes, ".obj");
-    PolygonMesh mesh = ObjReader(path, bytes, has_uvs, fields, scope, progress).read();
+    PolygonMesh mesh = ObjReader(path, bytes, fields, scope, progress).read();
     warn_of_final_nuls(mesh, nuls);
     return mesh;
 }

@@ -114,6 +114,19 @@ void PlyFieldReader::find() {
             list(std::move(field), {i});
         }
     }
+    find_own();
+}
+
+/// Finds numbers by the names of columns that attributes have others for.
+void PlyFieldReader::find_own() {
+    for (const std::string& name : wanted_.numbers) {
+        const std::optional<std::size_t> column = element_.find_scalar(name);
+        if (column && !is_known(name)) {
+            columns_.push_back({&PolygonMesh::own_columns, mesh_.own_columns.size(), {*column}});
+            mesh_.own_columns.push_back(
+                make_field(name, of_faces_ ? MeshField::Of::faces : MeshField::Of::vertices));
+        }
+    }
 }
 
 void PlyFieldReader::find_uvs(std::vector<bool>& used) {
@@ -133,16 +146,21 @@ void PlyFieldReader::find_uvs(std::vector<bool>& used) {
 }
 
 std::string PlyFieldReader::prefix_for(std::string_view name) const {
-    const bool is_known = std::ranges::any_of(mesh_.fields, [&](const MeshField& field) {
+    return is_known(name) ? element_.name + '_' : "";
+}
+
+bool PlyFieldReader::is_known(std::string_view name) const {
+    const auto has_name = [&](const MeshField& field) {
         return field.name == name ||
                std::ranges::find(field.components, name) != field.components.end();
-    });
-    return is_known ? element_.name + '_' : "";
+    };
+    return std::ranges::any_of(mesh_.fields, has_name) ||
+           std::ranges::any_of(mesh_.own_columns, has_name);
 }
 
 void PlyFieldReader::list(MeshField field, const std::vector<std::size_t>& columns) {
     if (wanted_.has(field.name)) {
-        columns_.push_back({mesh_.fields.size(), columns});
+        columns_.push_back({&PolygonMesh::fields, mesh_.fields.size(), columns});
     }
     mesh_.fields.push_back(std::move(field));
 }
@@ -151,7 +169,7 @@ void PlyFieldReader::add(std::uint64_t index, const PlyRecord& record, std::size
     colours_.add(record);
     for (const Columns& columns : columns_) {
         for (const std::size_t column : columns.columns) {
-            mesh_.fields[columns.field].values.push_back(record.scalars[column]);
+            (mesh_.*columns.list)[columns.field].values.push_back(record.scalars[column]);
         }
     }
     if (mesh_.normals) {
@@ -182,7 +200,7 @@ void PlyFieldReader::add_corner_uvs(std::uint64_t index, const PlyRecord& record
 
 void PlyFieldReader::finish() {
     for (const Columns& columns : columns_) {
-        colours_.scale(columns.columns[0], mesh_.fields[columns.field].values);
+        colours_.scale(columns.columns[0], (mesh_.*columns.list)[columns.field].values);
     }
     if (corner_uvs_) {
         mesh_.uvs = std::move(uvs_);

@@ -15,24 +15,11 @@
 namespace geodisk::tools {
 namespace {
 
-/// Returns the index of the value that a corner of a triangle has.
-std::size_t value_index(const MeshFile& mesh, const MeshField& field, std::size_t corner) {
-    switch (field.of) {
-    case MeshField::Of::vertices:
-        return mesh.corners_in_file()[corner];
-    case MeshField::Of::corners:
-        return field.corners[corner];
-    case MeshField::Of::faces:
-        break;
-    }
-    return mesh.polygons.empty() ? corner / 3 : mesh.polygons[corner / 3];
-}
-
 /// Writes the components at a sample to `out`.
 void interpolate(const MeshFile& mesh, const MeshField& field, const SampleRow& row, double* out) {
     const std::size_t size = field.components.size(), first = std::size_t{3} * row.face;
     const auto values_at = [&](std::size_t k) {
-        return &field.values[value_index(mesh, field, first + k) * size];
+        return &field.values[mesh.value_index(field, first + k) * size];
     };
     if (field.is_whole || field.of == MeshField::Of::faces) {
         const auto nearest = std::max_element(row.bary, row.bary + 3) - row.bary;
@@ -109,7 +96,7 @@ Vec3 file_normal(const MeshFile& mesh, const SampleRow& row) {
     for (std::size_t k = 0; k < 3; ++k) {
         const double* const n =
             &mesh.normals
-                 ->values[3 * value_index(mesh, *mesh.normals, std::size_t{3} * row.face + k)];
+                 ->values[3 * mesh.value_index(*mesh.normals, std::size_t{3} * row.face + k)];
         normal += double{row.bary[k]} * Vec3{n[0], n[1], n[2]};
     }
     return normal;
