@@ -119,6 +119,24 @@ TEST_CASE("samples lie on nodes and materials of glTF") {
     fails("group:a", "m.gltf: has no groups for --only group:a; OBJ files may (g, o)");
 }
 
+TEST_CASE("names are the same in every composition and encoding") {
+    const TemporaryFolder folder;
+    const std::string start = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nusemtl a\nf 1 2 3\ng ";
+    for (const char* const name :
+         {"Gro\xcc\x88\xc3\x9f\x65", "Gr\xc3\xb6\xc3\x9f\x65", "Gr\xf6\xdf\x65"}) {
+        CAPTURE(name);
+        folder.write("n.obj", start + name + "\nusemtl " + name + "\nf 1 3 4\n");
+        for (const char* const kind : {"material:", "group:"}) {
+            check_faces(folder, "n.obj", {"--only", kind + std::string("Gr\xc3\xb6\xc3\x9f\x65")},
+                        {1});
+            check_faces(folder, "n.obj", {"--only", kind + std::string("Gro\xcc\x88\xc3\x9f\x65")},
+                        {1});
+        }
+    }
+    check_fails(folder, 3, "the materials are 'a' and 'Gr\xc3\xb6\xc3\x9f\x65'",
+                {"sample", "n.obj", "-o", "a.ply", "-d", "0.1", "--only", "material:Groesse"});
+}
+
 TEST_CASE("samples lie where a property holds") {
     const TemporaryFolder folder;
     folder.write("m.ply", kPly);

@@ -220,7 +220,7 @@ def test_colours_of_materials(roof, tmp_path):
     with pytest.raises(geodisk.MeshRejected, match="has no materials"):
         geodisk.sample("builtin:cube", min_distance=0.2, texture="auto")
     (tmp_path / "ramp.png").write_bytes(b"text")
-    with pytest.raises(geodisk.InvalidArgument, match="material 'paint'.*neither a PNG nor a JPEG"):
+    with pytest.raises(geodisk.InvalidArgument, match="material 'paint'.*is no PNG, JPEG or WebP"):
         geodisk.sample(roof, min_distance=0.2, texture="auto")
     (tmp_path / "ramp.png").unlink()
     with pytest.raises(geodisk.MeshRejected, match="material 'paint'.*ramp.png is not there"):
@@ -383,8 +383,9 @@ def test_records_that_cannot_be(obj, roof, tmp_path):
             call(frames="no")
     with pytest.raises(geodisk.MeshRejected, match="no normals"):
         geodisk.sample(obj, min_distance=0.2, normals="file")
-    with pytest.raises(geodisk.InvalidArgument, match="color"):
-        geodisk.sample(obj, min_distance=0.2, texture=tmp_path / "ramp.png", attributes="all")
+    both = geodisk.sample(obj, min_distance=0.2, texture=tmp_path / "ramp.png", attributes="all")
+    assert list(both.attributes) == ["vertex_color", "uv", "color"]
+    assert list(geodisk.transfer(both, obj).attributes) == list(both.attributes)
     mesh = geodisk.Mesh(roof)
     for record in ({"texture": tmp_path / "ramp.png"}, {"normals": "file"}):
         with pytest.raises(TypeError, match="path of the mesh"):

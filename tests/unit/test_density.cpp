@@ -12,6 +12,7 @@
 #include "test_files.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 using namespace geodisk::tools;
@@ -89,9 +90,9 @@ TEST_CASE("what is no image is refused") {
         check_fails(ExitCode::bad_input, part, [&] { const GreyImage image(path); });
     };
     fails(folder / "none.png", "no such file");
-    fails(folder.write("empty.png", ""), "is neither a PNG nor a JPEG image");
-    fails(folder.write("text.png", "v 0 0 0\n"), "is neither a PNG nor a JPEG image");
-    fails(folder.write("a.pgm", "P5 1 1 255 a"), "is neither a PNG nor a JPEG image");
+    fails(folder.write("empty.png", ""), "is no PNG, JPEG or WebP image");
+    fails(folder.write("text.png", "v 0 0 0\n"), "is no PNG, JPEG or WebP image");
+    fails(folder.write("a.pgm", "P5 1 1 255 a"), "is no PNG, JPEG or WebP image");
     for (std::size_t size = 4; size < kImage.size(); ++size) {
         fails(folder.write("cut.png", std::string_view(kImage).substr(0, size)),
               "cannot be read as a PNG image: ");
@@ -114,6 +115,35 @@ TEST_CASE("JPEG images are read") {
     const GreyImage image(folder.write("a.jpg", kJpeg));
     CHECK(image.at(0.25, 0.5) == doctest::Approx(0.25).epsilon(0.05));
     CHECK(image.at(0.75, 0.5) == doctest::Approx(0.75).epsilon(0.05));
+}
+
+TEST_CASE("JPEG images of inks and WebP images have the colours of others") {
+    const TemporaryFolder folder;
+    const std::string webp("RIFF\x36\0\0\0WEBPVP8L\x2a\0\0\0\x2f\x07\xc0\x01\0\x1f\x20\x10\x48"
+                           "\xda\x1f\x7a\x8d\xf9\x17\x10\x14\xf9\x3f\xda\xfc\x07\x5f\x24\x40\x41"
+                           "\xdb\x36\x4c\x49\x96\x64\x49\xbe\x0d\x44\x44\xff\xc3\xfc\xd0\x07",
+                           62);
+    for (const std::filesystem::path& path :
+         {folder.write("a.jpg", cmyk_jpeg_bytes()), folder.write("a.webp", webp)}) {
+        CAPTURE(path);
+        const ColourImage image(path);
+        const auto check = [&](double u, double v, const std::array<double, 3>& expected) {
+            for (std::size_t k = 0; k < 3; ++k) {
+                CHECK(image.at(u, v)[k] == doctest::Approx(expected[k]).epsilon(0.01).scale(1));
+            }
+        };
+        check(0.25, 0.75, {1, 0, 0});
+        check(0.75, 0.75, {0, 1, 0});
+        check(0.25, 0.25, {0, 0, 1});
+        check(0.75, 0.25, {1, 1, 0});
+        CHECK(GreyImage(path).at(0.75, 0.75) == doctest::Approx(150.0 / 256).epsilon(0.02));
+    }
+    const auto fails = [&](const std::string& bytes, std::string_view part) {
+        const std::filesystem::path path = folder.write("b.png", bytes);
+        check_fails(ExitCode::bad_input, part, [&] { GreyImage{path}; });
+    };
+    fails(webp.substr(0, 40), "cannot be read as a WebP image");
+    fails("DDS |", "is a DDS image, which is not read; convert it to PNG, JPEG or WebP");
 }
 
 TEST_CASE("texture coordinates of OBJ files belong to corners") {

@@ -87,7 +87,9 @@ struct MeshFile {
     /// Texture coordinates, where textures are looked up; with gaps if materials have them.
     std::optional<MeshField> texture_uvs;
     std::optional<MaterialColours> materials; ///< Colours of materials, if asked for.
-    std::optional<WeldCounts> weld;           ///< Set if vertices were joined.
+    /// Colours of vertices, where those of materials are asked for; with gaps.
+    std::optional<MeshField> vertex_colours;
+    std::optional<WeldCounts> weld; ///< Set if vertices were joined.
     /// Lowest vertex that each one is joined with. Empty where none are.
     std::vector<std::uint32_t> joined;
     /// Corners of triangles as the file has them, where vertices are joined. Else empty.
@@ -128,11 +130,13 @@ struct MeshFile {
         return is_known && materials->colours[*number] ? &*materials->colours[*number] : nullptr;
     }
     /// Returns true if all corners of a triangle have texture coordinates.
-    bool has_texture_uvs(std::size_t triangle) const {
-        return texture_uvs && (texture_uvs->of != MeshField::Of::corners ||
-                               std::none_of(&texture_uvs->corners[3 * triangle],
-                                            &texture_uvs->corners[3 * triangle] + 3,
-                                            [](std::uint32_t i) { return i == MeshField::kNone; }));
+    bool has_texture_uvs(std::size_t triangle) const { return has_values(texture_uvs, triangle); }
+    /// Returns true if all corners of a triangle have a value of the field.
+    bool has_values(const std::optional<MeshField>& field, std::size_t triangle) const {
+        return field &&
+               (field->of != MeshField::Of::corners ||
+                std::none_of(&field->corners[3 * triangle], &field->corners[3 * triangle] + 3,
+                             [](std::uint32_t i) { return i == MeshField::kNone; }));
     }
     /// Returns true if the triangle names three vertices.
     bool takes_part(std::size_t triangle) const {

@@ -33,8 +33,8 @@ double area_of(const MeshFile& mesh, std::size_t triangle) {
                             edge_length(mesh, triangle, 2)};
     std::ranges::sort(l);
     const auto [c, b, a] = l;
-    return 0.25 * std::sqrt(std::max(
-                      (a + (b + c)) * (c - (a - b)) * (c + (a - b)) * (a + (b - c)), 0.0));
+    return 0.25 *
+           std::sqrt(std::max((a + (b + c)) * (c - (a - b)) * (c + (a - b)) * (a + (b - c)), 0.0));
 }
 
 /// Means at vertices, of which values may count more or less.
@@ -92,8 +92,9 @@ std::vector<double> vertex_numbers(const MeshFile& mesh, const MeshField& number
     }
     const auto& corners = mesh.triangles;
     const std::size_t vertices =
-        mesh.positions.empty() ? corners.empty() ? 0 : std::size_t{1} + *std::ranges::max_element(corners)
-                               : mesh.positions.size() / mesh.dimension;
+        mesh.positions.empty()
+            ? corners.empty() ? 0 : std::size_t{1} + *std::ranges::max_element(corners)
+            : mesh.positions.size() / mesh.dimension;
     const bool of_faces = number.of == MeshField::Of::faces;
     return (of_faces ? means_of_faces : means_of_corners)(mesh, number, Means(vertices));
 }

@@ -11,6 +11,20 @@ std::array<double, 2> uv_of_corner(const MeshFile& mesh, std::size_t face, std::
     return {uvs.values[2 * value], uvs.is_from_top ? 1 - v : v};
 }
 
+std::array<double, 2> image_centre(const MeshFile& mesh, const MaterialColour& material,
+                                   std::size_t triangle) {
+    const MeshField& uvs = *mesh.texture_uvs;
+    double u = 0, v = 0;
+    for (std::size_t corner = 3 * triangle; corner < 3 * triangle + 3; ++corner) {
+        const double* const uv = &uvs.values[2 * mesh.value_index(uvs, corner)];
+        u += uv[0] / 3;
+        v += uv[1] / 3;
+    }
+    std::array<double, 2> centre = material.place(u, v);
+    centre[1] = uvs.is_from_top ? 1 - centre[1] : centre[1];
+    return centre;
+}
+
 void sort_uvs(std::vector<VertexUv>& uvs) {
     std::ranges::sort(uvs);
     uvs.erase(std::unique(uvs.begin(), uvs.end()), uvs.end());

@@ -22,6 +22,10 @@ struct VertexUv {
 /// Returns the MeshFile::texture_uvs of a corner of a face.
 std::array<double, 2> uv_of_corner(const MeshFile& mesh, std::size_t face, std::size_t k);
 
+/// Returns where the centre of a triangle is in the image of its material.
+std::array<double, 2> image_centre(const MeshFile& mesh, const MaterialColour& material,
+                                   std::size_t triangle);
+
 /// Sorts texture coordinates, and drops copies.
 void sort_uvs(std::vector<VertexUv>& uvs);
 

@@ -34,5 +34,6 @@ inline double grey_of(double red, double green, double blue) {
 /// UserError(bad_input) for what is damaged, cut short or has too many pixels.
 ImagePixels decode_png(const Path& path, const std::string& bytes, PixelKind kind);
 ImagePixels decode_jpeg(const Path& path, const std::string& bytes, PixelKind kind);
+ImagePixels decode_webp(const Path& path, const std::string& bytes, PixelKind kind);
 
 } // namespace geodisk::tools

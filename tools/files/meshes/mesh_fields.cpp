@@ -252,7 +252,12 @@ std::vector<std::string> component_names(std::string_view name) {
 }
 
 /// Returns true if `wanted` is `name`, or "red" for colours, "u" for texture coordinates and so on.
+/// Colours have "vertex_" before their name beside a texture.
 bool means(std::string_view wanted, std::string_view name) {
+    constexpr std::string_view kVertex = "vertex_";
+    if (name == kColourField && wanted.starts_with(kVertex)) {
+        wanted.remove_prefix(kVertex.size());
+    }
     if (wanted == name) {
         return true;
     }
@@ -383,11 +388,59 @@ void take_numbers(const Path& path, const WantedFields& wanted, const PolygonMes
     }
 }
 
+/// Names colours apart from those of a texture.
+void name_beside_texture(MeshField& colours) {
+    const std::string prefix = colours.of == Of::faces ? "face_" : "vertex_";
+    colours.name.insert(0, prefix);
+    for (std::string& component : colours.components) {
+        component.insert(0, prefix);
+    }
+}
+
+/// Moves an attribute into `mesh`. With WantedFields::all it is left out if that cannot be.
+void take_field(const Path& path, const WantedFields& wanted, MeshField& field,
+                const FieldTaker& taker, std::size_t vertices, MeshFile& mesh) {
+    try {
+        check_count(path, field, mesh, vertices);
+        taker.take(field);
+    } catch (const UserError& error) {
+        if (!wanted.all) {
+            throw;
+        }
+        warn_left_out(path, field.name, error, mesh.warnings);
+        return;
+    }
+    mesh.fields.push_back(std::move(field));
+}
+
+/// Puts colours of vertices where those of materials are asked for.
+void take_vertex_colours(const PolygonMesh& polygons, const FieldTaker& taker, MeshFile& mesh) {
+    const auto found = std::ranges::find(polygons.fields, kColourField, &MeshField::name);
+    if (found != polygons.fields.end() && found->is_colour && found->of != Of::faces) {
+        taker.take(mesh.vertex_colours.emplace(*found), {.gaps = true});
+    }
+}
+
 } // namespace
 
-bool WantedFields::has(std::string_view name) const {
-    return lists(name) || (uvs && name == kUvField) ||
+void warn_left_out(const Path& path, std::string_view name, const UserError& error,
+                   std::vector<MeshWarning>& warnings) {
+    const std::string prefix = path.string() + ": ";
+    std::string text = error.what();
+    text.erase(0, text.starts_with(prefix) ? prefix.size() : 0);
+    warnings.push_back(
+        {"attribute_left_out", 1, "", text + ", so " + in_quotes(name) + " is left out", {}});
+}
+
+bool WantedFields::needs(std::string_view name) const {
+    const bool is_of_texture =
+        (uvs && name == kUvField) || (materials && (name == kUvField || name == kColourField));
+    return is_of_texture || place_of(name) < names.size() ||
            std::ranges::any_of(numbers, [&](const std::string& n) { return means(n, name); });
+}
+
+bool WantedFields::has(std::string_view name) const {
+    return all || needs(name);
 }
 
 bool WantedFields::lists(std::string_view name) const {
@@ -466,12 +519,14 @@ void take_fields(const Path& path, const WantedFields& wanted, PolygonMesh& poly
     }
     if (wanted.materials) {
         mesh.texture_uvs = material_uvs(polygons, taker);
+        take_vertex_colours(polygons, taker, mesh);
         take_materials(path, polygons, mesh);
     }
     take_numbers(path, wanted, polygons, taker, mesh);
     Columns columns;
     for (MeshField& field : polygons.fields) {
-        if (!wanted.lists(field.name)) {
+        const bool is_lost = field.of == Of::corners && field.corners.empty();
+        if (!wanted.lists(field.name) || is_lost) {
             continue;
         }
         if (const std::string gap = taker.gap(field); !gap.empty()) {
@@ -482,6 +537,9 @@ void take_fields(const Path& path, const WantedFields& wanted, PolygonMesh& poly
             mesh.warnings.push_back(
                 {"partial_attribute", 1, gap, text + ", so this attribute is left out", {}});
             continue;
+        }
+        if (wanted.has_texture && field.name == kColourField) {
+            name_beside_texture(field);
         }
         if (const std::string clash = columns.add(field); !clash.empty()) {
             if (!wanted.all) {
@@ -496,9 +554,8 @@ void take_fields(const Path& path, const WantedFields& wanted, PolygonMesh& poly
                                      {}});
             continue;
         }
-        check_count(path, field, mesh, polygons.positions.size() / polygons.dimension);
-        taker.take(field);
-        mesh.fields.push_back(std::move(field));
+        take_field(path, wanted, field, taker, polygons.positions.size() / polygons.dimension,
+                   mesh);
     }
     if (!wanted.names.empty()) { // In the order of the names.
         std::ranges::sort(mesh.fields, {},

@@ -186,15 +186,32 @@ void PlyFieldReader::add_corner_uvs(std::uint64_t index, const PlyRecord& record
                                     std::size_t corners) {
     const std::vector<double>& uvs = record.lists[*corner_uvs_];
     if (!uvs.empty() && uvs.size() != 2 * corners) {
-        file_.fail(element_, index,
-                   "texcoord has " + std::to_string(uvs.size()) + " numbers for " +
-                       std::to_string(corners) + " corners");
+        lose_uvs([&] {
+            file_.fail(element_, index,
+                       "texcoord has " + std::to_string(uvs.size()) + " numbers for " +
+                           std::to_string(corners) + " corners");
+        });
+        return;
     }
     const std::size_t first = uvs_.size() / 2;
     uvs_.insert(uvs_.end(), uvs.begin(), uvs.end());
     for (std::size_t i = 0; i < corners; ++i) {
         uv_indices_.push_back(uvs.empty() ? MeshField::kNone
                                           : static_cast<std::uint32_t>(first + i));
+    }
+}
+
+template <class Fail>
+void PlyFieldReader::lose_uvs(const Fail& fail) {
+    try {
+        fail();
+    } catch (const UserError& error) {
+        if (wanted_.needs(kUvField)) {
+            throw;
+        }
+        warn_left_out(file_.path(), kUvField, error, mesh_.warnings);
+        mesh_.has_lost_uvs = true;
+        corner_uvs_.reset();
     }
 }
 

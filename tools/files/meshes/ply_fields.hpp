@@ -63,6 +63,8 @@ class PlyFieldReader {
     void list(MeshField field, const std::vector<std::size_t>& columns);
     bool is_known(std::string_view name) const;
     std::string prefix_for(std::string_view name) const;
+    template <class Fail>
+    void lose_uvs(const Fail& fail);
     void add_corner_uvs(std::uint64_t index, const PlyRecord& record, std::size_t corners);
 
     const PlyFile& file_;

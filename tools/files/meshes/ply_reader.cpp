@@ -182,7 +182,15 @@ PolygonMesh read_ply(const Path& path, const PlyWanted& wanted, const ReadingPro
         mesh.corner_uvs = mesh.corners;
     }
     if (!mesh.corner_uvs.empty() && mesh.corner_uvs.size() != mesh.corners.size()) {
-        fail_input(path, "has strips of triangles, which have no texcoord");
+        const std::string text = "has strips of triangles, which have no texcoord";
+        if (wanted.fields.needs(kUvField)) {
+            fail_input(path, text);
+        }
+        warn_left_out(path, kUvField, UserError(ExitCode::bad_input, text), mesh.warnings);
+        mesh.has_lost_uvs = true;
+    }
+    if (mesh.has_lost_uvs) {
+        std::erase_if(mesh.fields, [](const MeshField& field) { return field.name == kUvField; });
     }
     const Found& unknown = file.unknown_lines();
     add_warning(mesh.warnings, "unknown_header_lines", unknown.count,

@@ -27,6 +27,7 @@ struct PolygonMesh {
     /// Texture coordinates, if asked for: two each, and the one of every corner, or kNoUv.
     std::vector<double> uvs;
     std::vector<std::uint32_t> corner_uvs;
+    bool has_lost_uvs = false; ///< They are left out, with a warning, as they cannot be read.
     /// Parts that the file divides its faces into, if it does, and the index there of each face's.
     std::vector<MeshPart> parts;
     std::vector<std::uint32_t> part_of_face;

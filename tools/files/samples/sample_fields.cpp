@@ -11,6 +11,7 @@
 #include "files/images/colour_encoding.hpp"
 #include "files/meshes/mesh_fields.hpp"
 #include "files/output/block_writer.hpp"
+#include "geometry/vertex_uvs.hpp"
 
 namespace geodisk::tools {
 namespace {
@@ -36,6 +37,21 @@ void interpolate(const MeshFile& mesh, const MeshField& field, const SampleRow& 
         // Rounding leads out of the range of the corners by no more than the last bit.
         const auto [least, most] = std::minmax({values[0][i], values[1][i], values[2][i]});
         out[i] = std::clamp(value, least, most);
+    }
+}
+
+/// Multiplies a colour by that of the vertices, if they have any: as light, or as they are.
+void tint(const MeshFile& mesh, const SampleRow& row, std::span<double> colour) {
+    if (!mesh.has_values(mesh.vertex_colours, row.face)) {
+        return;
+    }
+    const MeshField& field = *mesh.vertex_colours;
+    std::array<double, 4> by{};
+    interpolate(mesh, field, row, by.data());
+    for (std::size_t k = 0; k < colour.size(); ++k) {
+        const double product =
+            field.is_light ? encoded_light(by[k] * light_of(colour[k])) : by[k] * colour[k];
+        colour[k] = std::clamp(by[k] == 1 ? colour[k] : product, 0.0, 1.0);
     }
 }
 
@@ -74,19 +90,26 @@ SampleField texture_colours(const MeshFile& mesh, const Textures& textures,
     SampleField colours{like.name, like.components, false, true,
                         std::vector<double>(3 * rows.size())};
     for_rows(rows.size(), [&](std::size_t i) {
+        double* const colour = &colours.values[3 * i];
+        std::fill_n(colour, 3, 1.0);
         const MaterialColour* const material = textures.material(mesh, rows[i].face);
         if (material == nullptr) {
-            std::fill_n(&colours.values[3 * i], 3, 1.0);
+            tint(mesh, rows[i], {colour, 3});
             return;
         }
         std::optional<std::array<double, 2>> place;
+        std::array<double, 2> centre{};
         if (material->image && mesh.has_texture_uvs(rows[i].face)) {
             double uv[2];
             interpolate(mesh, *mesh.texture_uvs, rows[i], uv);
             place = material->place(uv[0], uv[1]);
             (*place)[1] = mesh.texture_uvs->is_from_top ? 1 - (*place)[1] : (*place)[1];
+            centre = image_centre(mesh, *material, rows[i].face);
         }
-        std::ranges::copy(textures.colour(*material, place), &colours.values[3 * i]);
+        std::ranges::copy(textures.colour(*material, place, centre), colour);
+        if (mesh.vertex_colours && mesh.vertex_colours->is_light) { // As glTF has it.
+            tint(mesh, rows[i], {colour, 3});
+        }
     });
     return colours;
 }

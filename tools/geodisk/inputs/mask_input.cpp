@@ -6,6 +6,7 @@
 #include <set>
 
 #include "files/images/image.hpp"
+#include "files/name_text.hpp"
 #include "geodisk/inputs/radii_input.hpp"
 #include "geometry/mesh_parts.hpp"
 #include "program/exact_text.hpp"
@@ -79,7 +80,7 @@ class PartIndex {
     void choose(const std::string& path, const OnlyRule& rule, std::vector<bool>& chosen) const {
         std::set<std::uint32_t> wanted;
         for (const std::uint32_t number : known_) {
-            if (name_of(number) == rule.name) {
+            if (composed_name(name_of(number)) == composed_name(rule.name)) {
                 wanted.insert(number);
             }
         }

@@ -237,10 +237,10 @@ MeshInput load_silently(const MeshOptions& options, ProgressLine& progress,
                    load_seconds,     watch.seconds()};
     mesh.split = std::move(split);
     if (mesh.file.materials) {
-        mesh.textures.emplace(*mesh.file.materials);
+        mesh.textures.emplace(mesh.file);
         mesh.file.materials->images = {}; // Which are decoded now.
     } else if (!options.texture.empty()) {
-        mesh.textures.emplace(options.texture);
+        mesh.textures.emplace(mesh.file, options.texture);
     }
     collect_warnings(path, mesh, lift_attributes(lifts).size() < lifts.size());
     mesh.warnings.insert(mesh.warnings.end(), density_warnings.begin(), density_warnings.end());

@@ -145,7 +145,7 @@ def sample(
     edge_lengths, weld, keep_seams, columns, attributes, mesh_format, allow_outside
         Parameters of :class:`Mesh`.
     texture : str or path-like, optional
-        PNG or JPEG image whose colours to add, as ``attributes["color"]``, at the texture
+        PNG, JPEG or WebP image whose colours to add, as ``attributes["color"]``, at the texture
         coordinates that the mesh file has. "auto" adds those of the materials of a glTF or OBJ
         file and their images. Colours are from 0 to 1, as sRGB encodes them.
     normals : {"face", "file", "smooth"}

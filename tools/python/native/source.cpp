@@ -70,6 +70,7 @@ MeshFile mesh_of(const geodisk_source_params& params) {
     sources.fields.normals = params.has_normals != 0;
     sources.fields.uvs = params.has_uvs != 0;
     sources.fields.materials = params.has_materials != 0;
+    sources.fields.has_texture = sources.fields.uvs || sources.fields.materials;
     sources.progress = [stop = params.stop](double) {
         if (stop != nullptr && *stop != 0) {
             throw Stopped();
