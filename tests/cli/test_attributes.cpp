@@ -213,16 +213,18 @@ TEST_CASE("--texture auto gives the colours of materials") {
     REQUIRE(run(folder, joined(start, {"-o", "bare.csv"})).status == 0);
     CHECK(table({"transfer", "bare.csv", "roof.obj", "roof.obj", "--texture", "auto"}) == mixed);
 
-    // Faces without material are white, with a warning; of no material at all it is an error.
+    // Faces without material have the colours of their vertices.
     roof("roof.obj", "", "usemtl plain\n");
     const Outcome white = run(folder, joined(start, {"-o", "w.csv", "--texture", "auto"}));
     CHECK(white.status == 0);
-    CHECK(contains(white.err, "roof.obj: 1 face without material is white"));
+    CHECK(white.err.empty());
     const auto fails = [&](int status, const char* part, const Arguments& more) {
         check_fails(folder, status, part, joined(start, more));
     };
-    fails(2, "--texture and the attribute color are both the columns red, green and blue",
-          {"-o", "a.csv", "--texture", "auto", "--attributes", "color"});
+    // Attributes stand beside the colours of a texture.
+    const std::vector<std::string> both =
+        table(joined(start, {"--texture", "auto", "--attributes", "color"}));
+    CHECK(both[0].ends_with(",vertex_red,vertex_green,vertex_blue,red,green,blue"));
     fails(2, "ramp.png: the picture would replace a file that roof.obj names",
           {"-o", "a.csv", "--texture", "auto", "--picture", "ramp.png"});
     fails(3, "auto: no such file", {"-o", "a.csv", "--texture", "./auto"});
@@ -230,7 +232,7 @@ TEST_CASE("--texture auto gives the colours of materials") {
     roof("roof.obj", "usemtl paint\n", "");
     fails(3, "a.mtl: line 2: material 'paint': its image ramp.png is not there",
           {"-o", "a.csv", "--texture", "auto"});
-    folder.write("roof.obj", kRoof);
+    folder.write("roof.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
     fails(3, "roof.obj: has no materials, which --texture auto needs",
           {"-o", "a.csv", "--texture", "auto"});
 }
@@ -293,8 +295,6 @@ TEST_CASE("attributes that a mesh lacks, and formats that lack columns, are refu
     fails(2, "so no column of --frames", {"-o", "a.obj", "--frames"});
     fails(2, "so no column of --texture", {"-o", "a.xyz", "--texture", "missing.png"});
     fails(3, "nowhere.png", {"-o", "a.csv", "--texture", "nowhere.png"});
-    fails(2, "--texture and the attribute color are both the columns red, green and blue",
-          {"-o", "a.csv", "--texture", "nowhere.png", "--attributes", "color"});
     fails(2, "--attributes: uv is given twice", {"-o", "a.csv", "--attributes", "uv,uv"});
     folder.write("four.off", "nOFF\n4 3 1 0\n0 0 0 0\n1 0 0 0\n0 1 0 1\n3 0 1 2\n");
     check_fails(folder, 2, "--frames needs a mesh with 3 coordinates per vertex; this one has 4",

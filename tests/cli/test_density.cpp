@@ -4,13 +4,17 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <filesystem>
+#include <set>
 #include <string>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
 #include "cli/command.hpp"
 #include "files/samples/sample_file.hpp"
+#include "unit/gltf_parts.hpp"
 #include "unit/png_bytes.hpp"
 
 namespace geodisk::test {
@@ -91,6 +95,48 @@ double header_number(const tools::SampleFile& samples, const std::string& key) {
         }
     }
     return NAN;
+}
+
+/// Writes a square whose vertices have colours, and texture coordinates that are their places, in
+/// all formats that hold some.
+void write_coloured_squares(const TemporaryFolder& folder) {
+    folder.write("a.obj", "v 0 0 0 1 0 1\nv 1 0 0 0 1 1\nv 1 1 0 0 1 1\nv 0 1 0 0 1 1\n"
+                          "v 2 0 0 0 1 1\nf 1 2 3\nf 1 3 4\nf 2 5 3\n");
+    folder.write("t.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 2 0 0\nvt 0 0\nvt 0.25 0\n"
+                          "vt 0.25 0.25\nvt 0 0.25\nvt 0.5 0\n"
+                          "f 1/1 2/2 3/3\nf 1/1 3/3 4/4\nf 2/2 5/5 3/3\n");
+    const auto ply = [](const std::string& type, const std::string& one) {
+        const std::string on = " " + one + " 0 " + one + "\n", off = " 0 " + one + " " + one + "\n";
+        const std::string property = "property " + type;
+        return "ply\nformat ascii 1.0\nelement vertex 5\nproperty float x\nproperty float y\n"
+               "property float z\n" +
+               property + " red\n" + property + " green\n" + property + " blue\n" +
+               "element face 3\nproperty list uchar int vertex_indices\nend_header\n0 0 0" + on +
+               "1 0 0" + off + "1 1 0" + off + "0 1 0" + off + "2 0 0" + off +
+               "3 0 1 2\n3 0 2 3\n3 1 4 2\n";
+    };
+    folder.write("a.ply", ply("uchar", "255"));
+    folder.write("p.ply", ply("float", "1"));
+    folder.write("a.off", "COFF\n5 3 0\n0 0 0 1.0 0.0 1.0 1.0\n1 0 0 0.0 1.0 1.0 1.0\n"
+                          "1 1 0 0.0 1.0 1.0 1.0\n0 1 0 0.0 1.0 1.0 1.0\n2 0 0 0.0 1.0 1.0 1.0\n"
+                          "3 0 1 2\n3 0 2 3\n3 1 4 2\n");
+    tools::LongerSquare square;
+    const std::string positions = std::to_string(
+        square.add(tools::bytes_of_values<float>({0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 2, 0, 0}),
+                   5126, 5, "VEC3"));
+    const std::string colours = std::to_string(
+        square.add(tools::bytes_of_values<float>({1, 0, 1, 0, 1, 1, 0, 1, 1, 0, 1, 1, 0, 1, 1}),
+                   5126, 5, "VEC3"));
+    const std::string uvs = std::to_string(
+        square.add(tools::bytes_of_values<float>({0, 1, 0.25, 1, 0.25, 0.75, 0, 0.75, 0.5, 1}),
+                   5126, 5, "VEC2"));
+    const std::string corners = std::to_string(square.add(
+        tools::bytes_of_values<std::uint32_t>({0, 1, 2, 0, 2, 3, 1, 4, 2}), 5125, 9, "SCALAR"));
+    square.parts.primitives = R"([{"attributes": {"POSITION": )" + positions + R"(, "COLOR_0": )" +
+                              colours + R"(, "TEXCOORD_0": )" + uvs + R"(}, "indices": )" +
+                              corners + "}]";
+    folder.write("mesh.bin", square.buffer);
+    folder.write("a.gltf", tools::text_of(square.parts));
 }
 
 } // namespace
@@ -289,6 +335,58 @@ TEST_CASE("the smallest radii count as a thousandth of the largest, with a warni
     CHECK(run(folder, {"verify", "mesh.ply", "a.csv", "--density-file", "tiny.txt"}).status == 0);
 }
 
+TEST_CASE("a density or mask is any attribute of any format") {
+    const TemporaryFolder folder;
+    write_coloured_squares(folder);
+    std::set<std::string> sets, masked;
+    for (const char* const mesh : {"a.ply", "a.obj", "a.off", "a.gltf", "p.ply"}) {
+        CAPTURE(mesh);
+        const auto samples = [&](const Arguments& where) {
+            const Outcome made = run(
+                folder, joined({"sample", mesh, "-o", "-", "--format", "xyz", "-n", "300"}, where));
+            CHECK_MESSAGE(made.status == 0, made.err);
+            return made.out;
+        };
+        sets.insert(samples({"--density", "red"}));
+        masked.insert(samples({"--mask", "red<1", "--radius-factor", "blue"}));
+        CHECK(samples({"--density", "attribute:color"}) != "");
+    }
+    CHECK(sets.size() == 1);
+    CHECK(masked.size() == 1);
+    check_fails(folder, 3, "a.gltf: 'uv' is of several numbers; give one of them: u and v",
+                {"sample", "a.gltf", "-o", "b.ply", "-n", "9", "--density", "uv"});
+    check_fails(folder, 3, "a.gltf: has no attribute 'rad'; it has color and uv",
+                {"sample", "a.gltf", "-o", "b.ply", "-n", "9", "--density", "rad"});
+    // Images too.
+    folder.write("grey.png", tools::png_bytes(2, 1, std::string_view("\xff\x40", 2)));
+    std::set<std::string> mapped;
+    for (const char* const mesh : {"t.obj", "a.gltf"}) {
+        const Outcome made = run(folder, {"sample", mesh, "-o", "-", "--format", "xyz", "-n", "300",
+                                          "--density", "map:grey.png"});
+        CHECK_MESSAGE(made.status == 0, made.err);
+        mapped.insert(made.out);
+    }
+    CHECK(mapped.size() == 1);
+}
+
+TEST_CASE("a density of faces goes to vertices by area") {
+    const TemporaryFolder folder;
+    write_square(folder);
+    folder.write("f.ply", "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\n"
+                          "property float y\nproperty float z\nelement face 2\n"
+                          "property list uchar int vertex_indices\nproperty float w\nend_header\n"
+                          "0 0 0\n1 0 0\n1 3 0\n0 1 0\n3 0 1 2 1\n3 0 2 3 4\n");
+    // Areas of 1.5 and 0.5: vertices 0 and 2 have (1.5 * 1 + 0.5 * 4) / 2.
+    folder.write("w.txt", "1.75\n1\n1.75\n4\n");
+    const auto points = [&](const std::string& source) {
+        const Outcome made = run(folder, {"sample", "f.ply", "-o", "-", "--format", "xyz", "-n",
+                                          "200", "--density", source});
+        CHECK_MESSAGE(made.status == 0, made.err);
+        return made.out;
+    };
+    CHECK(points("w") == points("file:w.txt"));
+}
+
 TEST_CASE("radii that cannot be are refused, naming file and vertex") {
     const TemporaryFolder folder;
     write_square(folder);
@@ -297,8 +395,8 @@ TEST_CASE("radii that cannot be are refused, naming file and vertex") {
         check_fails(folder, status, part,
                     joined({"sample", mesh, "-o", "a.ply", "-n", "9"}, density));
     };
-    fails(3, "mesh.ply: element vertex has no property 'w'", {"--radius-factor", "w"});
-    fails(3, "mesh.obj: has no vertex properties, so no 'q'", {"--radius-factor", "q"}, "mesh.obj");
+    fails(3, "mesh.ply: has no attribute 'w'; it has", {"--radius-factor", "w"});
+    fails(3, "mesh.obj: has no attribute 'q'", {"--radius-factor", "q"}, "mesh.obj");
     fails(3,
           "mesh.ply: 's': the radius factor g of vertex 0 (from 0) is 0; it must be from 0.001 "
           "to 1; for a density, where 0 means no samples, give --density attribute:s",
@@ -329,7 +427,7 @@ TEST_CASE("radii that cannot be are refused, naming file and vertex") {
     with_first("nan");
     fails(3, "bad.txt: line 1: 'nan' is not finite", {"--radius-factor", "file:bad.txt"});
     fails(3, "none.png: no such file", {"--radius-factor", "map:none.png"});
-    fails(3, "g.txt: is neither a PNG nor a JPEG image", {"--density", "map:g.txt"});
+    fails(3, "g.txt: is no PNG, JPEG or WebP image", {"--density", "map:g.txt"});
     fails(3, "builtin:cube: has no texture coordinates", {"--radius-factor", "map:g.png"},
           "builtin:cube");
     folder.write("black.png", tools::png_bytes(1, 1, std::string_view("\0", 1)));
@@ -357,7 +455,7 @@ TEST_CASE("radii that cannot be are refused, naming file and vertex") {
     check_fails(folder, 2, "g.txt: the report would replace the density",
                 {"sample", "mesh.ply", "-o", "a.ply", "-n", "9", "--density", "file:g.txt",
                  "--json", "g.txt"});
-    check_fails(folder, 3, "no property 'w'", {"verify", "mesh.ply", "g.txt", "--density", "w"});
+    check_fails(folder, 3, "no attribute 'w'", {"verify", "mesh.ply", "g.txt", "--density", "w"});
 }
 
 namespace {

@@ -119,6 +119,24 @@ TEST_CASE("samples lie on nodes and materials of glTF") {
     fails("group:a", "m.gltf: has no groups for --only group:a; OBJ files may (g, o)");
 }
 
+TEST_CASE("names are the same in every composition and encoding") {
+    const TemporaryFolder folder;
+    const std::string start = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nusemtl a\nf 1 2 3\ng ";
+    for (const char* const name :
+         {"Gro\xcc\x88\xc3\x9f\x65", "Gr\xc3\xb6\xc3\x9f\x65", "Gr\xf6\xdf\x65"}) {
+        CAPTURE(name);
+        folder.write("n.obj", start + name + "\nusemtl " + name + "\nf 1 3 4\n");
+        for (const char* const kind : {"material:", "group:"}) {
+            check_faces(folder, "n.obj", {"--only", kind + std::string("Gr\xc3\xb6\xc3\x9f\x65")},
+                        {1});
+            check_faces(folder, "n.obj", {"--only", kind + std::string("Gro\xcc\x88\xc3\x9f\x65")},
+                        {1});
+        }
+    }
+    check_fails(folder, 3, "the materials are 'a' and 'Gr\xc3\xb6\xc3\x9f\x65'",
+                {"sample", "n.obj", "-o", "a.ply", "-d", "0.1", "--only", "material:Groesse"});
+}
+
 TEST_CASE("samples lie where a property holds") {
     const TemporaryFolder folder;
     folder.write("m.ply", kPly);
@@ -136,9 +154,8 @@ TEST_CASE("samples lie where a property holds") {
     fails({"--mask", "p<3"}, 3, "m.ply: has no face that --mask allows, so no samples fit");
     fails({"--mask", "q>7", "--only", "part:0", "--mask", "q<9"}, 3,
           "has no face that --only and --mask allow");
-    fails({"--mask", "r>7"}, 3,
-          "m.ply: has no scalar property 'r' of faces or vertices; it has q, ");
-    fails({"--mask", "twice>0"}, 3, "both faces and vertices have a property 'twice'");
+    fails({"--mask", "r>7"}, 3, "m.ply: has no attribute 'r'; it has p, twice, q and face_twice");
+    fails({"--mask", "face_twice>0"}, 3, "so no samples fit: 'face_twice' is from 0 to 0");
     fails({"--mask", "q"}, 2, "--mask: 'q' is not PROPERTY<VALUE");
     fails({"--mask", "q>x"}, 2, "--mask: 'q>x' is not PROPERTY<VALUE");
     fails({"--mask", "q>nan"}, 2, "--mask: 'q>nan' is not PROPERTY<VALUE");
@@ -154,7 +171,7 @@ TEST_CASE("samples lie where a property holds") {
                 "m.obj: no face is of material:red wod, as --only requests; the materials are "
                 "'red wood' and 'steel'; did you mean red wood?",
                 {"sample", "m.obj", "-o", "a.ply", "-d", "0.1", "--only", "material:red wod"});
-    check_fails(folder, 3, "has no properties of faces or vertices, so no 'q'",
+    check_fails(folder, 3, "m.obj: has no attribute 'q'; it has uv",
                 {"sample", "m.obj", "-o", "a.ply", "-d", "0.1", "--mask", "q>0"});
     check_fails(folder, 3, "does not have the group of a face, as --columns requests; use an OBJ",
                 {"sample", "m.ply", "-o", "a.ply", "-d", "0.1", "--columns", "group"});

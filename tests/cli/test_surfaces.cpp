@@ -273,7 +273,8 @@ TEST_CASE("a lift measures in the lifted surface and keeps the coordinates") {
     fails(2, "'normal:1' is not a lift", {"--lift", "normal:1"});
     fails(2, "'much' is not a finite weight", {"--lift", "normals:much"});
     fails(2, "makes 9 coordinates of 3", {"--lift", "normals:1", "--lift", "normals:1"});
-    fails(3, "only PLY files do", {"--lift", "attribute:quality:1"});
+    fails(3, "builtin:cube: has no attribute 'quality', or any other",
+          {"--lift", "attribute:quality:1"});
 }
 
 TEST_CASE("faces turned over against each other are warned of before a lift by normals") {
@@ -303,7 +304,7 @@ TEST_CASE("an attribute of a PLY file is a lift") {
         folder, {"sample", "mesh.ply", "--lift", "attribute:quality:3", "-n", "9", "-o", "a.ply"});
     CHECK(contains(made.out, "area 3.16228"));
     CHECK(contains(made.out, "lift attribute:quality:3"));
-    check_fails(folder, 3, "no property 'speed'",
+    check_fails(folder, 3, "no attribute 'speed'",
                 {"sample", "mesh.ply", "--lift", "attribute:speed:3", "-n", "9", "-o", "b.ply"});
 }
 

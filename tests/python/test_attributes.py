@@ -220,7 +220,7 @@ def test_colours_of_materials(roof, tmp_path):
     with pytest.raises(geodisk.MeshRejected, match="has no materials"):
         geodisk.sample("builtin:cube", min_distance=0.2, texture="auto")
     (tmp_path / "ramp.png").write_bytes(b"text")
-    with pytest.raises(geodisk.InvalidArgument, match="material 'paint'.*neither a PNG nor a JPEG"):
+    with pytest.raises(geodisk.InvalidArgument, match="material 'paint'.*is no PNG, JPEG or WebP"):
         geodisk.sample(roof, min_distance=0.2, texture="auto")
     (tmp_path / "ramp.png").unlink()
     with pytest.raises(geodisk.MeshRejected, match="material 'paint'.*ramp.png is not there"):
@@ -447,8 +447,9 @@ def test_records_that_cannot_be(obj, roof, tmp_path):
             call(frames="upright", up="w")
     with pytest.raises(geodisk.MeshRejected, match="no normals"):
         geodisk.sample(obj, min_distance=0.2, normals="file")
-    with pytest.raises(geodisk.InvalidArgument, match="color"):
-        geodisk.sample(obj, min_distance=0.2, texture=tmp_path / "ramp.png", attributes="all")
+    both = geodisk.sample(obj, min_distance=0.2, texture=tmp_path / "ramp.png", attributes="all")
+    assert list(both.attributes) == ["vertex_color", "uv", "color"]
+    assert list(geodisk.transfer(both, obj).attributes) == list(both.attributes)
     mesh = geodisk.Mesh(roof)
     for record in ({"texture": tmp_path / "ramp.png"}, {"normals": "file"}):
         with pytest.raises(TypeError, match="path of the mesh"):
@@ -547,3 +548,30 @@ def test_columns_that_do_not_fit_are_not_saved(tmp_path):
     with pytest.raises(geodisk.InvalidArgument, match="points.* is nan"):
         samples.save(tmp_path / "b.csv")
     assert [path.name for path in tmp_path.iterdir()] == ["a.ply"]
+
+
+def test_densities_of_faces_corners_and_names(tmp_path):
+    path = tmp_path / "m.obj"
+    path.write_text(
+        "v 0 0 0 1 0 0\nv 1 0 0 0 0 0\nv 1 3 0 0 0 0\nv 0 1 0 1 0 0\nv 2 0 0 0 1 0\n"
+        "f 1 2 3\nf 1 3 4\nf 2 5 3\n"
+    )
+    mesh = geodisk.Mesh(path, attributes="all")
+
+    def places(density):
+        return geodisk.sample(mesh, count=100, density=density).points.tolist()
+
+    red = np.array([1.0, 0, 0, 1, 0])
+    corners = red[[[0, 1, 2], [0, 2, 3], [1, 4, 2]]]
+    assert places("red") == places(red) == places(corners)
+    assert places("color") == places(red * 77 / 256 + np.array([0, 0, 0, 0, 1]) * 150 / 256)
+    # Areas of 1.5, 0.5 and 1.5.
+    mean = [(1.5 * 1 + 0.5 * 5) / 2, (1.5 + 3) / 3, (1.5 + 2.5 + 3) / 3.5, 5, 2]
+    assert np.allclose(
+        geodisk.sample(mesh, count=100, density=[1, 5, 2]).points,
+        geodisk.sample(mesh, count=100, density=mean).points,
+    )
+    with pytest.raises(geodisk.InvalidArgument, match=r"one for each face, or \(3, 3\)"):
+        places(np.ones(7))
+    with pytest.raises(geodisk.InvalidArgument, match="read with the attributes color; give"):
+        places("heat")

@@ -5,12 +5,14 @@
 #include "files/meshes/sidecar_files.hpp"
 #include "files/samples/sample_file.hpp"
 #include "geometry/mean_curvature.hpp"
+#include "geometry/vertex_uvs.hpp"
 #include "jpeg_bytes.hpp"
 #include "png_bytes.hpp"
 #include "shapes/builtin_shapes.hpp"
 #include "test_files.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 using namespace geodisk::tools;
@@ -26,7 +28,7 @@ MeshFile mesh_with_uvs(std::string_view name, std::string_view bytes) {
     const TemporaryFolder folder;
     MeshSources sources;
     sources.mesh = folder.write(name, bytes).string();
-    sources.has_uvs = true;
+    sources.fields.uvs = true;
     return read_mesh(sources);
 }
 
@@ -88,9 +90,9 @@ TEST_CASE("what is no image is refused") {
         check_fails(ExitCode::bad_input, part, [&] { const GreyImage image(path); });
     };
     fails(folder / "none.png", "no such file");
-    fails(folder.write("empty.png", ""), "is neither a PNG nor a JPEG image");
-    fails(folder.write("text.png", "v 0 0 0\n"), "is neither a PNG nor a JPEG image");
-    fails(folder.write("a.pgm", "P5 1 1 255 a"), "is neither a PNG nor a JPEG image");
+    fails(folder.write("empty.png", ""), "is no PNG, JPEG or WebP image");
+    fails(folder.write("text.png", "v 0 0 0\n"), "is no PNG, JPEG or WebP image");
+    fails(folder.write("a.pgm", "P5 1 1 255 a"), "is no PNG, JPEG or WebP image");
     for (std::size_t size = 4; size < kImage.size(); ++size) {
         fails(folder.write("cut.png", std::string_view(kImage).substr(0, size)),
               "cannot be read as a PNG image: ");
@@ -115,6 +117,35 @@ TEST_CASE("JPEG images are read") {
     CHECK(image.at(0.75, 0.5) == doctest::Approx(0.75).epsilon(0.05));
 }
 
+TEST_CASE("JPEG images of inks and WebP images have the colours of others") {
+    const TemporaryFolder folder;
+    const std::string webp("RIFF\x36\0\0\0WEBPVP8L\x2a\0\0\0\x2f\x07\xc0\x01\0\x1f\x20\x10\x48"
+                           "\xda\x1f\x7a\x8d\xf9\x17\x10\x14\xf9\x3f\xda\xfc\x07\x5f\x24\x40\x41"
+                           "\xdb\x36\x4c\x49\x96\x64\x49\xbe\x0d\x44\x44\xff\xc3\xfc\xd0\x07",
+                           62);
+    for (const std::filesystem::path& path :
+         {folder.write("a.jpg", cmyk_jpeg_bytes()), folder.write("a.webp", webp)}) {
+        CAPTURE(path);
+        const ColourImage image(path);
+        const auto check = [&](double u, double v, const std::array<double, 3>& expected) {
+            for (std::size_t k = 0; k < 3; ++k) {
+                CHECK(image.at(u, v)[k] == doctest::Approx(expected[k]).epsilon(0.01).scale(1));
+            }
+        };
+        check(0.25, 0.75, {1, 0, 0});
+        check(0.75, 0.75, {0, 1, 0});
+        check(0.25, 0.25, {0, 0, 1});
+        check(0.75, 0.25, {1, 1, 0});
+        CHECK(GreyImage(path).at(0.75, 0.75) == doctest::Approx(150.0 / 256).epsilon(0.02));
+    }
+    const auto fails = [&](const std::string& bytes, std::string_view part) {
+        const std::filesystem::path path = folder.write("b.png", bytes);
+        check_fails(ExitCode::bad_input, part, [&] { GreyImage{path}; });
+    };
+    fails(webp.substr(0, 40), "cannot be read as a WebP image");
+    fails("DDS |", "is a DDS image, which is not read; convert it to PNG, JPEG or WebP");
+}
+
 TEST_CASE("texture coordinates of OBJ files belong to corners") {
     // A seam: vertex 1 has two, and vertex 3 the same one twice.
     const MeshFile mesh = mesh_with_uvs("a.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"
@@ -122,7 +153,7 @@ TEST_CASE("texture coordinates of OBJ files belong to corners") {
                                                  "f 1/1 2/2/1 3/3\nvt 2e-1 .5\nf 1/-1 3/3 4/1\n");
     const std::vector<VertexUv> want{
         {0, 0, 0}, {0, 0.2, 0.5}, {1, 0.5, 0.25}, {2, 1, -1}, {3, 0, 0}};
-    CHECK(mesh.uvs == want);
+    CHECK(vertex_uvs(mesh) == want);
     const std::string start = "v 0 0 0\nv 1 0 0\nv 1 1 0\nvt 0 0\n";
     uvs_fail("a.obj", start + "f 1/1 2 3/1\n", "line 5: vertex 2 has no texture coordinates");
     uvs_fail("a.obj", start + "f 1/1 2//1 3/1\n", "line 5: vertex 2 has no texture coordinates");
@@ -133,7 +164,7 @@ TEST_CASE("texture coordinates of OBJ files belong to corners") {
     uvs_fail("a.obj", start + "vt 1 nan\nf 1/1 2/1 3/1\n", "line 5: 'nan' is not a finite number");
     // Who does not ask is not bothered.
     const TemporaryFolder folder;
-    CHECK(read_mesh(folder.write("b.obj", start + "vt x\nf 1/1 2/9 3\n").string()).uvs.empty());
+    CHECK(!read_mesh(folder.write("b.obj", start + "vt x\nf 1/1 2/9 3\n").string()).texture_uvs);
 }
 
 TEST_CASE("texture coordinates of PLY files belong to vertices") {
@@ -145,17 +176,17 @@ TEST_CASE("texture coordinates of PLY files belong to vertices") {
         const MeshFile mesh = mesh_with_uvs(
             "a.ply", ply_with(properties, "0 0 0 0.5 1\n1 0 0 0 0\n0 1 0 0.25 0.75\n"));
         const std::vector<VertexUv> want{{0, 0.5, 1}, {1, 0, 0}, {2, 0.25, 0.75}};
-        CHECK(mesh.uvs == want);
+        CHECK(vertex_uvs(mesh) == want);
     }
     uvs_fail("a.ply", ply_with("property float s\n", "0 0 0 1\n1 0 0 1\n0 1 0 1\n"),
-             "no texture coordinates: none of s t, u v and texture_u texture_v");
+             "has no texture coordinates");
     uvs_fail(
         "a.ply",
         ply_with("property float s\nproperty float t\n", "0 0 0 1 1\n1 0 0 inf 0\n0 1 0 1 1\n"),
-        "element face, record 0: vertex 1 has texture coordinates that are not finite");
+        "element face, record 0: 'uv' is not finite");
     MeshSources sources;
     sources.mesh = "builtin:cube";
-    sources.has_uvs = true;
+    sources.fields.uvs = true;
     check_fails(ExitCode::bad_input, "builtin:cube: has no texture coordinates",
                 [&] { read_mesh(sources); });
 }

@@ -1,8 +1,10 @@
 // Colours of samples by the materials of glTF and OBJ files.
 #include "files/images/textures.hpp"
 #include "files/meshes/mesh_file.hpp"
+#include "files/name_case.hpp"
 #include "files/samples/sample_fields.hpp"
 
+#include "gltf_parts.hpp"
 #include "jpeg_bytes.hpp"
 #include "png_bytes.hpp"
 #include "test_files.hpp"
@@ -42,7 +44,7 @@ std::vector<Colour> corner_colours(const MeshFile& mesh, std::uint32_t triangle)
         rows[k].face = triangle;
         rows[k].bary[k] = 1;
     }
-    const SampleField field = texture_colours(mesh, Textures(*mesh.materials), rows);
+    const SampleField field = texture_colours(mesh, Textures(mesh), rows);
     std::vector<Colour> colours(3);
     for (std::size_t i = 0; i < 9; ++i) {
         colours[i / 3][i % 3] = field.values[i];
@@ -122,11 +124,6 @@ struct Gltf {
     std::string more;
 };
 
-template <class Value>
-std::string bytes_of_values(const std::vector<Value>& values) {
-    return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(Value)};
-}
-
 std::string text_of(const Gltf& gltf) {
     const std::string buffer =
         bytes_of_values<float>({0,     0,     0,     1,    0,    0,     0,     1,     0,
@@ -172,7 +169,7 @@ void check_refused(const Gltf& gltf, std::string_view part) {
     check_fails(ExitCode::bad_input, part, [&] {
         const MeshFile mesh = mesh_of(gltf);
         if (mesh.materials) {
-            const Textures decoded(*mesh.materials);
+            const Textures decoded(mesh);
         }
     });
 }
@@ -207,8 +204,7 @@ TEST_CASE("OBJ faces have the colours of their materials") {
     std::fill_n(row.bary, 2, 0.5F);
     row.bary[2] = 0;
     row.face = 1;
-    const SampleField field =
-        texture_colours(mesh, Textures(*mesh.materials), std::vector<SampleRow>{row});
+    const SampleField field = texture_colours(mesh, Textures(mesh), std::vector<SampleRow>{row});
     CHECK(field.name == "color");
     CHECK(field.values == std::vector<double>{0.5, 0.5, 0});
 }
@@ -258,6 +254,106 @@ TEST_CASE("MTL files and their images are found beside the file that names them"
     check_colours(both, 1, {kGreen, kGreen, kGreen});
 }
 
+TEST_CASE("files are found by names in another case, encoding or folder") {
+    const TemporaryFolder folder;
+    std::filesystem::create_directory(folder / "textures");
+    folder.write("textures/Wood.png", kColourImage);
+    folder.write("gr\xc3\xbcn 2.png", png_bytes(1, 1, std::string_view("\0\xff\0", 3), 8, 2));
+    folder.write("the paint.mtl",
+                 "newmtl a\nmap_Kd Textures\\wood.PNG\nnewmtl Gro\xcc\x88\xc3\x9f\x65\n"
+                 "map_Kd C:\\Users\\anna\\gr\xc3\xbcn 2.png\n"
+                 "newmtl gr\xfcn\nmap_Kd /none/gr\xfcn 2.png\n");
+    folder.write("other blue.mtl", "newmtl blue\nKd 0 0 1\n");
+    folder.write("a.obj", obj_of({"usemtl a", kFace, "usemtl Gr\xc3\xb6\xc3\x9f\x65", kFace,
+                                  "usemtl gr\xfcn", kFace, "usemtl blue", kFace},
+                                 "The Paint.mtl other blue.mtl"));
+    const MeshFile mesh = read_with_materials(folder / "a.obj");
+    check_colours(mesh, 0, {kRed, kGreen, kWhiteColour});
+    check_colours(mesh, 1, {kGreen, kGreen, kGreen});
+    check_colours(mesh, 2, {kGreen, kGreen, kGreen});
+    check_colours(mesh, 3, {kBlue, kBlue, kBlue});
+    CHECK(mesh.part_names.materials[2] == "gr\xc3\xbcn");
+    std::string notes;
+    for (const MeshWarning& warning : mesh.warnings) {
+        notes += warning.message + '\n';
+    }
+    CHECK(contains(notes, "its image 'C:\\Users\\anna\\gr\xc3\xbcn 2.png' is read as "));
+    if (!ignores_case(folder / "a.obj")) {
+        CHECK(contains(notes, "its material file 'The Paint.mtl' is read as "));
+        CHECK(contains(notes, "material 'a': its image 'Textures\\wood.PNG' is read as "));
+    }
+}
+
+TEST_CASE("images of a set are the tiles of texture coordinates") {
+    const TemporaryFolder folder;
+    const auto tile = [&](const std::string& name, std::string_view colour) {
+        folder.write(name, png_bytes(1, 1, colour, 8, 2));
+    };
+    tile("s.1001.png", std::string_view("\xff\0\0", 3));
+    tile("S.1012.PNG", std::string_view("\0\xff\0", 3));
+    tile("t_u1_v1.png", std::string_view("\xff\0\0", 3));
+    tile("t_u2_v2.png", std::string_view("\0\xff\0", 3));
+    const std::string far = "vt 1 1\nvt 2 1\nvt 2 2\nf 1/-3 2/-2 4/-1\n";
+    const auto mesh_of_map = [&](const std::string& map, const std::string& more) {
+        folder.write("a.mtl", "newmtl m\nmap_Kd " + map + "\n");
+        folder.write("a.obj", obj_of({"usemtl m", kFace}) + more);
+        return read_with_materials(folder / "a.obj");
+    };
+    for (const char* const map : {"s.<UDIM>.png", "s.1001.png", "t_<UVTILE>.png"}) {
+        CAPTURE(map);
+        const MeshFile mesh = mesh_of_map(map, far);
+        check_colours(mesh, 0, {kRed, kRed, kRed});
+        check_colours(mesh, 1, {kGreen, kGreen, kGreen}); // At the edges of other tiles too.
+        CHECK(warning_of(mesh, "image_tiles").count == (map[3] == '0' ? 1 : 0));
+    }
+    const std::string none = "vt 1 0\nvt 2 0\nvt 2 1\nf 1/-3 2/-2 4/-1\n";
+    check_colours(mesh_of_map("s.1001.png", none), 1, {kRed, kRed, kRed}); // Repeats.
+    const MeshFile missing = mesh_of_map("s.<UDIM>.png", none);
+    check_fails(ExitCode::bad_input, "lies in tile 1002 of its texture (UDIM)",
+                [&] { const Textures decoded(missing); });
+    MeshSources sources;
+    sources.mesh = (folder / "a.obj").string();
+    sources.fields.uvs = true;
+    mesh_of_map("s.<UDIM>.png", far);
+    const MeshFile for_all = read_mesh(sources);
+    const Textures set(for_all, folder / "s.<UDIM>.png");
+    SampleRow row;
+    row.face = 1;
+    row.bary[1] = 1;
+    CHECK(texture_colours(for_all, set, std::vector<SampleRow>{row}).values ==
+          std::vector<double>{0, 1, 0});
+}
+
+TEST_CASE("faces without material have the colours of their vertices") {
+    const std::string colours = "v 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 1 1 0 1 1 1\n";
+    const TemporaryFolder folder;
+    folder.write("a.mtl", "newmtl m\nKd 0 0 1\n");
+    const MeshFile mesh = read_with_materials(
+        folder.write("a.obj", "mtllib a.mtl\n" + colours + "f 1 2 3\nusemtl m\nf 1 2 3\n"));
+    check_colours(mesh, 0, {kRed, kGreen, kWhiteColour});
+    check_colours(mesh, 1, {kBlue, kBlue, kBlue});
+    CHECK(warning_of(mesh, "no_material").count == 0);
+    // In glTF they multiply the light of a material.
+    LongerSquare square;
+    const int accessor = square.add(
+        bytes_of_values<float>({1, 0, 0, 0.5, 0.5, 0.5, 0, 1, 1, 1, 1, 1}), 5126, 4, "VEC3");
+    const std::string attributes =
+        R"([{"attributes": {"POSITION": 0, "COLOR_0": )" + std::to_string(accessor) + "}";
+    square.parts.primitives = attributes + R"(, "indices": 1}])";
+    const auto read_square = [&] {
+        folder.write("mesh.bin", square.buffer);
+        square.parts.buffer =
+            R"("uri": "mesh.bin", "byteLength": )" + std::to_string(square.buffer.size());
+        return read_with_materials(folder.write("a.gltf", text_of(square.parts)));
+    };
+    const double half = encoded(0.5);
+    check_colours(read_square(), 0, {kRed, {half, half, half}, {0, 1, 1}});
+    square.parts.primitives = attributes + R"(, "indices": 1, "material": 0}])";
+    square.parts.more = R"(, "materials": [{"pbrMetallicRoughness":
+        {"baseColorFactor": [0.5, 1, 1, 1]}}])";
+    check_colours(read_square(), 0, {{half, 0, 0}, {encoded(0.25), half, half}, {0, 1, 1}});
+}
+
 TEST_CASE("OBJ faces without material or texture coordinates are counted") {
     const MeshFile mesh = mesh_of(Obj{obj_of({"f 1 2 3", "usemtl nowhere", "f 1 2 3 4", "usemtl m",
                                               "f 2 3 4", "f 1/1 2/2 4", "f 1/1 3/2 4/3"}),
@@ -300,7 +396,7 @@ TEST_CASE("OBJ materials that cannot be read are refused") {
     folder.write("a.png", kColourImage.substr(0, 60));
     const MeshFile mesh = read_with_materials(folder.write("a.obj", used));
     check_fails(ExitCode::bad_input,
-                "a.mtl: material 'm': ", [&] { const Textures decoded(*mesh.materials); });
+                "a.mtl: material 'm': ", [&] { const Textures decoded(mesh); });
 }
 
 TEST_CASE("formats without materials are refused") {
@@ -437,7 +533,7 @@ TEST_CASE("glTF materials that cannot be read are refused") {
     changed.images = R"([{"uri": "data:;base64,iVBORw0KGgo="}])";
     fails(changed, "a.gltf: material 'paint': image 0: cannot be read as a PNG image");
     changed.images = R"([{"uri": "a.gltf"}])";
-    fails(changed, "image 0, a.gltf: is neither a PNG nor a JPEG image");
+    fails(changed, "image 0, a.gltf: is no PNG, JPEG or WebP image");
     changed.images = R"([{"bufferView": 99}])";
     fails(changed, "bufferView 99 is out of range");
     changed.images = R"([{}])";
@@ -445,8 +541,9 @@ TEST_CASE("glTF materials that cannot be read are refused") {
     changed.images = "";
     fails(changed, "image 0 is out of range");
     changed = gltf;
-    changed.textures = R"([{"extensions": {"EXT_texture_webp": {"source": 0}}}])";
-    fails(changed, "material 'paint': its texture has no PNG or JPEG image");
+    changed.textures = R"([{"extensions": {"KHR_texture_basisu": {"source": 0}}}])";
+    fails(changed, "material 'paint': its texture has no PNG, JPEG or WebP image; what "
+                   "KHR_texture_basisu has is not read");
     changed.textures = R"([{"source": 0, "sampler": 0}])";
     changed.more = R"(, "samplers": [{"wrapS": 7}])";
     fails(changed, "material 'paint': the sampler of its texture has the unknown wrapS 7");

@@ -1,11 +1,13 @@
 // Attributes of mesh files, from the readers to samples.
 #include "files/images/textures.hpp"
+#include "files/meshes/data_uri.hpp"
 #include "files/meshes/mesh_fields.hpp"
 #include "files/meshes/mesh_file.hpp"
 #include "files/output/output_file.hpp"
 #include "files/samples/sample_fields.hpp"
 #include "geometry/frames.hpp"
 
+#include "gltf_parts.hpp"
 #include "png_bytes.hpp"
 #include "test_files.hpp"
 
@@ -204,10 +206,47 @@ TEST_CASE("attributes that cannot be used are refused by name and place") {
                   "uv", "vertex 1 has two values of 'uv' in it");
 }
 
+TEST_CASE("with all, attributes that cannot be read are left out") {
+    const auto left_out = [](const std::string& file, const std::string& bytes,
+                             std::string_view name, std::string_view part) {
+        CAPTURE(bytes);
+        check_refused(file, bytes, std::string(name), part);
+        const MeshFile mesh = mesh_with(file, bytes, "all");
+        CHECK(std::ranges::find(mesh.fields, name, &MeshField::name) == mesh.fields.end());
+        CHECK(contains(mesh.warnings.back().message, part));
+        CHECK(
+            contains(mesh.warnings.back().message, ", so '" + std::string(name) + "' is left out"));
+    };
+    const std::string start = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\n";
+    left_out("a.obj", start + "f 1/1 2/7 3/1\n", "uv", "line 6: texture index 7 is out of range");
+    left_out("a.obj", start + "f 1/-9 2/1 3/1\n", "uv", "texture index -9 is out of range");
+    left_out("a.obj", start + "vt nan 0\nf 1/1 2/1 3/1\n", "uv", "'nan' is not a finite number");
+    left_out("a.obj", start + "vt 1\nf 1/1 2/1 3/1\n", "uv", "texture coordinates are two numbers");
+    left_out("a.obj", start + "v 1 1 0\nf 1/1 2/1 4/1 3/1 1/2\n", "uv", "two values of 'uv'");
+    left_out("a.obj", "v 0 0 0 1 0 nan\nv 1 0 0 1 0 0\nv 0 1 0 1 0 0\nf 1 2 3\n", "color",
+             "line 4: 'color' is not finite");
+    left_out("a.ply", ply_of("property float heat\n", {"1", "nan", "2"}), "heat",
+             "record 1: 'heat' is not finite");
+    left_out("a.ply",
+             "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+             "property float z\nelement face 1\nproperty list uchar int vertex_indices\n"
+             "property list uchar float texcoord\nend_header\n0 0 0\n1 0 0\n0 1 0\n"
+             "3 0 1 2 4 0 0 1 1\n",
+             "uv", "texcoord has 4 numbers for 3 corners");
+    LongerSquare square;
+    square.parts.primitives = R"([{"attributes": {"POSITION": 0, "COLOR_0": )" +
+                              std::to_string(square.add(std::string(36, '\0'), 5126, 3, "VEC3")) +
+                              R"(}, "indices": 1}])";
+    square.parts.buffer = "\"uri\": \"" + data_uri(square.buffer) + R"(", "byteLength": )" +
+                          std::to_string(square.buffer.size());
+    left_out("a.gltf", text_of(square.parts), "color",
+             "has COLOR_0 for another number of vertices");
+}
+
 TEST_CASE("texture colours are those at the texture coordinates") {
     const TemporaryFolder folder;
-    const Textures image(
-        folder.write("a.png", png_bytes(2, 1, std::string_view("\xff\0\0\0\0\xff", 6), 8, 2)));
+    const std::filesystem::path png =
+        folder.write("a.png", png_bytes(2, 1, std::string_view("\xff\0\0\0\0\xff", 6), 8, 2));
     MeshSources sources;
     sources.mesh = folder
                        .write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0.25 0\nvt 0.75 0\n"
@@ -218,11 +257,11 @@ TEST_CASE("texture colours are those at the texture coordinates") {
     CHECK(mesh.fields.empty());
     const std::vector<SampleRow> rows{row_at(0, 1, 0, 0), row_at(0, 0, 1, 0),
                                       row_at(0, 0.5F, 0.5F, 0)};
-    const SampleField colours = texture_colours(mesh, image, rows);
+    const SampleField colours = texture_colours(mesh, Textures(mesh, png), rows);
     CHECK(colours.name == "color");
     CHECK(colours.values == Values{1, 0, 0, 0, 0, 1, 0.5, 0, 0.5});
     sources.mesh = folder.write("b.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").string();
-    check_fails(ExitCode::bad_input, "has no texture coordinates, which a texture needs",
+    check_fails(ExitCode::bad_input, "has no texture coordinates, which an image needs",
                 [&] { read_mesh(sources); });
 }
 

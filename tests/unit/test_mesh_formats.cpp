@@ -46,6 +46,19 @@ std::string binary_stl(std::string header, std::uint32_t count = 2) {
 
 } // namespace
 
+TEST_CASE("OBJ vertices of two coordinates lie at z = 0") {
+    const TemporaryFolder folder;
+    const MeshFile mesh =
+        read_mesh(folder.write("a.obj", "v 0 1\nv 2 3\nv 4 6\nf 1 2 3\n").string());
+    CHECK(mesh.positions == std::vector<double>{0, 1, 0, 2, 3, 0, 4, 6, 0});
+    for (const auto& [bytes, part] :
+         {std::pair{"v 0 1 2\nv 2 3\nf 1 2 1\n", "line 2: a vertex needs 3 coordinates"},
+          {"v 0 1\nv 2 3 4\nf 1 2 1\n", "line 2: has 3 coordinates, but vertices before have 2"}}) {
+        const std::string path = folder.write("b.obj", bytes).string();
+        check_fails(ExitCode::bad_input, part, [&] { read_mesh(path); });
+    }
+}
+
 TEST_CASE("STL facets hang together where their vertices lie in one place") {
     for (const std::string& bytes :
          {ascii_stl(std::string(kFacet) + std::string(kOther)), binary_stl("made by a test"),

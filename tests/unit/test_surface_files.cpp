@@ -40,7 +40,7 @@ MeshFile mesh_of(std::string_view name, std::string_view bytes, std::string_view
     if (!lengths.empty()) {
         sources.edge_lengths = folder.write("lengths.txt", lengths).string();
     }
-    sources.attributes = attributes;
+    sources.fields.numbers = attributes;
     return read_mesh(sources);
 }
 
@@ -222,7 +222,7 @@ TEST_CASE("a lift appends weighted normals and attributes") {
     const std::string ply =
         surface_ply_with(properties, "0 0 0 1 0\n1 0 0 2 0\n1 1 0 3 0\n0 1 0 4 0\n");
     const MeshFile mesh = mesh_of("a.ply", ply, "", "", {"quality"});
-    CHECK(mesh.attributes == std::vector<std::vector<double>>{{1, 2, 3, 4}});
+    CHECK(mesh.number("quality").values == std::vector<double>{1, 2, 3, 4});
     const std::vector<Lift> lifts{{"quality", 0.5}, {"", 2}};
     CHECK(lift_attributes(lifts) == std::vector<std::string>{"quality"});
     const LiftedPositions lifted = lifted_positions("a.ply", mesh, lifts);
@@ -236,7 +236,7 @@ TEST_CASE("a lift appends weighted normals and attributes") {
     };
     fails(ExitCode::usage, "makes 9 coordinates of 3", mesh, {{"", 1}, {"", 1}});
     MeshFile not_finite = mesh;
-    not_finite.attributes[0][2] = NAN;
+    not_finite.numbers[0].values[2] = NAN;
     fails(ExitCode::bad_input, "record 2: 'quality' is not finite", not_finite, {{"quality", 1}});
     fails(ExitCode::usage, "needs a mesh with 3 coordinates; a.ply has 4",
           mesh_of("a.obj", kSurfaceObj, kLines4, ""), {{"", 1}});
@@ -244,11 +244,11 @@ TEST_CASE("a lift appends weighted normals and attributes") {
     twice.triangles = {0, 1, 2, 0, 2, 1};
     fails(ExitCode::bad_input, "vertex 0 (from 0) has no normal", twice, {{"", 1}});
 
-    check_fails(ExitCode::bad_input, "element vertex has no property 'colour'",
+    check_fails(ExitCode::bad_input, "a.ply: has no attribute 'colour'; it has",
                 [&] { mesh_of("a.ply", ply, "", "", {"colour"}); });
-    check_fails(ExitCode::bad_input, "no scalar property 'tags'",
+    check_fails(ExitCode::bad_input, "has no attribute 'tags'",
                 [&] { mesh_of("a.ply", ply, "", "", {"tags"}); });
-    check_fails(ExitCode::bad_input, "only PLY files do",
+    check_fails(ExitCode::bad_input, "a.obj: has no attribute 'quality', or any other",
                 [] { mesh_of("a.obj", kSurfaceObj, "", "", {"quality"}); });
     check_fails(ExitCode::bad_input, "has 4 values of 'quality' for 5 vertices", [&] {
         MeshFile longer = mesh;

@@ -1,6 +1,7 @@
 // Meshes read with vertices that lie in one place joined.
 #include "files/meshes/mesh_file.hpp"
 #include "geometry/surface_warnings.hpp"
+#include "geometry/vertex_uvs.hpp"
 #include "geometry/weld_mesh.hpp"
 #include "program/arguments.hpp"
 #include "program/failure.hpp"
@@ -24,7 +25,7 @@ MeshFile welded(std::string_view name, std::string_view bytes, const Length& dis
     MeshSources sources;
     sources.mesh = folder.write(name, bytes).string();
     sources.weld = distance;
-    sources.has_uvs = has_uvs;
+    sources.fields.uvs = has_uvs;
     return read_mesh(sources);
 }
 
@@ -70,7 +71,8 @@ TEST_CASE("texture coordinates of joined vertices are those of one on a seam") {
                                  "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 0 0\nv 1 1 0\nv 0 1 0\n"
                                  "vt 0 0\nvt 1 0\nf 1/1 2/1 3/1\nf 4/2 5/1 6/1\n",
                                  {}, true);
-    CHECK(mesh.uvs == std::vector<VertexUv>{{0, 0, 0}, {0, 1, 0}, {1, 0, 0}, {2, 0, 0}, {5, 0, 0}});
+    CHECK(vertex_uvs(mesh) ==
+          std::vector<VertexUv>{{0, 0, 0}, {0, 1, 0}, {1, 0, 0}, {2, 0, 0}, {5, 0, 0}});
 }
 
 TEST_CASE("what cannot be welded is refused") {

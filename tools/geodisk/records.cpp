@@ -16,12 +16,6 @@ void check_record(const RecordOptions& options, const MeshInput& mesh) {
                    " needs a mesh with 3 coordinates per vertex; this one has " +
                    (mesh.dimension() == 0 ? "none" : std::to_string(mesh.dimension())));
     }
-    const bool has_colours = std::ranges::find(mesh.file.fields, kColourField, &MeshField::name) !=
-                             mesh.file.fields.end();
-    if (mesh.textures && has_colours) {
-        fail_usage("--texture and the attribute color are both the columns red, green and blue; "
-                   "name the other attributes in place of all");
-    }
 }
 
 void set_normals(const RecordOptions& options, const MeshInput& mesh, std::span<SampleRow> rows) {

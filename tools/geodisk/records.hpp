@@ -12,8 +12,7 @@
 
 namespace geodisk::tools {
 
-/// Throws UserError(usage) if the mesh has no normals in space and `options` ask for some, or if
-/// texture and mesh have colours.
+/// Throws UserError(usage) if the mesh has no normals in space and `options` ask for some.
 void check_record(const RecordOptions& options, const MeshInput& mesh);
 
 /// Replaces the normals of faces in `rows` by those that `options` ask for. A normal that cancels

@@ -8,7 +8,7 @@
 #include "files/meshes/sidecar_files.hpp"
 #include "geometry/vec.hpp"
 #include "geometry/vertex_normals.hpp"
-#include "geometry/weld_mesh.hpp"
+#include "geometry/vertex_numbers.hpp"
 #include "program/exact_text.hpp"
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
@@ -118,13 +118,11 @@ LiftedPositions lifted_positions(const std::string& path, const MeshFile& mesh,
         fail_usage("--lift makes " + std::to_string(result.dimension) + " coordinates of " +
                    std::to_string(mesh.dimension) + "; at most 8 are possible");
     }
-    std::size_t attribute = 0;
     for (const Lift& lift : lifts) {
-        parts.push_back(
-            lift.attribute.empty()
-                ? normal_columns(path, mesh, lift.weight)
-                : attribute_columns(path, mesh, lift,
-                                    values_of_joined(mesh, mesh.attributes[attribute++])));
+        parts.push_back(lift.attribute.empty()
+                            ? normal_columns(path, mesh, lift.weight)
+                            : attribute_columns(path, mesh, lift,
+                                                vertex_numbers(mesh, mesh.number(lift.attribute))));
     }
     const std::size_t vertices = mesh.positions.size() / mesh.dimension;
     result.positions.reserve(vertices * result.dimension);

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <compare>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -19,14 +18,6 @@ namespace geodisk::tools {
 inline constexpr std::uint32_t kFewestCoordinates = 3;
 inline constexpr std::uint32_t kMaxCoordinates = 8;
 
-/// Texture coordinates of a vertex.
-struct VertexUv {
-    std::uint32_t vertex;
-    double u, v;
-
-    friend auto operator<=>(const VertexUv&, const VertexUv&) = default;
-};
-
 /// A part of a mesh file, as the file divides its faces: a primitive that a node places, or faces
 /// of the same material and groups.
 struct MeshPart {
@@ -39,12 +30,6 @@ struct MeshPart {
 struct PartNames {
     std::vector<std::string> materials, groups, nodes;
     std::vector<std::optional<std::uint32_t>> node_above; ///< Node that each one is below.
-};
-
-/// Values that faces or vertices have.
-struct MeshProperty {
-    bool of_faces = false; ///< Else of vertices.
-    std::vector<double> values;
 };
 
 /// Values of an attribute of a mesh file: colours, texture coordinates or any others.
@@ -94,19 +79,17 @@ struct MeshFile {
     /// Lengths of the edges of each triangle, from corner to corner, if they and not the positions
     /// make the surface; else empty.
     std::vector<double> lengths;
-    std::vector<std::vector<double>> attributes; ///< By name as asked for, a value per vertex.
-    /// Those asked for, a value per triangle, or per vertex of the file.
-    std::vector<MeshProperty> properties;
-    /// Texture coordinates, if asked for: all that the corners of faces have. They ascend by
-    /// vertex, each just once, with several at a vertex on a seam.
-    std::vector<VertexUv> uvs;
+    /// Numbers asked for by name: fields of one component, which may be not finite.
+    std::vector<MeshField> numbers;
     /// Attributes asked for, by vertices and triangles' corners of the file, and by its faces.
     std::vector<MeshField> fields;
     std::optional<MeshField> normals; ///< Those of the file, where asked for; not of unit length.
     /// Texture coordinates, where textures are looked up; with gaps if materials have them.
     std::optional<MeshField> texture_uvs;
     std::optional<MaterialColours> materials; ///< Colours of materials, if asked for.
-    std::optional<WeldCounts> weld;           ///< Set if vertices were joined.
+    /// Colours of vertices, where those of materials are asked for; with gaps.
+    std::optional<MeshField> vertex_colours;
+    std::optional<WeldCounts> weld; ///< Set if vertices were joined.
     /// Lowest vertex that each one is joined with. Empty where none are.
     std::vector<std::uint32_t> joined;
     /// Corners of triangles as the file has them, where vertices are joined. Else empty.
@@ -118,6 +101,22 @@ struct MeshFile {
     /// Vertices of all corners, before any were joined.
     const std::vector<std::uint32_t>& corners_in_file() const {
         return file_triangles.empty() ? triangles : file_triangles;
+    }
+    /// Returns the number of that name, which was asked for.
+    const MeshField& number(const std::string& name) const {
+        return *std::ranges::find(numbers, name, &MeshField::name);
+    }
+    /// Returns the index of the value that a corner of a triangle has.
+    std::size_t value_index(const MeshField& field, std::size_t corner) const {
+        switch (field.of) {
+        case MeshField::Of::vertices:
+            return corners_in_file()[corner];
+        case MeshField::Of::corners:
+            return field.corners[corner];
+        case MeshField::Of::faces:
+            break;
+        }
+        return polygons.empty() ? corner / 3 : polygons[corner / 3];
     }
     /// Its face, in the words of the file.
     std::string name_of_triangle(std::size_t triangle) const {
@@ -131,11 +130,13 @@ struct MeshFile {
         return is_known && materials->colours[*number] ? &*materials->colours[*number] : nullptr;
     }
     /// Returns true if all corners of a triangle have texture coordinates.
-    bool has_texture_uvs(std::size_t triangle) const {
-        return texture_uvs && (texture_uvs->of != MeshField::Of::corners ||
-                               std::none_of(&texture_uvs->corners[3 * triangle],
-                                            &texture_uvs->corners[3 * triangle] + 3,
-                                            [](std::uint32_t i) { return i == MeshField::kNone; }));
+    bool has_texture_uvs(std::size_t triangle) const { return has_values(texture_uvs, triangle); }
+    /// Returns true if all corners of a triangle have a value of the field.
+    bool has_values(const std::optional<MeshField>& field, std::size_t triangle) const {
+        return field &&
+               (field->of != MeshField::Of::corners ||
+                std::none_of(&field->corners[3 * triangle], &field->corners[3 * triangle] + 3,
+                             [](std::uint32_t i) { return i == MeshField::kNone; }));
     }
     /// Returns true if the triangle names three vertices.
     bool takes_part(std::size_t triangle) const {

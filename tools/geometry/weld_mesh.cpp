@@ -33,11 +33,6 @@ void take_welded(WeldedMesh welded, MeshFile& mesh) {
     }
     mesh.file_triangles = std::exchange(mesh.triangles, std::move(welded.triangles));
     mesh.joined = std::move(welded.vertices);
-    for (VertexUv& uv : mesh.uvs) {
-        uv.vertex = mesh.joined[uv.vertex];
-    }
-    std::sort(mesh.uvs.begin(), mesh.uvs.end());
-    mesh.uvs.erase(std::unique(mesh.uvs.begin(), mesh.uvs.end()), mesh.uvs.end());
 }
 
 } // namespace

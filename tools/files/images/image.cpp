@@ -1,8 +1,10 @@
 #include "files/images/image.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "files/input_file.hpp"
@@ -12,6 +14,17 @@ namespace geodisk::tools {
 namespace {
 
 constexpr double kWhite = 65535; ///< Value of a white component.
+
+/// How files of other images begin that meshes name.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 8> kOtherImages{
+    {{"\xabKTX", "KTX"},
+     {"DDS ", "DDS"},
+     {"BM", "BMP"},
+     {"GIF8", "GIF"},
+     {std::string_view("II*\0", 4), "TIFF"},
+     {std::string_view("MM\0*", 4), "TIFF"},
+     {"\x76\x2f\x31\x01", "OpenEXR"},
+     {"#?RADIANCE", "Radiance"}}};
 
 /// Returns the place from 0 to 1 that has the colour of another one.
 double folded(double at, ImageWrap wrap) {
@@ -44,7 +57,16 @@ ImagePixels decode(const Path& path, const std::string& bytes, PixelKind kind) {
     if (bytes.starts_with("\xff\xd8")) {
         return decode_jpeg(path, bytes, kind);
     }
-    fail_input(path, "is neither a PNG nor a JPEG image");
+    if (bytes.starts_with("RIFF") && bytes.substr(0, 12).ends_with("WEBP")) {
+        return decode_webp(path, bytes, kind);
+    }
+    for (const auto& [start, name] : kOtherImages) {
+        if (std::string_view(bytes).starts_with(start)) {
+            fail_input(path, "is a " + std::string(name) +
+                                 " image, which is not read; convert it to PNG, JPEG or WebP");
+        }
+    }
+    fail_input(path, "is no PNG, JPEG or WebP image");
 }
 
 } // namespace

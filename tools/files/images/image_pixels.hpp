@@ -25,10 +25,15 @@ struct ImagePixels {
 inline std::uint16_t luminance(std::uint32_t red, std::uint32_t green, std::uint32_t blue) {
     return static_cast<std::uint16_t>((77 * red + 150 * green + 29 * blue) >> 8);
 }
+/// Returns the same of numbers from 0 to 1.
+inline double grey_of(double red, double green, double blue) {
+    return (77 * red + 150 * green + 29 * blue) / 256;
+}
 
 /// `bytes` are those of the file `path`, which errors name. Transparency is ignored. Throw
 /// UserError(bad_input) for what is damaged, cut short or has too many pixels.
 ImagePixels decode_png(const Path& path, const std::string& bytes, PixelKind kind);
 ImagePixels decode_jpeg(const Path& path, const std::string& bytes, PixelKind kind);
+ImagePixels decode_webp(const Path& path, const std::string& bytes, PixelKind kind);
 
 } // namespace geodisk::tools

@@ -50,6 +50,35 @@ struct JpegReader {
     }
 };
 
+/// Returns the number of values per pixel that libjpeg gives. It does not convert inks to colours.
+std::size_t ask_for_colours(jpeg_decompress_struct& jpeg, PixelKind kind) {
+    if (jpeg.jpeg_color_space == JCS_CMYK || jpeg.jpeg_color_space == JCS_YCCK) {
+        jpeg.out_color_space = JCS_CMYK;
+        return 4;
+    }
+    jpeg.out_color_space = kind == PixelKind::grey ? JCS_GRAYSCALE : JCS_RGB;
+    return kind == PixelKind::grey ? 1 : 3;
+}
+
+/// Adds the colour or grey of four inks, which programs of Adobe store inverted.
+void add_inks(const unsigned char* inks, bool is_inverted, PixelKind kind,
+              std::vector<std::uint16_t>& values) {
+    constexpr std::uint32_t kMax = 255;
+    std::uint32_t colour[3];
+    for (std::size_t i = 0; i < 3; ++i) {
+        const std::uint32_t ink = is_inverted ? inks[i] : kMax - inks[i];
+        const std::uint32_t black = is_inverted ? inks[3] : kMax - inks[3];
+        colour[i] = 257 * ((ink * black + kMax / 2) / kMax);
+    }
+    if (kind == PixelKind::grey) {
+        values.push_back(luminance(colour[0], colour[1], colour[2]));
+    } else {
+        for (const std::uint32_t value : colour) {
+            values.push_back(static_cast<std::uint16_t>(value));
+        }
+    }
+}
+
 /// False on an error, which `reader` has the text of.
 bool decode(JpegReader& reader, const std::string& bytes, PixelKind kind, ImagePixels& pixels,
             std::vector<unsigned char>& row) {
@@ -65,16 +94,23 @@ bool decode(JpegReader& reader, const std::string& bytes, PixelKind kind, ImageP
         JpegReader::fail_with(reinterpret_cast<j_common_ptr>(&jpeg),
                               "it has more than 2^26 pixels");
     }
-    jpeg.out_color_space = kind == PixelKind::grey ? JCS_GRAYSCALE : JCS_RGB;
+    const std::size_t components = ask_for_colours(jpeg, kind);
     jpeg.dct_method = JDCT_ISLOW; // The same bits everywhere.
     jpeg_start_decompress(&jpeg);
     pixels.width = jpeg.output_width;
     pixels.height = jpeg.output_height;
-    row.resize(std::size_t{pixels.width} * (kind == PixelKind::grey ? 1 : 3));
-    pixels.values.reserve(row.size() * pixels.height);
+    row.resize(components * pixels.width);
+    pixels.values.reserve(std::size_t{pixels.width} * pixels.height *
+                          (kind == PixelKind::grey ? 1 : 3));
     while (jpeg.output_scanline < jpeg.output_height) {
         JSAMPROW rows[1] = {row.data()};
         jpeg_read_scanlines(&jpeg, rows, 1);
+        if (components == 4) {
+            for (std::size_t i = 0; i < row.size(); i += components) {
+                add_inks(&row[i], jpeg.saw_Adobe_marker != 0, kind, pixels.values);
+            }
+            continue;
+        }
         for (const unsigned char value : row) {
             pixels.values.push_back(static_cast<std::uint16_t>(257 * value));
         }

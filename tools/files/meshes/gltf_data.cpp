@@ -99,7 +99,7 @@ struct GltfData::Elements {
     }
 };
 
-std::string GltfData::uri_bytes(const std::string& uri, const std::string& what) const {
+std::string GltfData::uri_bytes(const std::string& uri, const std::string& what) {
     if (uri.starts_with("data:")) {
         std::optional<std::string> bytes = data_of_uri(uri);
         if (!bytes) {
@@ -109,13 +109,13 @@ std::string GltfData::uri_bytes(const std::string& uri, const std::string& what)
     }
     const std::array<std::string, 2> names = uri_file_names(uri);
     for (const std::string& name : names) {
-        if (const std::string why = scope_.refusal(document_.path(), name); !why.empty()) {
-            document_.fail(what + ": " + why);
+        const FoundFile found = scope_.find(document_.path(), name);
+        if (!found.refusal.empty()) {
+            document_.fail(what + ": " + found.refusal);
         }
-        const Path file = named_path(document_.path(), name);
-        std::error_code ignored;
-        if (std::filesystem::exists(file, ignored)) {
-            return read_regular_file(file);
+        if (!found.file.empty()) {
+            note_name(what, found, warnings_);
+            return read_regular_file(found.file);
         }
     }
     document_.fail(what + ": " + named_path(document_.path(), names[0]).string() +

@@ -47,7 +47,7 @@ class GltfData {
     std::vector<std::uint32_t> integers(std::uint64_t accessor, const std::string& where);
 
     /// Returns the bytes of the data or file that a URI names. `what` begins messages.
-    std::string uri_bytes(const std::string& uri, const std::string& what) const;
+    std::string uri_bytes(const std::string& uri, const std::string& what);
     /// Returns the bytes of a view, decompressed if need be.
     std::string_view view_bytes(std::uint64_t view, const std::string& where);
 

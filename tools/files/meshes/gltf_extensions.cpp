@@ -19,8 +19,8 @@ Extension kind_of(std::string_view name, bool has_materials) {
     constexpr std::array<std::string_view, 6> kRead{
         "EXT_mesh_gpu_instancing", "EXT_meshopt_compression", "KHR_draco_mesh_compression",
         "KHR_meshopt_compression", "KHR_mesh_quantization",   "KHR_node_visibility"};
-    constexpr std::array<std::string_view, 2> kReadOfMaterials{
-        "KHR_materials_pbrSpecularGlossiness", "KHR_texture_transform"};
+    constexpr std::array<std::string_view, 3> kReadOfMaterials{
+        "EXT_texture_webp", "KHR_materials_pbrSpecularGlossiness", "KHR_texture_transform"};
     // Parts of names of extensions that leave the surface as it is.
     constexpr std::array<std::string_view, 17> kHarmless{
         "material",  "texture", "light",    "technique", "image",     "camera",

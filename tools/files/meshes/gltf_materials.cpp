@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "program/human_text.hpp"
+#include "program/suggestion.hpp"
 
 namespace geodisk::tools {
 namespace {
@@ -18,6 +19,17 @@ std::array<double, 6> transform_of(const std::vector<double>& offset, double ang
     const double su = scale.empty() ? 1 : scale[0], sv = scale.empty() ? 1 : scale[1];
     const double c = std::cos(angle), s = std::sin(angle);
     return {c * su, s * sv, ou, -s * su, c * sv, ov};
+}
+
+/// Returns the extensions that an object has, for messages.
+std::string extensions_of(const GltfJson& object) {
+    std::vector<std::string> names;
+    if (const auto found = object.find("extensions"); found != object.end() && found->is_object()) {
+        for (const auto& [name, unused] : found->items()) {
+            names.push_back(name);
+        }
+    }
+    return names.empty() ? "" : "; what " + listed(names) + " has is not read";
 }
 
 } // namespace
@@ -77,10 +89,20 @@ std::string GltfMaterials::add_image(const GltfJson& info, MaterialColour& colou
     return "TEXCOORD_" + std::to_string(set);
 }
 
+/// The image of WebP is the better one, where there is another for readers that do not know it.
+std::optional<std::uint64_t> GltfMaterials::source_of(const GltfJson& texture,
+                                                      const std::string& where) const {
+    const GltfJson* const webp = document_.find_extension(texture, "EXT_texture_webp", where);
+    const auto source =
+        webp == nullptr ? std::nullopt : document_.find_index(*webp, "source", where);
+    return source ? source : document_.find_index(texture, "source", where);
+}
+
 std::uint32_t GltfMaterials::image_of(const GltfJson& texture, const std::string& where) {
-    const auto source = document_.find_index(texture, "source", where);
+    const std::optional<std::uint64_t> source = source_of(texture, where);
     if (!source) {
-        document_.fail(where + ": its texture has no PNG or JPEG image");
+        document_.fail(where + ": its texture has no PNG, JPEG or WebP image" +
+                       extensions_of(texture));
     }
     const auto next = static_cast<std::uint32_t>(read_.images.size());
     const auto [index, is_new] = indices_.try_emplace(*source, next);

@@ -28,6 +28,7 @@ class GltfMaterials {
 
   private:
     std::string add_image(const GltfJson& info, MaterialColour& colour, const std::string& where);
+    std::optional<std::uint64_t> source_of(const GltfJson& texture, const std::string& where) const;
     std::uint32_t image_of(const GltfJson& texture, const std::string& where);
     ImageWrap wrap_of(const GltfJson& sampler, const char* name, const std::string& where) const;
 

@@ -271,15 +271,28 @@ std::vector<GltfField> GltfMeshReader::read_fields(const Source& source, std::si
         GltfField& field = fields.emplace_back(
             GltfField{field_of(name, about), name,
                       are_normals ? GltfField::Role::normals : GltfField::Role::attribute});
-        if (!is_wanted(name)) {
-            continue;
-        }
-        field.field.values = field_values(source, name, vertices);
-        if (field.field.is_colour && about.components == 3) {
-            field.field.values = with_alpha(field.field.values);
+        if (is_wanted(name)) {
+            read_values(source, vertices, about.components, field);
         }
     }
     return fields;
+}
+
+/// Leaves out the values that cannot be read, unless they are needed.
+void GltfMeshReader::read_values(const Source& source, std::size_t vertices, std::size_t components,
+                                 GltfField& field) {
+    try {
+        field.field.values = field_values(source, field.accessor, vertices);
+    } catch (const UserError& error) {
+        if (field.role == GltfField::Role::normals || fields_.needs(field.field.name)) {
+            throw;
+        }
+        warn_left_out(document_.path(), field.field.name, error, warnings_);
+        return;
+    }
+    if (field.field.is_colour && components == 3) {
+        field.field.values = with_alpha(field.field.values);
+    }
 }
 
 std::vector<double> GltfMeshReader::field_values(const Source& source, const std::string& name,

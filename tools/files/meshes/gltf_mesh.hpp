@@ -68,6 +68,9 @@ class GltfMeshReader {
     /// Reads mesh `index` with its morph targets by `weights`, or by its own for none.
     GltfMesh read(std::uint64_t index, std::vector<double> weights);
 
+    /// Returns warnings about attributes that are left out.
+    const std::vector<MeshWarning>& warnings() const noexcept { return warnings_; }
+
   private:
     /// Accessors of what makes vertices; those of other primitives that are equal share them.
     using Key = std::vector<std::uint64_t>;
@@ -83,6 +86,8 @@ class GltfMeshReader {
     Key key_of(const Source& source) const;
     GltfVertices read_vertices(const Source& source);
     std::vector<GltfField> read_fields(const Source& source, std::size_t vertices);
+    void read_values(const Source& source, std::size_t vertices, std::size_t components,
+                     GltfField& field);
     std::vector<double> field_values(const Source& source, const std::string& name,
                                      std::size_t vertices);
     bool is_wanted(const std::string& name) const;
@@ -106,6 +111,7 @@ class GltfMeshReader {
     std::string material_uvs_;    ///< Attribute that its material needs, or "".
     std::vector<double> weights_; ///< Weights of morph targets.
     std::map<Key, std::size_t> known_;
+    std::vector<MeshWarning> warnings_;
 };
 
 } // namespace geodisk::tools

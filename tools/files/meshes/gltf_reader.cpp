@@ -32,11 +32,11 @@ class GltfReader {
                const FileScope& scope)
         : document_(path, std::move(chunks.json)), data_(document_, chunks.binary, scope),
           scene_(document_, data_), materials_(document_, data_),
-          meshes_(document_, data_, fields, materials_), has_materials_(fields.materials) {}
+          meshes_(document_, data_, fields, materials_), fields_(fields) {}
 
     PolygonMesh read() && {
         mesh_.names = {"triangle ", "vertex ", {}, {}, 0};
-        check_required_extensions(document_, has_materials_, mesh_.warnings);
+        check_required_extensions(document_, fields_.materials, mesh_.warnings);
         for (const GltfPlacement& placement : scene_.placements()) {
             add_mesh(placement);
         }
@@ -48,7 +48,7 @@ class GltfReader {
                 pad(**field);
             }
         }
-        if (has_materials_) {
+        if (fields_.materials) {
             mesh_.materials = std::move(materials_).take();
         }
         mesh_.part_names = {names_of("materials"), {}, names_of("nodes"), scene_.nodes_above()};
@@ -118,7 +118,15 @@ class GltfReader {
         }
     }
 
-    MeshField& field_like(const GltfField& given, const std::string& place) {
+    /// Corners without values leave out the attribute, if it is not needed.
+    void fail_components(const GltfField& given, const std::string& place) const {
+        if (fields_.needs(given.field.name)) {
+            document_.fail(place + ": " + given.accessor +
+                           " has another number of components than in a primitive before");
+        }
+    }
+
+    MeshField& field_like(const GltfField& given) {
         if (given.role != GltfField::Role::attribute) {
             std::optional<MeshField>& field =
                 given.role == GltfField::Role::normals ? mesh_.normals : mesh_.material_uvs;
@@ -127,10 +135,6 @@ class GltfReader {
         const auto known = std::ranges::find(mesh_.fields, given.field.name, &MeshField::name);
         if (known == mesh_.fields.end()) {
             return mesh_.fields.emplace_back(without_values(given.field));
-        }
-        if (known->components != given.field.components) {
-            document_.fail(place + ": " + given.accessor +
-                           " has another number of components than in a primitive before");
         }
         known->is_whole = known->is_whole && given.field.is_whole;
         return *known;
@@ -150,8 +154,12 @@ class GltfReader {
             if (given.role != GltfField::Role::attribute && given.field.values.empty()) {
                 continue;
             }
-            MeshField& field = field_like(given, place);
+            MeshField& field = field_like(given);
             if (given.field.values.empty()) {
+                continue;
+            }
+            if (field.components != given.field.components) {
+                fail_components(given, place);
                 continue;
             }
             field.corners.resize(mesh_.corners.size(), MeshField::kNone);
@@ -199,8 +207,9 @@ class GltfReader {
                     "primitive of points or lines ignored",
                     "primitives of points or lines ignored");
         scene_.add_warnings(mesh_.warnings);
-        mesh_.warnings.insert(mesh_.warnings.end(), data_.warnings().begin(),
-                              data_.warnings().end());
+        for (const auto* const warnings : {&data_.warnings(), &meshes_.warnings()}) {
+            mesh_.warnings.insert(mesh_.warnings.end(), warnings->begin(), warnings->end());
+        }
     }
 
     GltfDocument document_;
@@ -208,7 +217,7 @@ class GltfReader {
     GltfScene scene_;
     GltfMaterials materials_;
     GltfMeshReader meshes_;
-    bool has_materials_; ///< True if they are wanted.
+    const WantedFields& fields_;
     PolygonMesh mesh_;
     std::uint64_t others_ = 0; ///< Primitives without triangles.
 };

@@ -28,11 +28,11 @@ void check_places(const Path& path, const ElementNames& names, std::size_t face,
 } // namespace
 
 void take_materials(const Path& path, PolygonMesh& polygons, MeshFile& mesh) {
-    if (!polygons.materials) {
+    if (!polygons.materials && !mesh.vertex_colours) {
         fail_input(path, "has no materials, which --texture auto needs; only glTF files, and OBJ "
                          "files with MTL files, may have them");
     }
-    mesh.materials = std::move(*polygons.materials);
+    mesh.materials = std::move(polygons.materials).value_or(MaterialColours{});
     Found without, bare;
     std::size_t last = MeshField::kNone;
     for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
@@ -42,8 +42,10 @@ void take_materials(const Path& path, PolygonMesh& polygons, MeshFile& mesh) {
         const bool has_image = material != nullptr && material->image;
         if (has_image && mesh.has_texture_uvs(t)) {
             check_places(path, polygons.names, face, *material, *mesh.texture_uvs, t);
-        } else if (is_new && (has_image || material == nullptr)) {
-            (has_image ? bare : without).add(face);
+        } else if (is_new && has_image) {
+            bare.add(face);
+        } else if (is_new && material == nullptr && !mesh.has_values(mesh.vertex_colours, t)) {
+            without.add(face);
         }
     }
     const auto place = [&](const Found& found) {

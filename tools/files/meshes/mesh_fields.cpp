@@ -8,6 +8,8 @@
 #include <span>
 #include <utility>
 
+#include "files/images/colour_encoding.hpp"
+#include "files/images/image_pixels.hpp"
 #include "files/input_file.hpp"
 #include "files/meshes/material_fields.hpp"
 #include "files/meshes/part_columns.hpp"
@@ -114,7 +116,7 @@ class Columns {
         names.push_back(field.name);
     }
     fail_input(path, "has no attribute " + in_quotes(name) +
-                         (names.empty() ? ", or any other, for --attributes"
+                         (names.empty() ? ", or any other"
                                         : "; it has " + listed(names) + did_you_mean(name, names)));
 }
 
@@ -138,17 +140,23 @@ class FieldTaker {
                names_.vertex_number(faces_.vertices[corner]);
     }
 
-    /// Corners may lack values if `may_have_gaps`.
-    void take(MeshField& field, bool may_have_gaps = false) const {
+    /// What values may be.
+    struct Allowed {
+        bool gaps = false;     ///< Corners may lack values.
+        bool infinite = false; ///< Values need not be finite.
+    };
+
+    void take(MeshField& field, Allowed allowed) const {
         if (field.of == Of::corners && !mesh_.polygons.empty()) {
             split_corners(field);
         }
         for (std::size_t t = 0; t < mesh_.triangle_count(); ++t) {
             if (mesh_.takes_part(t)) {
-                check_triangle(field, t, may_have_gaps);
+                check_triangle(field, t, allowed);
             }
         }
     }
+    void take(MeshField& field) const { take(field, Allowed{}); }
 
   private:
     std::size_t face_of(std::size_t triangle) const {
@@ -191,13 +199,13 @@ class FieldTaker {
                                   std::span(field.values).subspan(b * size, size));
     }
 
-    void check_triangle(const MeshField& field, std::size_t t, bool may_have_gaps) const {
+    void check_triangle(const MeshField& field, std::size_t t, Allowed allowed) const {
         const std::size_t size = field.components.size();
         for (std::size_t k = 3 * t; k < 3 * t + 3; ++k) {
             const std::size_t index = field.of == Of::vertices  ? mesh_.triangles[k]
                                       : field.of == Of::corners ? field.corners[k]
                                                                 : face_of(t);
-            if (may_have_gaps && index == MeshField::kNone) {
+            if (allowed.gaps && index == MeshField::kNone) {
                 continue;
             }
             if ((index + 1) * size > field.values.size()) {
@@ -207,7 +215,8 @@ class FieldTaker {
                                       names_.vertex_number(mesh_.triangles[k]));
             }
             const auto values = std::span(field.values).subspan(index * size, size);
-            if (!std::ranges::all_of(values, [](double x) { return std::isfinite(x); })) {
+            if (!allowed.infinite &&
+                !std::ranges::all_of(values, [](double x) { return std::isfinite(x); })) {
                 fail_input(path_, (field.of == Of::vertices ? names_.of_vertex(index)
                                                             : names_.of_face(face_of(t))) +
                                       ": " + in_quotes(field.name) +
@@ -222,13 +231,38 @@ class FieldTaker {
     FaceCorners faces_;
 };
 
+/// Returns the names that the components of an attribute of this name have if it is of colours or
+/// texture coordinates: "face_red" for "face_color", "u1" for "uv1".
+std::vector<std::string> component_names(std::string_view name) {
+    const std::string_view set = name.substr(name.find_last_not_of("0123456789") + 1);
+    name.remove_suffix(set.size());
+    const bool is_of_colours = name.ends_with(kColourField);
+    const std::string_view prefix =
+        name.substr(0, name.size() - std::min(name.size(), kColourField.size()));
+    std::vector<std::string> names;
+    if (is_of_colours && (prefix.empty() || prefix == "face_" || prefix == "vertex_")) {
+        names = make_colours(Of::vertices, 4, std::string(prefix)).components;
+    } else if (name == kUvField) {
+        names = make_uvs().components;
+    }
+    for (std::string& component : names) {
+        component += set;
+    }
+    return names;
+}
+
 /// Returns true if `wanted` is `name`, or "red" for colours, "u" for texture coordinates and so on.
+/// Colours have "vertex_" before their name beside a texture.
 bool means(std::string_view wanted, std::string_view name) {
-    const std::vector<std::string> components = name == kColourField
-                                                    ? make_colours(Of::vertices, 4).components
-                                                : name == kUvField ? make_uvs().components
-                                                                   : std::vector<std::string>{};
-    return wanted == name || std::ranges::find(components, wanted) != components.end();
+    constexpr std::string_view kVertex = "vertex_";
+    if (name == kColourField && wanted.starts_with(kVertex)) {
+        wanted.remove_prefix(kVertex.size());
+    }
+    if (wanted == name) {
+        return true;
+    }
+    const std::vector<std::string> components = component_names(name);
+    return std::ranges::find(components, wanted) != components.end();
 }
 
 void check_known(const Path& path, const WantedFields& wanted,
@@ -253,10 +287,10 @@ void move_uvs(PolygonMesh& polygons) {
 MeshField texture_uvs(const Path& path, const PolygonMesh& polygons, const FieldTaker& taker) {
     const auto found = std::ranges::find(polygons.fields, kUvField, &MeshField::name);
     if (found == polygons.fields.end() || found->components.size() != 2) {
-        fail_input(path, "has no texture coordinates, which a texture needs");
+        fail_input(path, "has no texture coordinates, which an image needs");
     }
     if (const std::string gap = taker.gap(*found); !gap.empty()) {
-        fail_input(path, gap + " has no texture coordinates, which a texture needs");
+        fail_input(path, gap + " has no texture coordinates, which an image needs");
     }
     MeshField uvs = *found;
     taker.take(uvs);
@@ -271,7 +305,7 @@ std::optional<MeshField> material_uvs(PolygonMesh& polygons, const FieldTaker& t
         uvs = *found;
     }
     if (uvs) {
-        taker.take(*uvs, true);
+        taker.take(*uvs, {.gaps = true});
     }
     return uvs;
 }
@@ -290,10 +324,123 @@ void check_count(const Path& path, const MeshField& field, const MeshFile& mesh,
     }
 }
 
+/// Returns a field of one component, without corners and values.
+MeshField one_number(const std::string& name, const MeshField& field) {
+    MeshField number = make_field(name, field.of);
+    number.corners = field.corners;
+    return number;
+}
+
+/// Returns component `k` of a field. Colours are as sRGB encodes them.
+MeshField component_of(const std::string& name, const MeshField& field, std::size_t k) {
+    MeshField number = one_number(name, field);
+    for (std::size_t i = k; i < field.values.size(); i += field.components.size()) {
+        number.values.push_back(field.is_light && k != kAlpha ? encoded_light(field.values[i])
+                                                              : field.values[i]);
+    }
+    return number;
+}
+
+MeshField luminance_of(const std::string& name, const MeshField& colours) {
+    MeshField number = one_number(name, colours);
+    const MeshField red = component_of(name, colours, 0), green = component_of(name, colours, 1),
+                    blue = component_of(name, colours, 2);
+    for (std::size_t i = 0; i < red.values.size(); ++i) {
+        number.values.push_back(grey_of(red.values[i], green.values[i], blue.values[i]));
+    }
+    return number;
+}
+
+/// Returns the number that a name means, see take_fields().
+MeshField number_of(const Path& path, const std::string& name, const PolygonMesh& polygons) {
+    const auto own = std::ranges::find(polygons.own_columns, name, &MeshField::name);
+    if (own != polygons.own_columns.end()) {
+        return *own;
+    }
+    for (const MeshField& field : polygons.fields) {
+        const auto found = std::ranges::find(field.components, name);
+        if (found != field.components.end()) {
+            return component_of(name, field,
+                                static_cast<std::size_t>(found - field.components.begin()));
+        }
+    }
+    const auto field = std::ranges::find(polygons.fields, name, &MeshField::name);
+    if (field == polygons.fields.end()) {
+        fail_unknown(path, name, polygons.fields);
+    }
+    if (!field->is_colour) {
+        fail_input(path, in_quotes(name) + " is of several numbers; give one of them: " +
+                             listed(field->components));
+    }
+    return luminance_of(name, *field);
+}
+
+void take_numbers(const Path& path, const WantedFields& wanted, const PolygonMesh& polygons,
+                  const FieldTaker& taker, MeshFile& mesh) {
+    for (const std::string& name : wanted.numbers) {
+        MeshField number = number_of(path, name, polygons);
+        if (const std::string gap = taker.gap(number); !gap.empty()) {
+            fail_input(path, gap + " has no value of " + in_quotes(name));
+        }
+        check_count(path, number, mesh, polygons.positions.size() / polygons.dimension);
+        taker.take(number, {.infinite = true});
+        mesh.numbers.push_back(std::move(number));
+    }
+}
+
+/// Names colours apart from those of a texture.
+void name_beside_texture(MeshField& colours) {
+    const std::string prefix = colours.of == Of::faces ? "face_" : "vertex_";
+    colours.name.insert(0, prefix);
+    for (std::string& component : colours.components) {
+        component.insert(0, prefix);
+    }
+}
+
+/// Moves an attribute into `mesh`. With WantedFields::all it is left out if that cannot be.
+void take_field(const Path& path, const WantedFields& wanted, MeshField& field,
+                const FieldTaker& taker, std::size_t vertices, MeshFile& mesh) {
+    try {
+        check_count(path, field, mesh, vertices);
+        taker.take(field);
+    } catch (const UserError& error) {
+        if (!wanted.all) {
+            throw;
+        }
+        warn_left_out(path, field.name, error, mesh.warnings);
+        return;
+    }
+    mesh.fields.push_back(std::move(field));
+}
+
+/// Puts colours of vertices where those of materials are asked for.
+void take_vertex_colours(const PolygonMesh& polygons, const FieldTaker& taker, MeshFile& mesh) {
+    const auto found = std::ranges::find(polygons.fields, kColourField, &MeshField::name);
+    if (found != polygons.fields.end() && found->is_colour && found->of != Of::faces) {
+        taker.take(mesh.vertex_colours.emplace(*found), {.gaps = true});
+    }
+}
+
 } // namespace
 
+void warn_left_out(const Path& path, std::string_view name, const UserError& error,
+                   std::vector<MeshWarning>& warnings) {
+    const std::string prefix = path.string() + ": ";
+    std::string text = error.what();
+    text.erase(0, text.starts_with(prefix) ? prefix.size() : 0);
+    warnings.push_back(
+        {"attribute_left_out", 1, "", text + ", so " + in_quotes(name) + " is left out", {}});
+}
+
+bool WantedFields::needs(std::string_view name) const {
+    const bool is_of_texture =
+        (uvs && name == kUvField) || (materials && (name == kUvField || name == kColourField));
+    return is_of_texture || place_of(name) < names.size() ||
+           std::ranges::any_of(numbers, [&](const std::string& n) { return means(n, name); });
+}
+
 bool WantedFields::has(std::string_view name) const {
-    return lists(name) || (uvs && name == kUvField);
+    return all || needs(name);
 }
 
 bool WantedFields::lists(std::string_view name) const {
@@ -372,11 +519,14 @@ void take_fields(const Path& path, const WantedFields& wanted, PolygonMesh& poly
     }
     if (wanted.materials) {
         mesh.texture_uvs = material_uvs(polygons, taker);
+        take_vertex_colours(polygons, taker, mesh);
         take_materials(path, polygons, mesh);
     }
+    take_numbers(path, wanted, polygons, taker, mesh);
     Columns columns;
     for (MeshField& field : polygons.fields) {
-        if (!wanted.lists(field.name)) {
+        const bool is_lost = field.of == Of::corners && field.corners.empty();
+        if (!wanted.lists(field.name) || is_lost) {
             continue;
         }
         if (const std::string gap = taker.gap(field); !gap.empty()) {
@@ -387,6 +537,9 @@ void take_fields(const Path& path, const WantedFields& wanted, PolygonMesh& poly
             mesh.warnings.push_back(
                 {"partial_attribute", 1, gap, text + ", so this attribute is left out", {}});
             continue;
+        }
+        if (wanted.has_texture && field.name == kColourField) {
+            name_beside_texture(field);
         }
         if (const std::string clash = columns.add(field); !clash.empty()) {
             if (!wanted.all) {
@@ -401,9 +554,8 @@ void take_fields(const Path& path, const WantedFields& wanted, PolygonMesh& poly
                                      {}});
             continue;
         }
-        check_count(path, field, mesh, polygons.positions.size() / polygons.dimension);
-        taker.take(field);
-        mesh.fields.push_back(std::move(field));
+        take_field(path, wanted, field, taker, polygons.positions.size() / polygons.dimension,
+                   mesh);
     }
     if (!wanted.names.empty()) { // In the order of the names.
         std::ranges::sort(mesh.fields, {},

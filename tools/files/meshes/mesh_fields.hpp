@@ -1,4 +1,4 @@
-// The attributes of mesh files that are read to be interpolated at samples.
+// The attributes of mesh files that are read, to be interpolated at samples or as numbers.
 #pragma once
 
 #include <string>
@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "geometry/mesh.hpp"
+#include "program/failure.hpp"
 #include "program/path.hpp"
 
 namespace geodisk::tools {
@@ -19,19 +20,23 @@ inline constexpr std::string_view kAutoTexture = "auto";
 /// The attributes of a mesh file to read.
 struct WantedFields {
     std::vector<std::string> names;
-    bool all = false;       ///< All that the file has.
-    bool normals = false;   ///< The normals of the file too, which are no attribute.
-    bool uvs = false;       ///< Texture coordinates too, to look up a texture.
-    bool materials = false; ///< Colours of materials too, with their images and coordinates.
+    bool all = false;                 ///< All that the file has.
+    std::vector<std::string> numbers; ///< Names of MeshFile::numbers.
+    bool normals = false;             ///< The normals of the file too, which are no attribute.
+    bool uvs = false;                 ///< Texture coordinates too, to look up a texture.
+    bool materials = false;   ///< Colours of materials too, with their images and coordinates.
+    bool has_texture = false; ///< Samples get colours beside the attributes.
 
     /// Returns true for what is to be read.
     bool has(std::string_view name) const;
+    /// Returns true for what is to be read even if not all attributes are.
+    bool needs(std::string_view name) const;
     /// Returns true for what is to be written: by its name, or by that of a component, as "red".
     bool lists(std::string_view name) const;
     /// Returns which of `names` means it, or their number for none.
     std::size_t place_of(std::string_view name) const;
     /// Returns true if any attribute is to be read; normals are none.
-    bool are_given() const { return all || uvs || materials || !names.empty(); }
+    bool are_given() const { return all || uvs || materials || !names.empty() || !numbers.empty(); }
 };
 
 /// Reads "all", or names with commas between; nothing for "". Throws UserError(usage) for an empty
@@ -50,11 +55,16 @@ void scale_colours(MeshField& colours);
 
 struct PolygonMesh;
 
-/// Moves the wanted attributes into `mesh`, which has its parts, and whose faces are split already
-/// but not joined.
+/// Warns that an attribute is left out because of `error`.
+void warn_left_out(const Path& path, std::string_view name, const UserError& error,
+                   std::vector<MeshWarning>& warnings);
+
+/// Moves the wanted attributes and numbers into `mesh`, which has its parts, and whose faces are
+/// split already but not joined. The name of a number is that of an attribute or of one of its
+/// components, as "red"; "color" is the luminance.
 /// Throws UserError(bad_input) for those that the file lacks or has for some corners only, values
-/// that are not finite, and names of other columns. With WantedFields::all, attributes of some
-/// corners only are left out, with a warning.
+/// that are not finite, and names of other columns. With WantedFields::all, these are left out,
+/// with a warning. Beside a texture, "color" becomes "vertex_color" or "face_color".
 void take_fields(const Path& path, const WantedFields& wanted, PolygonMesh& polygons,
                  MeshFile& mesh);
 

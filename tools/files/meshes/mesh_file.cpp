@@ -187,21 +187,6 @@ void split_polygons(PolygonMesh& polygons, MeshFile& mesh) {
     }
 }
 
-/// Those of faces become those of triangles.
-void take_properties(PolygonMesh& polygons, MeshFile& mesh) {
-    mesh.properties = std::move(polygons.properties);
-    for (MeshProperty& property : mesh.properties) {
-        if (property.of_faces && !mesh.polygons.empty()) {
-            std::vector<double> of_triangles;
-            of_triangles.reserve(mesh.polygons.size());
-            for (const std::uint32_t polygon : mesh.polygons) {
-                of_triangles.push_back(property.values[polygon]);
-            }
-            property.values = std::move(of_triangles);
-        }
-    }
-}
-
 void take_parts(PolygonMesh& polygons, MeshFile& mesh) {
     mesh.parts = std::move(polygons.parts);
     mesh.part_names = std::move(polygons.part_names);
@@ -251,33 +236,6 @@ void take_coordinates(const MeshSources& sources, Mesh& mesh) {
     mesh.dimension = given.dimension;
 }
 
-/// Every corner must have texture coordinates, finite ones.
-void take_uvs(const Path& path, const PolygonMesh& polygons, MeshFile& mesh) {
-    std::size_t face = 0;
-    for (std::size_t i = 0; i < polygons.corners.size(); ++i) {
-        while (i >= polygons.face_ends[face]) {
-            ++face;
-        }
-        const std::uint32_t vertex = polygons.corners[i];
-        const auto fail = [&](const std::string& message) {
-            fail_input(path, polygons.names.of_face(face) + ": vertex " +
-                                 polygons.names.vertex_number(vertex) + message);
-        };
-        const std::uint32_t uv = polygons.corner_uvs[i];
-        if (uv == PolygonMesh::kNoUv) {
-            fail(" has no texture coordinates");
-        }
-        const double u = polygons.uvs[std::size_t{2} * uv];
-        const double v = polygons.uvs[std::size_t{2} * uv + 1];
-        if (!std::isfinite(u) || !std::isfinite(v)) {
-            fail(" has texture coordinates that are not finite");
-        }
-        mesh.uvs.push_back({vertex, u, v});
-    }
-    std::sort(mesh.uvs.begin(), mesh.uvs.end());
-    mesh.uvs.erase(std::unique(mesh.uvs.begin(), mesh.uvs.end()), mesh.uvs.end());
-}
-
 /// Numbers vertices by their places, in the order of the corners.
 void number_places(const std::string& path, MeshFile& mesh) {
     weld_mesh(path, mesh, {});
@@ -323,17 +281,12 @@ MeshFile to_triangles(const MeshSources& sources, PolygonMesh&& polygons,
     } else {
         check_corners(path, polygons, mesh);
     }
-    if (sources.has_uvs) {
-        take_uvs(path, polygons, mesh);
-    }
     check_size(path, polygons);
     split_polygons(polygons, mesh);
     take_parts(polygons, mesh);
     take_fields(path, sources.fields, polygons, mesh);
-    take_properties(polygons, mesh);
     mesh.positions = std::move(polygons.positions);
     mesh.dimension = polygons.dimension;
-    mesh.attributes = std::move(polygons.attributes);
     mesh.names = std::move(polygons.names);
     if (has_places_alone) {
         number_places(sources.mesh, mesh);
@@ -370,23 +323,6 @@ MeshFile read_builtin(std::string_view spec) {
         }
     }
     return make_builtin(spec.substr(0, colon), resolution);
-}
-
-void check_no_attributes(const MeshSources& sources) {
-    if (!sources.attributes.empty()) {
-        fail_input(sources.mesh, "has no vertex properties, so no " +
-                                     in_quotes(sources.attributes.front()) + "; only PLY files do");
-    }
-    if (!sources.properties.empty()) {
-        fail_input(sources.mesh, "has no properties of faces or vertices, so no " +
-                                     in_quotes(sources.properties.front()) + "; only PLY files do");
-    }
-}
-
-void check_no_uvs(const MeshSources& sources) {
-    if (sources.has_uvs) {
-        fail_input(sources.mesh, "has no texture coordinates; OBJ and PLY files may");
-    }
 }
 
 /// Refuses options that need numbers of vertices, for a file that has places alone.
@@ -427,8 +363,6 @@ MeshFile read_mesh(const MeshSources& sources) {
             fail_usage(path + " is complete; --coordinates and "
                               "--edge-lengths are for mesh files");
         }
-        check_no_attributes(sources);
-        check_no_uvs(sources);
         check_no_fields(path, sources.fields);
         MeshFile mesh = read_builtin(std::string_view(path).substr(kBuiltin.size()));
         if (sources.weld) {
@@ -440,18 +374,13 @@ MeshFile read_mesh(const MeshSources& sources) {
     const FileScope scope(path, sources.allows_outside);
     const std::string extension = extension_of(path, sources.format);
     if (extension == ".obj") {
-        check_no_attributes(sources);
-        return to_triangles(
-            sources, read_obj(path, sources.has_uvs, sources.fields, scope, sources.progress));
+        return to_triangles(sources, read_obj(path, sources.fields, scope, sources.progress));
     }
     if (extension == ".ply") {
         const bool has_other_source = !sources.coordinates.empty() || !sources.edge_lengths.empty();
-        const PlyWanted wanted{!has_other_source, sources.attributes, sources.properties,
-                               sources.has_uvs, sources.fields};
+        const PlyWanted wanted{!has_other_source, sources.fields};
         return to_triangles(sources, read_ply(path, wanted, sources.progress));
     }
-    check_no_attributes(sources);
-    check_no_uvs(sources);
     if (extension == ".off") {
         return to_triangles(sources, read_off(path, sources.fields, sources.progress));
     }

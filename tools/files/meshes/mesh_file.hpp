@@ -21,13 +21,10 @@ struct MeshSources {
     std::string format;       ///< "obj", or "" for that of the extension.
     std::string coordinates;  ///< See read_coordinates(); they replace those of the mesh. Or "".
     std::string edge_lengths; ///< See EdgeLengths, numbered as the mesh is. Or "".
-    std::vector<std::string> attributes;   ///< Scalar vertex properties of a PLY file to read.
-    std::vector<std::string> properties{}; ///< Scalar properties of faces or vertices to read.
-    WantedFields fields{};                 ///< Attributes to interpolate at samples.
+    WantedFields fields{};    ///< Attributes and numbers to read.
     /// Join vertices no farther apart; with a length of 0, those in one place,
     /// as of STL in any case.
     std::optional<Length> weld = std::nullopt;
-    bool has_uvs = false; ///< Read texture coordinates: `vt` of OBJ, see PlyWanted for PLY.
     ReadingProgress progress = {}; ///< Progress of reading the mesh file; not for glTF.
     /// Leave border edges apart that lie exactly on others. They are joined otherwise, unless
     /// `weld` or `edge_lengths` is given.

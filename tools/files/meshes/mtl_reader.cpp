@@ -11,7 +11,9 @@
 #include <utility>
 
 #include "files/input_file.hpp"
+#include "files/meshes/image_tiles.hpp"
 #include "files/meshes/mtl_records.hpp"
+#include "files/name_text.hpp"
 #include "files/text_file.hpp"
 #include "program/exact_text.hpp"
 #include "program/failure.hpp"
@@ -33,19 +35,17 @@ class MtlReader {
         result_.colours.resize(names.size());
         for (std::size_t i = 0; i < names.size(); ++i) {
             if (names[i]) {
-                wanted_.emplace(*names[i], i);
+                wanted_.emplace(composed_name(*names[i]), i);
             }
         }
     }
 
     /// Reads the files behind `mtllib`: one whose name may hold blanks, or several.
     void read_library(const std::string& text) {
-        const std::vector<std::string> names = library_names(text);
-        if (is_file(named_path(obj_, names[0]))) {
-            read(names[0]);
-            return;
-        }
-        for (const std::string& name : std::span(names).subspan(1)) {
+        const auto is_there = [&](const std::string& name) {
+            return is_file(scope_.find(obj_, name).file);
+        };
+        for (const std::string& name : library_names(text, is_there)) {
             read(name);
         }
     }
@@ -62,14 +62,16 @@ class MtlReader {
     }
 
     void read(const std::string& name) {
-        if (const std::string why = scope_.refusal(obj_, name); !why.empty()) {
-            fail_input(obj_, "its material file " + why);
+        const FoundFile found = scope_.find(obj_, name);
+        if (!found.refusal.empty()) {
+            fail_input(obj_, "its material file " + found.refusal);
         }
-        const Path file = named_path(obj_, name);
+        const Path& file = found.file;
         if (!is_file(file)) {
-            fail_input(obj_, "its material file " + file.string() +
+            fail_input(obj_, "its material file " + named_path(obj_, readable_name(name)).string() +
                                  " is not there; correct mtllib, or add the file");
         }
+        note_name("its material file", found, warnings_);
         if (!known_files_.insert(file.string()).second) {
             return;
         }
@@ -85,8 +87,8 @@ class MtlReader {
 
     void take_record(const std::string& key, Words words) {
         if (key == "newmtl") {
-            name_ = joined_text(words);
-            const auto wanted = wanted_.find(name_);
+            name_ = readable_name(joined_text(words));
+            const auto wanted = wanted_.find(composed_name(name_));
             const bool is_new = wanted != wanted_.end() && !result_.colours[wanted->second];
             current_ = is_new ? &result_.colours[wanted->second].emplace() : nullptr;
         } else if (current_ == nullptr) {
@@ -119,12 +121,13 @@ class MtlReader {
         current_->transform = MaterialColour{}.transform;
         current_->wrap_u = current_->wrap_v = ImageWrap::repeat;
         current_->image.reset();
+        current_->tiles.clear();
         while (const std::size_t size = map_option_size(words)) {
             take_option(words[0], words.subspan(1, size - 1));
             words = words.subspan(size);
         }
         if (!words.empty()) {
-            current_->image = image_of(joined_text(words));
+            take_image(joined_text(words));
         }
     }
 
@@ -162,22 +165,48 @@ class MtlReader {
         }
     }
 
+    /// Takes an image, or the tiles of a set of images.
+    void take_image(const std::string& name) {
+        const auto set = tile_name(name);
+        const auto tiles = set ? find_tiles(mtl_, *set) : std::map<std::uint32_t, std::string>();
+        current_->has_tiles_by_name = set && set->is_pattern && !tiles.empty();
+        if (tiles.size() > 1 || current_->has_tiles_by_name) {
+            for (const auto& [tile, file] : tiles) {
+                current_->tiles[tile] = image_of(file);
+            }
+            current_->image = current_->tiles.begin()->second;
+            if (!set->is_pattern) {
+                warnings_.push_back({"image_tiles",
+                                     1,
+                                     "",
+                                     material() + "its image " + in_quotes(name) + " and " +
+                                         std::to_string(tiles.size() - 1) +
+                                         " more are read as the tiles of one image (UDIM)",
+                                     {}});
+            }
+            return;
+        }
+        current_->image = image_of(name);
+    }
+
+    std::string material() const { return "material " + in_quotes(name_) + ": "; }
+
     /// Returns the index of an image, which is read the first time that a material names it.
     std::uint32_t image_of(const std::string& name) {
-        const Path path = named_path(mtl_, name);
+        const FoundFile found = scope_.find(mtl_, name);
+        if (!found.refusal.empty()) {
+            fail(material() + "its image " + found.refusal);
+        }
+        if (!is_file(found.file)) {
+            fail(material() + "its image " + named_path(mtl_, readable_name(name)).string() +
+                 " is not there; correct map_Kd, or add the file");
+        }
         const auto next = static_cast<std::uint32_t>(result_.images.size());
-        const auto [index, is_new] = images_.try_emplace(path.string(), next);
+        const auto [index, is_new] = images_.try_emplace(found.file.string(), next);
         if (is_new) {
-            const std::string material = "material " + in_quotes(name_) + ": ";
-            if (const std::string why = scope_.refusal(mtl_, name); !why.empty()) {
-                fail(material + "its image " + why);
-            }
-            if (!is_file(path)) {
-                fail(material + "its image " + path.string() +
-                     " is not there; correct map_Kd, or add the file");
-            }
-            result_.images.push_back(
-                {mtl_.string() + ": " + material + path.string(), read_regular_file(path)});
+            note_name(material() + "its image", found, warnings_);
+            result_.images.push_back({mtl_.string() + ": " + material() + found.file.string(),
+                                      read_regular_file(found.file)});
         }
         return index->second;
     }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "files/input_file.hpp"
 #include "program/exact_text.hpp"
 
 namespace geodisk::tools {
@@ -46,11 +47,26 @@ bool MtlRecords::next(std::vector<std::string_view>& words) {
     return false;
 }
 
-std::vector<std::string> library_names(const std::string& text) {
+std::vector<std::string> library_names(const std::string& text,
+                                       const std::function<bool(const std::string&)>& is_file) {
+    constexpr std::size_t kMaxWords = 64; // Of one name.
     std::vector<std::string_view> words;
     split_tokens(text, words);
-    std::vector<std::string> names{text};
-    names.insert(names.end(), words.begin(), words.end());
+    std::vector<std::string> names;
+    for (Words rest(words); !rest.empty();) {
+        std::size_t count = std::min(rest.size(), kMaxWords);
+        while (count > 0 && !is_file(joined_text(rest.first(count)))) {
+            --count;
+        }
+        if (count == 0) {
+            const auto last = std::ranges::find_if(rest, [](std::string_view word) {
+                return lower_case(std::string(word)).ends_with(".mtl");
+            });
+            count = last == rest.end() ? 1 : static_cast<std::size_t>(last - rest.begin()) + 1;
+        }
+        names.push_back(joined_text(rest.first(count)));
+        rest = rest.subspan(count);
+    }
     return names;
 }
 

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -34,9 +35,10 @@ class MtlRecords {
     TextLines lines_;
 };
 
-/// Returns what the text behind `mtllib` may mean: first one file whose name may hold blanks, then
-/// the files of a list.
-std::vector<std::string> library_names(const std::string& text);
+/// Returns the files that the text behind `mtllib` means: one whose name may hold blanks, or a list
+/// of such. `is_file` tells which names are there; others end with ".mtl" or a blank.
+std::vector<std::string> library_names(const std::string& text,
+                                       const std::function<bool(const std::string&)>& is_file);
 
 /// Returns the number of words of the option that `words` begin with, itself included; 0 if they
 /// begin with the name of the image, which the last word always belongs to.

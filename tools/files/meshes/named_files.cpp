@@ -15,6 +15,7 @@
 #include "files/meshes/file_scope.hpp"
 #include "files/meshes/gltf_chunks.hpp"
 #include "files/meshes/gltf_json.hpp"
+#include "files/meshes/image_tiles.hpp"
 #include "files/meshes/mtl_records.hpp"
 #include "files/meshes/obj_lines.hpp"
 #include "files/stream_path.hpp"
@@ -62,12 +63,23 @@ class UriCollector : public nlohmann::json_sax<nlohmann::json> {
     bool is_uri_ = false;
 };
 
+/// Returns the name of a file, which another one may call otherwise, in the folder of that one.
+std::string name_of(const Path& file, const Path& from) {
+    const std::u8string name = file.lexically_proximate(from.parent_path()).generic_u8string();
+    return {name.begin(), name.end()};
+}
+
 Names names_in_gltf(const Path& path, const std::string& bytes) {
+    const FileScope scope(path, true);
     std::string json = gltf_chunks(path, bytes).json;
     clean_json(path, json);
     UriCollector collector;
     nlohmann::json::sax_parse(json, &collector, nlohmann::json::input_format_t::json, false);
-    return std::move(collector.names);
+    Names names;
+    for (const std::string& name : collector.names) {
+        names.push_back(name_of(scope.find(path, name).file, path));
+    }
+    return names;
 }
 
 /// Takes text up to the next part in quotation marks from `rest`, and returns that part.
@@ -99,22 +111,29 @@ void add_words(std::string_view text, Names& names) {
     }
 }
 
-Names names_in_obj(const std::string& bytes) {
+Names names_in_obj(const Path& path, const std::string& bytes) {
+    const FileScope scope(path, true);
+    const auto is_there = [&](const std::string& name) {
+        return !scope.find(path, name).file.empty();
+    };
     Names names;
     std::vector<std::string_view> words;
     ObjLines lines(bytes);
     for (std::string_view line; lines.next(line);) {
         split_tokens(line, words);
         if (!words.empty() && words[0] == "mtllib") {
-            std::ranges::move(library_names(joined_text(Words(words).subspan(1))),
-                              std::back_inserter(names));
+            for (const std::string& name :
+                 library_names(joined_text(Words(words).subspan(1)), is_there)) {
+                names.push_back(name_of(scope.find(path, name).file, path));
+            }
         }
     }
     return names;
 }
 
 /// Every record may name an image: as the reader takes it, or in another way.
-Names names_in_mtl(const std::string& bytes) {
+Names names_in_mtl(const Path& path, const std::string& bytes) {
+    const FileScope scope(path, true);
     Names names;
     std::vector<std::string_view> words;
     for (MtlRecords records(bytes); records.next(words);) {
@@ -123,7 +142,17 @@ Names names_in_mtl(const std::string& bytes) {
         while (const std::size_t size = map_option_size(rest)) {
             rest = rest.subspan(size);
         }
-        names.push_back(joined_text(rest));
+        const std::string name = joined_text(rest);
+        names.push_back(name);
+        if (lower_case(std::string(words[0])) != "map_kd") {
+            continue;
+        }
+        names.push_back(name_of(scope.find(path, name).file, path));
+        if (const auto set = tile_name(name)) {
+            for (const auto& [tile, file] : find_tiles(path, *set)) {
+                names.push_back(file);
+            }
+        }
     }
     return names;
 }
@@ -145,9 +174,9 @@ Names names_in(const Path& path, const std::string& kind) {
         return names_in_gltf(path, bytes);
     }
     if (kind == ".obj") {
-        return names_in_obj(bytes);
+        return names_in_obj(path, bytes);
     }
-    return kind == ".mtl" ? names_in_mtl(bytes) : names_in_ply(bytes);
+    return kind == ".mtl" ? names_in_mtl(path, bytes) : names_in_ply(bytes);
 }
 
 } // namespace

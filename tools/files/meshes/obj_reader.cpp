@@ -16,6 +16,7 @@
 #include "files/meshes/mtl_records.hpp"
 #include "files/meshes/obj_lines.hpp"
 #include "files/meshes/polygon_mesh.hpp"
+#include "files/name_text.hpp"
 #include "files/text_file.hpp"
 #include "program/exact_text.hpp"
 #include "program/failure.hpp"
@@ -70,14 +71,16 @@ class ObjParts {
             return;
         }
         if (words[0] == "usemtl") {
-            material_ = number_of(materials_, names_.materials, joined_text(words.subspan(1)));
+            material_ = number_of(materials_, names_.materials,
+                                  readable_name(joined_text(words.subspan(1))));
         } else if (words[0] == "g") {
             groups_.clear();
             for (const std::string_view name : words.subspan(1)) {
-                groups_.push_back(number_of(known_groups_, names_.groups, std::string(name)));
+                groups_.push_back(number_of(known_groups_, names_.groups, readable_name(name)));
             }
         } else if (words[0] == "o") {
-            object_ = number_of(known_groups_, names_.groups, joined_text(words.subspan(1)));
+            object_ = number_of(known_groups_, names_.groups,
+                                readable_name(joined_text(words.subspan(1))));
         } else {
             return;
         }
@@ -138,12 +141,12 @@ class ObjParts {
 
 class ObjReader {
   public:
-    ObjReader(const Path& path, std::string_view bytes, bool has_uvs, const WantedFields& fields,
+    ObjReader(const Path& path, std::string_view bytes, const WantedFields& fields,
               const FileScope& scope, const ReadingProgress& progress)
         : path_(path), scope_(scope), lines_(bytes, progress),
-          has_uvs_(has_uvs || fields.materials || fields.has(kUvField)),
-          has_normals_(fields.normals), has_colours_(fields.has(kColourField)),
-          has_materials_(fields.materials) {
+          has_uvs_(fields.materials || fields.has(kUvField)), has_normals_(fields.normals),
+          has_colours_(fields.has(kColourField)), has_materials_(fields.materials),
+          needs_uvs_(fields.needs(kUvField)) {
         mesh_.names.first_vertex = 1;
     }
 
@@ -170,7 +173,7 @@ class ObjReader {
                 parts_.take(tokens_);
             }
         }
-        check_indices("texture", mesh_.corner_uvs, uv_count_);
+        try_uvs([&] { check_indices("texture", mesh_.corner_uvs, uv_count_); });
         check_indices("normal", normals_.corners, normal_count_);
         warn_of_indices();
         give_fields();
@@ -198,10 +201,15 @@ class ObjReader {
 
     /// Coordinates need be finite only where a face uses the vertex.
     void add_vertex() {
-        if (tokens_.size() < 4) {
+        const std::size_t vertex = mesh_.names.vertex_lines.size();
+        is_flat_ = vertex == 0 ? tokens_.size() == 3 : is_flat_;
+        if (tokens_.size() < 4 && !(is_flat_ && tokens_.size() == 3)) {
             fail("a vertex needs 3 coordinates");
         }
-        const std::size_t vertex = mesh_.names.vertex_lines.size();
+        if (is_flat_ && tokens_.size() > 3) {
+            fail("has " + std::to_string(tokens_.size() - 1) +
+                 " coordinates, but vertices before have 2");
+        }
         const bool has_colour = tokens_.size() >= 7;
         for (std::size_t i = 1; i < tokens_.size(); ++i) { // Weight or colour may follow x y z.
             const double value = number(tokens_[i]);
@@ -210,6 +218,9 @@ class ObjReader {
             } else if (has_colours_ && has_colour && i <= 6) {
                 colours_.values.push_back(value);
             }
+        }
+        if (is_flat_) {
+            mesh_.positions.push_back(0);
         }
         if (has_colour && has_colours_) {
             vertex_colours_.resize(vertex, kNone);
@@ -239,15 +250,32 @@ class ObjReader {
         if (!has_uvs_) {
             return;
         }
-        if (tokens_.size() < 3) {
-            fail("texture coordinates are two numbers");
-        }
-        for (std::size_t i = 1; i <= 2; ++i) { // A third one, of depth, may follow.
-            const std::optional<double> value = parse_real(tokens_[i]);
-            if (!value || !std::isfinite(*value)) {
-                fail(in_quotes(tokens_[i]) + " is not a finite number");
+        try_uvs([&] {
+            if (tokens_.size() < 3) {
+                fail("texture coordinates are two numbers");
             }
-            mesh_.uvs.push_back(*value);
+            for (std::size_t i = 1; i <= 2; ++i) { // A third one, of depth, may follow.
+                const std::optional<double> value = parse_real(tokens_[i]);
+                if (!value || !std::isfinite(*value)) {
+                    fail(in_quotes(tokens_[i]) + " is not a finite number");
+                }
+                mesh_.uvs.push_back(*value);
+            }
+        });
+    }
+
+    /// Reads texture coordinates; leaves them out if that fails and they are not needed.
+    template <class Read>
+    void try_uvs(const Read& read) {
+        try {
+            read();
+        } catch (const UserError& error) {
+            if (needs_uvs_) {
+                throw;
+            }
+            if (!std::exchange(mesh_.has_lost_uvs, true)) {
+                warn_left_out(path_, kUvField, error, mesh_.warnings);
+            }
         }
     }
 
@@ -280,8 +308,10 @@ class ObjReader {
         }
         mesh_.corners.push_back(resolve("vertex", parts[0], mesh_.names.vertex_lines.size()));
         if (has_uvs_) {
-            mesh_.corner_uvs.push_back(parts[1].empty() ? kNone
-                                                        : resolve("texture", parts[1], uv_count_));
+            mesh_.corner_uvs.push_back(kNone);
+            if (!parts[1].empty()) {
+                try_uvs([&] { mesh_.corner_uvs.back() = resolve("texture", parts[1], uv_count_); });
+            }
         } else {
             add_unused(unused_uvs_, parts[1]);
         }
@@ -337,7 +367,7 @@ class ObjReader {
         if (colour_count_ > 0) {
             give_colours();
         }
-        if (uv_count_ > 0) {
+        if (uv_count_ > 0 && !mesh_.has_lost_uvs) {
             mesh_.fields.push_back(make_uvs());
         }
         if (has_normals_ && normal_count_ > 0) {
@@ -387,10 +417,12 @@ class ObjReader {
     std::uint32_t line_ = 0;
     std::vector<std::string_view> tokens_;
     bool has_uvs_, has_normals_, has_colours_, has_materials_; ///< Parts of the file to read.
+    bool needs_uvs_; ///< Else they are left out if they cannot be read.
     MeshField colours_ = make_colours(MeshField::Of::corners, 3);
     MeshField normals_ = make_field("normal", MeshField::Of::corners, 3);
     std::vector<std::uint32_t> vertex_colours_; ///< Index of each, or kNone.
     std::uint32_t colour_count_ = 0;
+    bool is_flat_ = false;                        ///< Vertices have two coordinates.
     std::size_t uv_count_ = 0, normal_count_ = 0; ///< Records so far.
     PolygonMesh mesh_;
     ObjParts parts_;
@@ -400,15 +432,15 @@ class ObjReader {
 
 } // namespace
 
-PolygonMesh read_obj(const Path& path, bool has_uvs, const WantedFields& fields,
-                     const FileScope& scope, const ReadingProgress& progress) {
+PolygonMesh read_obj(const Path& path, const WantedFields& fields, const FileScope& scope,
+                     const ReadingProgress& progress) {
     std::string bytes = read_text(path);
     const std::size_t nuls = drop_final_nuls(bytes);
     if (bytes.empty()) {
         fail_input(path, "is empty");
     }
     refuse_other_mesh(path, bytes, ".obj");
-    PolygonMesh mesh = ObjReader(path, bytes, has_uvs, fields, scope, progress).read();
+    PolygonMesh mesh = ObjReader(path, bytes, fields, scope, progress).read();
     warn_of_final_nuls(mesh, nuls);
     return mesh;
 }

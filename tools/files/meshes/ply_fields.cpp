@@ -114,6 +114,19 @@ void PlyFieldReader::find() {
             list(std::move(field), {i});
         }
     }
+    find_own();
+}
+
+/// Finds numbers by the names of columns that attributes have others for.
+void PlyFieldReader::find_own() {
+    for (const std::string& name : wanted_.numbers) {
+        const std::optional<std::size_t> column = element_.find_scalar(name);
+        if (column && !is_known(name)) {
+            columns_.push_back({&PolygonMesh::own_columns, mesh_.own_columns.size(), {*column}});
+            mesh_.own_columns.push_back(
+                make_field(name, of_faces_ ? MeshField::Of::faces : MeshField::Of::vertices));
+        }
+    }
 }
 
 void PlyFieldReader::find_uvs(std::vector<bool>& used) {
@@ -133,16 +146,21 @@ void PlyFieldReader::find_uvs(std::vector<bool>& used) {
 }
 
 std::string PlyFieldReader::prefix_for(std::string_view name) const {
-    const bool is_known = std::ranges::any_of(mesh_.fields, [&](const MeshField& field) {
+    return is_known(name) ? element_.name + '_' : "";
+}
+
+bool PlyFieldReader::is_known(std::string_view name) const {
+    const auto has_name = [&](const MeshField& field) {
         return field.name == name ||
                std::ranges::find(field.components, name) != field.components.end();
-    });
-    return is_known ? element_.name + '_' : "";
+    };
+    return std::ranges::any_of(mesh_.fields, has_name) ||
+           std::ranges::any_of(mesh_.own_columns, has_name);
 }
 
 void PlyFieldReader::list(MeshField field, const std::vector<std::size_t>& columns) {
     if (wanted_.has(field.name)) {
-        columns_.push_back({mesh_.fields.size(), columns});
+        columns_.push_back({&PolygonMesh::fields, mesh_.fields.size(), columns});
     }
     mesh_.fields.push_back(std::move(field));
 }
@@ -151,7 +169,7 @@ void PlyFieldReader::add(std::uint64_t index, const PlyRecord& record, std::size
     colours_.add(record);
     for (const Columns& columns : columns_) {
         for (const std::size_t column : columns.columns) {
-            mesh_.fields[columns.field].values.push_back(record.scalars[column]);
+            (mesh_.*columns.list)[columns.field].values.push_back(record.scalars[column]);
         }
     }
     if (mesh_.normals) {
@@ -168,9 +186,12 @@ void PlyFieldReader::add_corner_uvs(std::uint64_t index, const PlyRecord& record
                                     std::size_t corners) {
     const std::vector<double>& uvs = record.lists[*corner_uvs_];
     if (!uvs.empty() && uvs.size() != 2 * corners) {
-        file_.fail(element_, index,
-                   "texcoord has " + std::to_string(uvs.size()) + " numbers for " +
-                       std::to_string(corners) + " corners");
+        lose_uvs([&] {
+            file_.fail(element_, index,
+                       "texcoord has " + std::to_string(uvs.size()) + " numbers for " +
+                           std::to_string(corners) + " corners");
+        });
+        return;
     }
     const std::size_t first = uvs_.size() / 2;
     uvs_.insert(uvs_.end(), uvs.begin(), uvs.end());
@@ -180,9 +201,23 @@ void PlyFieldReader::add_corner_uvs(std::uint64_t index, const PlyRecord& record
     }
 }
 
+template <class Fail>
+void PlyFieldReader::lose_uvs(const Fail& fail) {
+    try {
+        fail();
+    } catch (const UserError& error) {
+        if (wanted_.needs(kUvField)) {
+            throw;
+        }
+        warn_left_out(file_.path(), kUvField, error, mesh_.warnings);
+        mesh_.has_lost_uvs = true;
+        corner_uvs_.reset();
+    }
+}
+
 void PlyFieldReader::finish() {
     for (const Columns& columns : columns_) {
-        colours_.scale(columns.columns[0], mesh_.fields[columns.field].values);
+        colours_.scale(columns.columns[0], (mesh_.*columns.list)[columns.field].values);
     }
     if (corner_uvs_) {
         mesh_.uvs = std::move(uvs_);

@@ -46,23 +46,25 @@ class PlyFieldReader {
     /// Reads the attributes of record `index`, with `corners` of a face.
     void add(std::uint64_t index, const PlyRecord& record, std::size_t corners = 0);
 
-    /// Returns the colours of the element.
-    const PlyColours& colours() const { return colours_; }
-
     /// Ends the element: scales colours, and moves texture coordinates of corners into the mesh, in
     /// place of those of vertices.
     void finish();
 
   private:
     struct Columns {
-        std::size_t field; ///< In PolygonMesh::fields.
+        std::vector<MeshField> PolygonMesh::*list; ///< Attributes, or columns by their own names.
+        std::size_t field;                         ///< Index there.
         std::vector<std::size_t> columns;
     };
 
     void find();
     void find_uvs(std::vector<bool>& used);
+    void find_own();
     void list(MeshField field, const std::vector<std::size_t>& columns);
+    bool is_known(std::string_view name) const;
     std::string prefix_for(std::string_view name) const;
+    template <class Fail>
+    void lose_uvs(const Fail& fail);
     void add_corner_uvs(std::uint64_t index, const PlyRecord& record, std::size_t corners);
 
     const PlyFile& file_;

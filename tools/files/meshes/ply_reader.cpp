@@ -60,115 +60,18 @@ std::vector<std::size_t> coordinate_columns(const Path& path, const PlyElement& 
     return columns;
 }
 
-std::size_t attribute_column(const Path& path, const PlyElement& element, const std::string& name) {
-    const std::optional<std::size_t> column = element.find_scalar(name);
-    if (!column) {
-        fail_input(path, "element vertex has no " +
-                             std::string(element.find_list(name) ? "scalar " : "") + "property " +
-                             in_quotes(name));
-    }
-    return *column;
-}
-
 /// The two columns of texture coordinates, where any are wanted.
-std::vector<std::size_t> uv_columns(const Path& path, const PlyElement& element,
-                                    const PlyWanted& wanted) {
-    if (!wanted.has_uvs && !wanted.fields.has(kUvField)) {
-        return {};
-    }
-    std::vector<std::size_t> columns = find_uv_columns(element);
-    if (columns.empty() && wanted.has_uvs) {
-        fail_input(path, "element vertex has no texture coordinates: none of s t, u v and "
-                         "texture_u texture_v");
-    }
-    return columns;
-}
-
-/// Column of a property of faces or vertices.
-struct PropertyColumn {
-    std::size_t index; ///< In PolygonMesh::properties.
-    std::size_t column;
-};
-
-std::string names_of_scalars(const PlyFile& file) {
-    constexpr std::size_t kMax = 10;
-    std::vector<std::string> names;
-    for (const char* const of : {"face", "vertex"}) {
-        for (const PlyElement& element : file.elements()) {
-            for (const PlyProperty& property : element.properties) {
-                if (element.name == of && !property.count_type) {
-                    names.push_back(property.name);
-                }
-            }
-        }
-    }
-    const std::size_t more = names.size() - std::min(names.size(), kMax);
-    names.resize(names.size() - more);
-    if (more > 0) {
-        names.push_back(std::to_string(more) + " more");
-    }
-    return listed(names);
-}
-
-/// Finds the properties that either element has, and says of which they are.
-void find_properties(const PlyFile& file, const PlyWanted& wanted, PolygonMesh& mesh) {
-    for (const std::string& name : wanted.properties) {
-        bool of_faces = false, of_vertices = false;
-        for (const PlyElement& element : file.elements()) {
-            of_faces |= element.name == "face" && element.find_scalar(name).has_value();
-            of_vertices |= element.name == "vertex" && element.find_scalar(name).has_value();
-        }
-        if (of_faces && of_vertices) {
-            fail_input(file.path(), "both faces and vertices have a property " + in_quotes(name) +
-                                        "; rename one of them");
-        }
-        if (!of_faces && !of_vertices) {
-            fail_input(file.path(), "has no scalar property " + in_quotes(name) +
-                                        " of faces or vertices; it has " + names_of_scalars(file));
-        }
-        mesh.properties.push_back({of_faces, {}});
-    }
-}
-
-/// Returns the columns of the properties that this element has.
-std::vector<PropertyColumn> property_columns(const PlyElement& element, const PlyWanted& wanted,
-                                             const PolygonMesh& mesh) {
-    std::vector<PropertyColumn> columns;
-    for (std::size_t i = 0; i < wanted.properties.size(); ++i) {
-        if (mesh.properties[i].of_faces == (element.name == "face")) {
-            columns.push_back({i, *element.find_scalar(wanted.properties[i])});
-        }
-    }
-    return columns;
-}
-
-void add_properties(const std::vector<PropertyColumn>& columns, const PlyRecord& record,
-                    PolygonMesh& mesh) {
-    for (const auto& [index, column] : columns) {
-        mesh.properties[index].values.push_back(record.scalars[column]);
-    }
-}
-
-void scale_colours(const PlyColours& colours, const std::vector<PropertyColumn>& columns,
-                   PolygonMesh& mesh) {
-    for (const auto& [index, column] : columns) {
-        colours.scale(column, mesh.properties[index].values);
-    }
+std::vector<std::size_t> uv_columns(const PlyElement& element, const PlyWanted& wanted) {
+    return wanted.fields.has(kUvField) ? find_uv_columns(element) : std::vector<std::size_t>();
 }
 
 void read_vertices(const Path& path, PlyFile& file, const PlyElement& element,
                    const PlyWanted& wanted, PolygonMesh& mesh) {
     const std::vector<std::size_t> columns =
         coordinate_columns(path, element, wanted.has_coordinates);
-    std::vector<std::size_t> attributes;
-    for (const std::string& name : wanted.attributes) {
-        attributes.push_back(attribute_column(path, element, name));
-    }
-    const std::vector<std::size_t> uvs = uv_columns(path, element, wanted);
+    const std::vector<std::size_t> uvs = uv_columns(element, wanted);
     PlyFieldReader fields(file, element, wanted.fields, mesh);
-    const std::vector<PropertyColumn> properties = property_columns(element, wanted, mesh);
     mesh.dimension = columns.empty() ? 3 : static_cast<std::uint32_t>(columns.size());
-    mesh.attributes.resize(attributes.size());
     mesh.positions.reserve(columns.size() * file.possible_records(element));
     file.read_records(element, [&](std::uint64_t index, const PlyRecord& record) {
         for (const std::size_t column : columns) {
@@ -177,16 +80,8 @@ void read_vertices(const Path& path, PlyFile& file, const PlyElement& element,
         for (const std::size_t column : uvs) {
             mesh.uvs.push_back(record.scalars[column]);
         }
-        for (std::size_t i = 0; i < attributes.size(); ++i) {
-            mesh.attributes[i].push_back(record.scalars[attributes[i]]);
-        }
-        add_properties(properties, record, mesh);
         fields.add(index, record);
     });
-    for (std::size_t i = 0; i < attributes.size(); ++i) {
-        fields.colours().scale(attributes[i], mesh.attributes[i]);
-    }
-    scale_colours(fields.colours(), properties, mesh);
     fields.finish();
 }
 
@@ -215,7 +110,6 @@ std::uint32_t to_corner(const PlyFile& file, const PlyElement& element, std::uin
 void read_faces(PlyFile& file, const PlyElement& element, const PlyWanted& wanted,
                 PolygonMesh& mesh) {
     const std::size_t column = index_column(file, element);
-    const std::vector<PropertyColumn> properties = property_columns(element, wanted, mesh);
     PlyFieldReader fields(file, element, wanted.fields, mesh);
     mesh.face_ends.reserve(file.possible_records(element));
     file.read_records(element, [&](std::uint64_t index, const PlyRecord& record) {
@@ -223,10 +117,8 @@ void read_faces(PlyFile& file, const PlyElement& element, const PlyWanted& wante
             mesh.corners.push_back(to_corner(file, element, index, value));
         }
         mesh.face_ends.push_back(mesh.corners.size());
-        add_properties(properties, record, mesh);
         fields.add(index, record, record.lists[column].size());
     });
-    scale_colours(fields.colours(), properties, mesh);
     fields.finish();
 }
 
@@ -260,7 +152,6 @@ PolygonMesh read_ply(const Path& path, const PlyWanted& wanted, const ReadingPro
     PlyFile file(path, progress);
     PolygonMesh mesh;
     mesh.names = {"element face, record ", "element vertex, record ", {}, {}, 0};
-    find_properties(file, wanted, mesh);
     bool has_vertices = false;
     bool has_faces = false;
     for (const PlyElement& element : file.elements()) {
@@ -287,16 +178,19 @@ PolygonMesh read_ply(const Path& path, const PlyWanted& wanted, const ReadingPro
     if (!has_faces) {
         fail_input(path, "has no faces: there is no element face or tristrips");
     }
-    for (const MeshProperty& property : mesh.properties) {
-        if (property.of_faces && property.values.size() != mesh.face_ends.size()) {
-            fail_input(path, "has strips of triangles, which have no properties of faces");
-        }
-    }
-    if (mesh.corner_uvs.empty() && (wanted.has_uvs || !mesh.uvs.empty())) {
+    if (mesh.corner_uvs.empty() && !mesh.uvs.empty()) {
         mesh.corner_uvs = mesh.corners;
     }
     if (!mesh.corner_uvs.empty() && mesh.corner_uvs.size() != mesh.corners.size()) {
-        fail_input(path, "has strips of triangles, which have no texcoord");
+        const std::string text = "has strips of triangles, which have no texcoord";
+        if (wanted.fields.needs(kUvField)) {
+            fail_input(path, text);
+        }
+        warn_left_out(path, kUvField, UserError(ExitCode::bad_input, text), mesh.warnings);
+        mesh.has_lost_uvs = true;
+    }
+    if (mesh.has_lost_uvs) {
+        std::erase_if(mesh.fields, [](const MeshField& field) { return field.name == kUvField; });
     }
     const Found& unknown = file.unknown_lines();
     add_warning(mesh.warnings, "unknown_header_lines", unknown.count,

@@ -22,20 +22,21 @@ namespace geodisk::tools {
 struct PolygonMesh {
     std::vector<double> positions; ///< `dimension` coordinates per vertex, if any.
     std::uint32_t dimension = 3;
-    std::vector<std::vector<double>> attributes; ///< Those asked for, a value per vertex each.
     std::vector<std::uint32_t> corners; ///< Vertex indices of all faces, one face after another.
     std::vector<std::size_t> face_ends; ///< For each face, the end of its corners.
     /// Texture coordinates, if asked for: two each, and the one of every corner, or kNoUv.
     std::vector<double> uvs;
     std::vector<std::uint32_t> corner_uvs;
+    bool has_lost_uvs = false; ///< They are left out, with a warning, as they cannot be read.
     /// Parts that the file divides its faces into, if it does, and the index there of each face's.
     std::vector<MeshPart> parts;
     std::vector<std::uint32_t> part_of_face;
     PartNames part_names;
-    std::vector<MeshProperty> properties; ///< Those asked for, a value per face or vertex.
     /// Attributes that the file has, with values where asked for. Texture coordinates are in
     /// `uvs` instead.
     std::vector<MeshField> fields;
+    /// Columns of a PLY file among WantedFields::numbers, by names that no attribute has: "nx".
+    std::vector<MeshField> own_columns;
     std::optional<MeshField> normals;         ///< Those of the file, where asked for and there.
     std::optional<MaterialColours> materials; ///< Colours of materials, where asked for and there.
     /// Texture coordinates of each corner for its material, where they are not the field "uv".
@@ -64,8 +65,8 @@ inline void warn_of_final_nuls(PolygonMesh& mesh, std::uint64_t count) {
 /// ignored. Understands every line end, line continuation, a byte order mark, relative indices and
 /// faces of any size. Throws UserError(bad_input) naming the line, like the readers of other texts
 /// below.
-PolygonMesh read_obj(const Path& path, bool has_uvs, const WantedFields& fields,
-                     const FileScope& scope, const ReadingProgress& progress);
+PolygonMesh read_obj(const Path& path, const WantedFields& fields, const FileScope& scope,
+                     const ReadingProgress& progress);
 
 /// Reads an STL file, binary if its size is as it tells or it does not begin with "solid", else
 /// ascii: three vertices for each facet, so that no two facets hang together until vertices are
@@ -86,10 +87,7 @@ PolygonMesh read_gltf(const Path& path, const WantedFields& fields, const FileSc
 
 /// Data to read of element `vertex`.
 struct PlyWanted {
-    bool has_coordinates = true;             ///< False: if it has no coordinates, do without.
-    std::span<const std::string> attributes; ///< Names of scalar properties.
-    std::span<const std::string> properties; ///< The same of either element `face` or `vertex`.
-    bool has_uvs = false; ///< Texture coordinates: s t, u v or texture_u texture_v.
+    bool has_coordinates = true; ///< False: if it has no coordinates, do without.
     WantedFields fields;
 };
 

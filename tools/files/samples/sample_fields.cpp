@@ -11,28 +11,16 @@
 #include "files/images/colour_encoding.hpp"
 #include "files/meshes/mesh_fields.hpp"
 #include "files/output/block_writer.hpp"
+#include "geometry/vertex_uvs.hpp"
 
 namespace geodisk::tools {
 namespace {
-
-/// Returns the index of the value that a corner of a triangle has.
-std::size_t value_index(const MeshFile& mesh, const MeshField& field, std::size_t corner) {
-    switch (field.of) {
-    case MeshField::Of::vertices:
-        return mesh.corners_in_file()[corner];
-    case MeshField::Of::corners:
-        return field.corners[corner];
-    case MeshField::Of::faces:
-        break;
-    }
-    return mesh.polygons.empty() ? corner / 3 : mesh.polygons[corner / 3];
-}
 
 /// Writes the components at a sample to `out`.
 void interpolate(const MeshFile& mesh, const MeshField& field, const SampleRow& row, double* out) {
     const std::size_t size = field.components.size(), first = std::size_t{3} * row.face;
     const auto values_at = [&](std::size_t k) {
-        return &field.values[value_index(mesh, field, first + k) * size];
+        return &field.values[mesh.value_index(field, first + k) * size];
     };
     if (field.is_whole || field.of == MeshField::Of::faces) {
         const auto nearest = std::max_element(row.bary, row.bary + 3) - row.bary;
@@ -49,6 +37,21 @@ void interpolate(const MeshFile& mesh, const MeshField& field, const SampleRow& 
         // Rounding leads out of the range of the corners by no more than the last bit.
         const auto [least, most] = std::minmax({values[0][i], values[1][i], values[2][i]});
         out[i] = std::clamp(value, least, most);
+    }
+}
+
+/// Multiplies a colour by that of the vertices, if they have any: as light, or as they are.
+void tint(const MeshFile& mesh, const SampleRow& row, std::span<double> colour) {
+    if (!mesh.has_values(mesh.vertex_colours, row.face)) {
+        return;
+    }
+    const MeshField& field = *mesh.vertex_colours;
+    std::array<double, 4> by{};
+    interpolate(mesh, field, row, by.data());
+    for (std::size_t k = 0; k < colour.size(); ++k) {
+        const double product =
+            field.is_light ? encoded_light(by[k] * light_of(colour[k])) : by[k] * colour[k];
+        colour[k] = std::clamp(by[k] == 1 ? colour[k] : product, 0.0, 1.0);
     }
 }
 
@@ -87,19 +90,26 @@ SampleField texture_colours(const MeshFile& mesh, const Textures& textures,
     SampleField colours{like.name, like.components, false, true,
                         std::vector<double>(3 * rows.size())};
     for_rows(rows.size(), [&](std::size_t i) {
+        double* const colour = &colours.values[3 * i];
+        std::fill_n(colour, 3, 1.0);
         const MaterialColour* const material = textures.material(mesh, rows[i].face);
         if (material == nullptr) {
-            std::fill_n(&colours.values[3 * i], 3, 1.0);
+            tint(mesh, rows[i], {colour, 3});
             return;
         }
         std::optional<std::array<double, 2>> place;
+        std::array<double, 2> centre{};
         if (material->image && mesh.has_texture_uvs(rows[i].face)) {
             double uv[2];
             interpolate(mesh, *mesh.texture_uvs, rows[i], uv);
             place = material->place(uv[0], uv[1]);
             (*place)[1] = mesh.texture_uvs->is_from_top ? 1 - (*place)[1] : (*place)[1];
+            centre = image_centre(mesh, *material, rows[i].face);
         }
-        std::ranges::copy(textures.colour(*material, place), &colours.values[3 * i]);
+        std::ranges::copy(textures.colour(*material, place, centre), colour);
+        if (mesh.vertex_colours && mesh.vertex_colours->is_light) { // As glTF has it.
+            tint(mesh, rows[i], {colour, 3});
+        }
     });
     return colours;
 }
@@ -109,7 +119,7 @@ Vec3 file_normal(const MeshFile& mesh, const SampleRow& row) {
     for (std::size_t k = 0; k < 3; ++k) {
         const double* const n =
             &mesh.normals
-                 ->values[3 * value_index(mesh, *mesh.normals, std::size_t{3} * row.face + k)];
+                 ->values[3 * mesh.value_index(*mesh.normals, std::size_t{3} * row.face + k)];
         normal += double{row.bary[k]} * Vec3{n[0], n[1], n[2]};
     }
     return normal;

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "files/images/image.hpp"
+#include "files/name_text.hpp"
 #include "geodisk/inputs/radii_input.hpp"
 #include "geometry/mesh_parts.hpp"
 #include "program/exact_text.hpp"
@@ -79,7 +80,7 @@ class PartIndex {
     void choose(const std::string& path, const OnlyRule& rule, std::vector<bool>& chosen) const {
         std::set<std::uint32_t> wanted;
         for (const std::uint32_t number : known_) {
-            if (name_of(number) == rule.name) {
+            if (composed_name(name_of(number)) == composed_name(rule.name)) {
                 wanted.insert(number);
             }
         }
@@ -172,11 +173,14 @@ Mask chosen_by(const std::string& path, const MeshFile& mesh, const std::vector<
     return chosen;
 }
 
-/// Values that a rule compares, of vertices or triangles.
+/// Values that a rule compares, of vertices or corners.
 struct RuleValues {
     std::vector<double> values;
-    const std::vector<std::uint32_t>* corners =
-        nullptr; ///< Vertex of each corner; null: triangles.
+    const std::vector<std::uint32_t>* vertices = nullptr; ///< Vertex of each corner, or null.
+
+    double at(std::size_t corner) const {
+        return values[vertices != nullptr ? (*vertices)[corner] : corner];
+    }
 };
 
 std::vector<double> coordinates_for(const MaskRule& rule, std::size_t axis, const MeshFile& mesh) {
@@ -194,34 +198,39 @@ std::vector<double> coordinates_for(const MaskRule& rule, std::size_t axis, cons
     return coordinates;
 }
 
-RuleValues values_for(const MaskRule& rule, const MeshFile& mesh, const MeshProperty* property,
+RuleValues values_for(const MaskRule& rule, const MeshFile& mesh, const MeshField* number,
                       const SplitFaces* split) {
     if (const auto axis = rule.axis()) {
         return {coordinates_for(rule, *axis, mesh), &mesh.triangles};
     }
-    if (property == nullptr) {
+    if (number == nullptr) {
         const auto& corners = split ? split->parts().triangles() : mesh.triangles;
-        return {map_values(GreyImage(rule.name), split ? split->uvs() : mesh.uvs,
+        return {map_values(GreyImage(rule.name), mesh, split,
                            std::size_t{1} + *std::ranges::max_element(corners)),
                 &corners};
     }
-    return {property->values, property->of_faces ? nullptr : &mesh.corners_in_file()};
+    RuleValues of_corners;
+    for (std::size_t corner = 0; corner < mesh.triangles.size(); ++corner) {
+        const std::size_t index = mesh.value_index(*number, corner);
+        const bool has_value = index < number->values.size(); // Else its triangle takes no part.
+        of_corners.values.push_back(has_value ? number->values[index] : std::nan(""));
+    }
+    return of_corners;
 }
 
 /// Parts that a rule left out, and the values that it found.
 class RuleEffect {
   public:
     /// Takes out of the mask what the rule does not hold for.
-    RuleEffect(const MaskRule& rule, const MeshFile& mesh, const MeshProperty* property, Mask& mask,
+    RuleEffect(const MaskRule& rule, const MeshFile& mesh, const MeshField* number, Mask& mask,
                const SplitFaces* split = nullptr)
         : rule_(rule) {
-        const RuleValues found = values_for(rule, mesh, property, split);
+        const RuleValues found = values_for(rule, mesh, number, split);
         for (std::size_t t = 0; t < mask.size(); ++t) {
             const std::size_t face = split ? split->parts().parts()[t].face : t;
             bool holds = true;
-            for (std::size_t k = 0; k < (found.corners != nullptr ? 3 : 1); ++k) {
-                const std::size_t at = found.corners != nullptr ? (*found.corners)[3 * t + k] : t;
-                holds = regard(found.values[at]) && holds; // All count for the range.
+            for (std::size_t corner = 3 * t; corner < 3 * t + 3; ++corner) {
+                holds = regard(found.at(corner)) && holds; // All count for the range.
             }
             mask[t] = holds ? mask[t] : 0;
             leaves_out_ = leaves_out_ || (!holds && mesh.takes_part(face));
@@ -276,10 +285,11 @@ LoadedMask load_mask(const MaskOptions& options, const std::string& path, const 
                 warning_of_all("--mask " + options.masks[rule], effect.range()));
         }
     };
-    auto property = mesh.properties.begin();
     for (std::size_t i = 0; i < rules.size(); ++i) {
         if (!rules[i].is_map) {
-            note(RuleEffect(rules[i], mesh, rules[i].axis() ? nullptr : &*property++, mask), i);
+            note(RuleEffect(rules[i], mesh, rules[i].axis() ? nullptr : &mesh.number(rules[i].name),
+                            mask),
+                 i);
         }
     }
     if (split != nullptr) {

@@ -125,23 +125,23 @@ MeshSources sources_of(const MeshOptions& options, std::span<const Lift> lifts,
     sources.format = options.format;
     sources.coordinates = options.coordinates;
     sources.edge_lengths = options.edge_lengths;
-    sources.attributes = lift_attributes(lifts);
     sources.weld = options.weld_distance();
-    sources.has_uvs = density && density->kind == Kind::map;
     sources.keep_seams = options.keep_seams;
     sources.fields = options.fields;
     sources.allows_outside = options.allows_outside;
-    if (density && density->kind == Kind::attribute) {
-        sources.attributes.push_back(density->name);
-    }
+    WantedFields& fields = sources.fields;
+    fields.numbers = lift_attributes(lifts);
     for (const MaskRule& rule : masks) {
         if (rule.is_map) {
-            sources.has_uvs = true;
+            fields.uvs = true;
         } else if (!rule.axis()) {
-            sources.properties.push_back(rule.name);
+            fields.numbers.push_back(rule.name);
         }
     }
-    sources.fields.uvs = sources.fields.uvs || sources.has_uvs; // Of each corner.
+    if (density && density->kind == Kind::attribute) {
+        fields.numbers.push_back(density->name);
+    }
+    fields.uvs = fields.uvs || (density && density->kind == Kind::map);
     return sources;
 }
 
@@ -237,10 +237,10 @@ MeshInput load_silently(const MeshOptions& options, ProgressLine& progress,
                    load_seconds,     watch.seconds()};
     mesh.split = std::move(split);
     if (mesh.file.materials) {
-        mesh.textures.emplace(*mesh.file.materials);
+        mesh.textures.emplace(mesh.file);
         mesh.file.materials->images = {}; // Which are decoded now.
     } else if (!options.texture.empty()) {
-        mesh.textures.emplace(options.texture);
+        mesh.textures.emplace(mesh.file, options.texture);
     }
     collect_warnings(path, mesh, lift_attributes(lifts).size() < lifts.size());
     mesh.warnings.insert(mesh.warnings.end(), density_warnings.begin(), density_warnings.end());

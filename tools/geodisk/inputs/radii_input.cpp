@@ -10,6 +10,7 @@
 #include "files/images/image.hpp"
 #include "files/meshes/sidecar_files.hpp"
 #include "geometry/mean_curvature.hpp"
+#include "geometry/vertex_numbers.hpp"
 #include "geometry/weld_mesh.hpp"
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
@@ -27,7 +28,7 @@ struct Values {
 Values values_of(const DensitySource& of, const std::string& path, const MeshFile& file) {
     switch (of.kind) {
     case DensitySource::Kind::attribute:
-        return {path + ": " + in_quotes(of.name), file.attributes.back()};
+        return {path + ": " + in_quotes(of.name), vertex_numbers(file, file.number(of.name))};
     case DensitySource::Kind::file:
         return {of.name, read_values(of.name)};
     case DensitySource::Kind::map:
@@ -113,8 +114,11 @@ RadiusField field_of(const DensitySource& of, Values& values, const PreparedMesh
 
 } // namespace
 
-std::vector<double> map_values(const GreyImage& image, std::span<const VertexUv> uvs,
-                               std::size_t vertex_count) {
+std::vector<double> map_values(const GreyImage& image, const MeshFile& file,
+                               const SplitFaces* split, std::size_t vertex_count) {
+    const std::vector<VertexUv> of_file =
+        split == nullptr ? vertex_uvs(file) : std::vector<VertexUv>();
+    const std::span<const VertexUv> uvs = split == nullptr ? of_file : split->uvs();
     std::vector<double> sums(vertex_count, 0.0);
     std::vector<std::uint32_t> counts(vertex_count, 0);
     for (const auto& [vertex, u, v] : uvs) {
@@ -134,7 +138,7 @@ LoadedRadii load_radii(const DensitySource& of, const std::string& path, const M
         file.positions.empty() ? mesh.vertex_count() : file.positions.size() / file.dimension;
     Values values;
     if (of.kind == Kind::map) {
-        values = {of.name, map_values(GreyImage(of.name), split ? split->uvs() : file.uvs,
+        values = {of.name, map_values(GreyImage(of.name), file, split,
                                       split ? mesh.vertex_count() : vertex_count)};
     } else {
         values = values_of(of, path, file);
@@ -143,7 +147,7 @@ LoadedRadii load_radii(const DensitySource& of, const std::string& path, const M
                        "has " + counted(values.values.size(), "value", "values") + " for the " +
                            counted(vertex_count, "vertex", "vertices") + " of the mesh");
         }
-        if (of.kind != Kind::curvature) { // What each vertex of the file has.
+        if (of.kind == Kind::file) { // What each vertex of the file has.
             values.values = values_of_joined(file, values.values);
         }
         values.values = split ? split->parts().extended(values.values) : values.values;

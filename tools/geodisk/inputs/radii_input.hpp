@@ -16,10 +16,11 @@
 
 namespace geodisk::tools {
 
-/// Returns the grey of an image at vertices with these texture coordinates: the mean over those of
-/// each vertex, as where a seam runs through it both sides have a say; 1 for vertices without.
-std::vector<double> map_values(const GreyImage& image, std::span<const VertexUv> uvs,
-                               std::size_t vertex_count);
+/// Returns the grey of an image at the vertices of `file`, or of the parts of its split faces: the
+/// mean over the texture coordinates of each vertex, as where a seam runs through it both sides
+/// have a say; 1 for vertices without.
+std::vector<double> map_values(const GreyImage& image, const MeshFile& file,
+                               const SplitFaces* split, std::size_t vertex_count);
 
 struct LoadedRadii {
     RadiusField field;
@@ -27,7 +28,7 @@ struct LoadedRadii {
 };
 
 /// The radii by the values at the vertices of the mesh at `path`, which must have been read with
-/// what the source needs: for an attribute as the last one of `file`, for an image with texture
+/// what the source needs: for an attribute with MeshFile::numbers, for an image with texture
 /// coordinates. `split` are the parts of split faces, that `mesh` is made of; null if none are.
 ///
 /// Throws UserError(bad_input) naming the source of a value that is no density or factor, and its

@@ -13,16 +13,6 @@ namespace {
 
 using Uv = std::array<double, 2>;
 
-/// Returns the texture coordinates of a corner of a face, v = 0 at the lower edge of the image.
-Uv uv_of_corner(const MeshFile& mesh, std::size_t face, std::size_t k) {
-    const MeshField& uvs = *mesh.texture_uvs;
-    const std::size_t corner = 3 * face + k;
-    const std::size_t value =
-        uvs.of == MeshField::Of::corners ? uvs.corners[corner] : mesh.corners_in_file()[corner];
-    const double v = uvs.values[2 * value + 1];
-    return {uvs.values[2 * value], uvs.is_from_top ? 1 - v : v};
-}
-
 /// Returns the texture coordinates of the corners of a part; the same to the bit for a whole face.
 std::array<Uv, 3> uvs_of(const MeshFile& mesh, const FacePart& part) {
     const std::array<Uv, 3> of_face{uv_of_corner(mesh, part.face, 0),
@@ -251,8 +241,7 @@ SplitFaces::SplitFaces(const MeshFile& mesh, BisectedMesh parts) : parts_(std::m
             uvs_.push_back({parts_.triangles()[3 * t + k], uvs[k][0], uvs[k][1]});
         }
     }
-    std::ranges::sort(uvs_);
-    uvs_.erase(std::unique(uvs_.begin(), uvs_.end()), uvs_.end());
+    sort_uvs(uvs_);
 }
 
 std::optional<SplitFaces> split_for_images(const MeshFile& mesh,

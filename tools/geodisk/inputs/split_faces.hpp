@@ -13,6 +13,7 @@
 #include "files/images/image.hpp"
 #include "geometry/bisected_mesh.hpp"
 #include "geometry/mesh.hpp"
+#include "geometry/vertex_uvs.hpp"
 
 namespace geodisk::tools {
 
@@ -31,7 +32,7 @@ class SplitFaces {
     SplitFaces(const MeshFile& mesh, BisectedMesh parts);
 
     const BisectedMesh& parts() const { return parts_; }
-    /// Returns the texture coordinates of all corners of parts, as MeshFile::uvs.
+    /// Returns the texture coordinates of all corners of parts, as vertex_uvs().
     std::span<const VertexUv> uvs() const { return uvs_; }
     /// Returns keys of the parts: whole faces, and the first parts of others, have their numbers.
     std::span<const std::uint32_t> keys() const { return keys_; }

@@ -188,9 +188,9 @@ void add_density_options(Command command, DensityOptions& options, OptionUse use
     command.add_option("--density", options.density, "SOURCE",
                        help_for(use, "Make samples per area proportional to a density, in any\n",
                                 "Radii are those of a density of samples per area, in any\n") +
-                           "unit; 0 for none. SOURCE: attribute:NAME or NAME (vertex\n"
-                           "property of a PLY), file:FILE (one value per vertex and\n"
-                           "line), map:FILE (grey of an image at the texture\n"
+                           "unit; 0 for none. SOURCE: attribute:NAME or NAME (attribute\n"
+                           "of the mesh file, as red), file:FILE (one value per vertex\n"
+                           "and line), map:FILE (grey of an image at the texture\n"
                            "coordinates) or curvature. The distance applies where the\n"
                            "density is largest",
                        density);

@@ -206,8 +206,8 @@ void add_mask_options(Command command, MaskOptions& options, OptionUse use) {
         .add_option("--mask", options.masks, "RULE",
                     help_for(use, "Sample only", "Samples lie on", "Take only") +
                         " faces where PROPERTY<VALUE (or <= > >= = !=) holds:\n"
-                        "x, y, z (x0 to x7 in R^n) or a PLY property at all corners, or\n"
-                        "of the face. map:FILE: what is white in an image, or\n"
+                        "x, y, z (x0 to x7 in R^n) or an attribute, as red, at all\n"
+                        "corners, or of the face. map:FILE: what is white in an image, or\n"
                         "compared as a property from 0 to 1. Repeat to add rules",
                     group)
         .takes_one_value();

@@ -40,10 +40,7 @@ WantedFields RecordOptions::fields() const {
     fields.normals = normal_kind() == NormalKind::file;
     fields.uvs = !image().empty();
     fields.materials = texture == kAutoTexture;
-    if (!texture.empty() && fields.lists(kColourField) && !fields.all) {
-        fail_usage("--texture and the attribute color are both the columns red, green and blue; "
-                   "give one of them");
-    }
+    fields.has_texture = !texture.empty();
     return fields;
 }
 
@@ -86,9 +83,9 @@ void add_attributes_option(Command command, RecordOptions& options, const std::s
 void add_record_options(Command command, RecordOptions& options, const std::string& name) {
     add_attributes_option(command, options, name);
     command.add_option("--texture", options.texture, "IMAGE",
-                       "Add the colour of a PNG or JPEG image at the texture coordinates\n"
-                       "of each sample; auto: that of the materials of a glTF or OBJ file\n"
-                       "and their images");
+                       "Add the colour of an image (PNG, JPEG, WebP) at the texture\n"
+                       "coordinates of each sample; auto: that of the materials of a glTF\n"
+                       "or OBJ file and their images");
     command
         .add_option("--normals", options.normals, "NAME",
                     "face: normals of triangles; file: those of the file, as\n"

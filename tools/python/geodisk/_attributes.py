@@ -114,6 +114,25 @@ def _components(name: str, width: int) -> tuple[str, ...] | None:
     return _COMPONENTS.get((name, width))
 
 
+def number_named(attributes: dict[str, Attribute], name: str, what: str) -> NDArray[np.float64]:
+    """Returns an attribute of one number, a component of one, or the luminance of colours."""
+    for key, attribute in attributes.items():
+        values = attribute.array()
+        width = attribute.values.shape[1] if attribute.values.ndim == 2 else 1
+        parts = _components(key, width) or ()
+        if name in parts:
+            return np.asarray(values[..., parts.index(name)])
+        if name == key and width == 1:
+            return values
+        if name == key and parts[:1] and _COLOUR.fullmatch(key):
+            return np.asarray(values[..., :3] @ [77 / 256, 150 / 256, 29 / 256])
+    raise e.invalid(
+        f"{what} is {name!r}, but the mesh was read with "
+        + (f"the attributes {', '.join(attributes)}" if attributes else "no attributes")
+        + f"; give an array, or read it as geodisk.Mesh(path, attributes=[{name!r}])"
+    )
+
+
 def is_colour(name: str, array: NDArray[Any]) -> bool:
     """Returns True for an attribute of colours from 0 to 1, or of bytes."""
     is_wide = array.ndim == 2 and array.shape[1] in (3, 4) and array.dtype.kind in "fui"

@@ -78,8 +78,7 @@ def sample_many(
         As for :func:`sample`; None for a mesh without.
     exact, pool_ratio, darts, stop_count, maximal, order, levels, level_factor, classes,
     class_counts, features, metric, weld, keep_seams, columns, attributes, texture, normals, frames,
-    up, mesh_format,
-    allow_outside, device, progress
+    up, mesh_format, allow_outside, device, progress
         As for :func:`sample`, for all meshes.
 
     Returns

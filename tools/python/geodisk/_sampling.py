@@ -87,12 +87,14 @@ def sample(
     seed : int or None
         A 64-bit number. Equal seeds give equal samples, on every device. None for a random one, which
         ``samples.seed`` tells.
-    density : array_like of float, shape (v,), optional
+    density : array_like of float, shape (v,), (f,) or (f, 3), or str, optional
         Density of samples at each vertex, in any unit; 0 for none. The distance applies where the
-        density is largest.
-    radius_factor : array_like of float, shape (v,), optional
-        Factor of the radius at each vertex, 0.001 to 1. The distance applies to two samples with
-        factor 1.
+        density is largest. Values of faces or of their corners become means at the vertices; of
+        faces, weighted by area. With as many faces as vertices, values are those of vertices. A
+        name is that of an attribute that the mesh was read with, or of a component, as "red".
+    radius_factor : array_like of float, shape (v,), (f,) or (f, 3), or str, optional
+        Factor of the radius at each vertex, 0.001 to 1, given as a density. The distance applies
+        to two samples with factor 1.
     pool_ratio : float
         Candidates per expected sample, 1 to 10,000. More candidates leave fewer gaps: 100 give a
         packing density of 0.75 instead of 0.72.
@@ -149,7 +151,7 @@ def sample(
     edge_lengths, weld, keep_seams, columns, attributes, mesh_format, allow_outside
         Parameters of :class:`Mesh`.
     texture : str or path-like, optional
-        PNG or JPEG image whose colours to add, as ``attributes["color"]``, at the texture
+        PNG, JPEG or WebP image whose colours to add, as ``attributes["color"]``, at the texture
         coordinates that the mesh file has. "auto" adds those of the materials of a glTF or OBJ
         file and their images. Colours are from 0 to 1, as sRGB encodes them.
     normals : {"face", "file", "smooth"}

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _errors as e
 from ._arrays import array_of, indices, real, rows
-from ._attributes import Attribute
+from ._attributes import Attribute, number_named
 from ._values import integer
 
 
@@ -97,21 +97,51 @@ class Surface:
     def vertex_values(self, values: ArrayLike, name: str) -> NDArray[Any]:
         """Returns the values as float64 or float32, one for each vertex."""
         if isinstance(values, str):
-            raise TypeError(
-                f"{name} takes an array, one value per vertex; geodisk.Mesh(path, "
-                f"attributes=[{values!r}]).attributes[{values!r}] has that of a file"
-            )
+            values = number_named(self.attributes, values, name)
         array = array_of(values, name)
         if array.dtype == bool and name == "density":  # A mask.
             array = array.astype(np.float64)
         array = np.ascontiguousarray(real(array, name))
         if array.shape != (self.vertex_count(),):
-            raise e.invalid(
-                f"{name} has the shape {array.shape}, not ({self.vertex_count()},), "
-                "one for each vertex"
-            )
+            return self._means(array, name)
         if self.joined is not None:  # Both sides of a seam have a say.
             sums = np.bincount(self.joined, array, len(array))
             counts = np.bincount(self.joined, minlength=len(array))
             array = (sums / np.maximum(counts, 1))[self.joined]
         return array.astype(array.dtype.newbyteorder("="), copy=False)
+
+    def _means(self, array: NDArray[Any], name: str) -> NDArray[np.float64]:
+        """Returns values of faces or corners as those of vertices, as the program takes them."""
+        faces, vertices = self.indices(), self.vertex_count()
+        count = len(faces)
+        if self.polygons is not None and array.shape == (int(self.polygons.max()) + 1,):
+            array = array[self.polygons]
+        if array.shape not in ((count,), (count, 3)):
+            raise e.invalid(
+                f"{name} has the shape {array.shape}, not ({vertices},), one for each vertex, "
+                f"({count},), one for each face, or ({count}, 3), one for each corner"
+            )
+        if array.ndim == 1:
+            at = faces.ravel()
+            weights = np.repeat(self._areas(), 3)
+            values = np.repeat(array.astype(np.float64), 3)
+        else:  # Each value counts once at a vertex.
+            pairs = np.stack([faces.ravel(), array.ravel()], axis=1).astype(np.float64)
+            at, values = np.unique(pairs, axis=0).T
+            at, weights = at.astype(np.int64), np.ones(len(values))
+        sums = np.bincount(at, weights * values, vertices)
+        totals = np.bincount(at, weights, vertices)
+        means: NDArray[np.float64] = np.ones(vertices)
+        np.divide(sums, totals, out=means, where=totals > 0)
+        return means
+
+    def _areas(self) -> NDArray[np.float64]:
+        """Returns the areas of the triangles."""
+        if self.edge_lengths is not None:
+            lengths = self.lengths()
+        else:
+            points = self.coordinates().astype(np.float64)[self.indices()]
+            lengths = np.linalg.norm(points - np.roll(points, -1, axis=1), axis=2)
+        c, b, a = np.sort(lengths, axis=1).T
+        product = (a + (b + c)) * (c - (a - b)) * (c + (a - b)) * (a + (b - c))
+        return np.asarray(np.sqrt(np.maximum(product, 0)) / 4)

@@ -50,7 +50,7 @@ def transfer(
     attributes : sequence of str, or "all"
         Names of attributes to add, which the file `to` has.
     texture : str or path-like, optional
-        PNG or JPEG image whose colours to add, as ``attributes["color"]``, at the texture
+        PNG, JPEG or WebP image whose colours to add, as ``attributes["color"]``, at the texture
         coordinates that the file `to` has. "auto" adds those of the materials of `to`.
     normals : {"face", "file", "smooth"}, optional
         Normals of triangles, those of the file `to`, or interpolated means at vertices. By default

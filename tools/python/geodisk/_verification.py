@@ -163,7 +163,7 @@ def verify(
     min_distance : float, optional
         Required distance, in the unit of the vertices. By default each sample keeps its radius, or
         the distances of its class.
-    density, radius_factor : array_like of float, shape (v,), optional
+    density, radius_factor : array_like of float or str, optional
         As for :func:`sample`. Radii are computed again from it and the minimum distance (by default
         that of the samples), and compared with those of the samples.
     face_mask, avoid

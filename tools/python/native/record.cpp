@@ -66,7 +66,7 @@ void record(const MeshFile& mesh, const geodisk_record_params& params) {
     }
     if (params.texture != nullptr) {
         const Textures textures =
-            has_materials(params) ? Textures(*mesh.materials) : Textures(Path(params.texture));
+            has_materials(params) ? Textures(mesh) : Textures(mesh, Path(params.texture));
         std::ranges::copy(texture_colours(mesh, textures, rows).values, params.colours);
     }
     if (params.frames != nullptr) {

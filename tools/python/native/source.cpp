@@ -65,11 +65,12 @@ MeshFile mesh_of(const geodisk_source_params& params) {
         sources.fields.names.emplace_back(name);
     }
     if (sources.fields.names == std::vector<std::string>{"all"}) {
-        sources.fields = {{}, true};
+        sources.fields = parse_fields("all");
     }
     sources.fields.normals = params.has_normals != 0;
     sources.fields.uvs = params.has_uvs != 0;
     sources.fields.materials = params.has_materials != 0;
+    sources.fields.has_texture = sources.fields.uvs || sources.fields.materials;
     sources.progress = [stop = params.stop](double) {
         if (stop != nullptr && *stop != 0) {
             throw Stopped();
