@@ -141,8 +141,8 @@ TEST_CASE("an update as its page shows it") {
     const std::uint32_t* const changed = faces.data();
     const std::size_t changed_count = faces.size();
 
-    geodisk_error error = {sizeof error};
-    geodisk_update_info info = {sizeof info};
+    geodisk_error error = GEODISK_INIT(geodisk_error);
+    geodisk_update_info info = GEODISK_INIT(geodisk_update_info);
     geodisk_updater* updater = NULL;
     geodisk_samples* samples = NULL;
     if (geodisk_updater_create(mesh, &params, NULL, points, count, &updater, &error) ||
