@@ -135,14 +135,14 @@ TEST_CASE("an update as its page shows it") {
             faces.push_back(corner / 3);
         }
     }
-    shape.positions[2] *= 1.1;
+    shape.positions[2] += 0.2;
     const auto made_after = mesh_of(shape);
     const geodisk_mesh* const edited = made_after.get();
     const std::uint32_t* const changed = faces.data();
     const std::size_t changed_count = faces.size();
 
-    geodisk_error error = {sizeof error};
-    geodisk_update_info info = {sizeof info};
+    geodisk_error error = GEODISK_INIT(geodisk_error);
+    geodisk_update_info info = GEODISK_INIT(geodisk_update_info);
     geodisk_updater* updater = NULL;
     geodisk_samples* samples = NULL;
     if (geodisk_updater_create(mesh, &params, NULL, points, count, &updater, &error) ||

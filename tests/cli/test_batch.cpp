@@ -232,6 +232,14 @@ TEST_CASE("options of a line replace common ones that set the same thing in anot
         {{"-d", "0.4", "--maximal"},
          "--method darts --darts 99",
          {"-d", "0.4", "--method", "darts", "--darts", "99"}},
+        {{"--classes", "0.5,0.3;0.3,0.2"}, "-d 0.4", {"-d", "0.4"}},
+        {{"-n", "20", "--classes", "2"}, "-r 0.2", {"-r", "0.2", "--classes", "2"}},
+        {{"-d", "0.4", "--only", "part:0", "--mask", "x<0"},
+         "--mask y<0",
+         {"-d", "0.4", "--only", "part:0", "--mask", "y<0"}},
+        {{"-d", "0.4", "--only", "part:1", "--mask", "x<0"},
+         "--only part:0",
+         {"-d", "0.4", "--only", "part:0", "--mask", "x<0"}},
         {{"-d", "0.4", "--order", "farthest", "--keep", "9"}, "--order dart", {"-d", "0.4"}},
         {{"-d", "0.4", "--order", "progressive", "--levels", "2", "--level-factor", "3"},
          "--order farthest",
@@ -249,6 +257,29 @@ TEST_CASE("options of a line replace common ones that set the same thing in anot
         check_same(folder, "out/cube-3.ply", joined({mesh}, one.same));
         std::filesystem::remove_all(folder / "out");
     }
+}
+
+TEST_CASE("samples in a folder of meshes are skipped with a note") {
+    const TemporaryFolder folder;
+    std::filesystem::create_directory(folder / "in");
+    REQUIRE(run(folder, {"shapes", "cube:2", "-o", "in/cube.ply"}).status == 0);
+    for (const char* const name : {"in/cube-samples.ply", "in/more.obj", "in/scene.glb"}) {
+        REQUIRE(run(folder, {"sample", "in/cube.ply", "-n", "9", "-o", name}).status == 0);
+    }
+    const Outcome outcome = run(folder, {"batch", "in", "-o", "out", "-n", "9"});
+    CHECK(outcome.status == 0);
+    CHECK(contains(outcome.err, "geodisk: warning: in: 3 files hold samples, not a mesh, and are "
+                                "skipped: in/cube-samples.ply, ...\n"));
+    CHECK(lines_of(bytes_of(folder / "out/batch.jsonl")).size() == 1);
+    CHECK(std::filesystem::exists(folder / "out/cube.ply"));
+    // One that is named is no mesh.
+    const Outcome named = run(folder, {"batch", "in/cube-samples.ply", "-o", "again", "-n", "9"});
+    CHECK(named.status == 1);
+    CHECK(contains(named.err, "in/cube-samples.ply: holds samples, but a mesh is expected here"));
+    REQUIRE(run(folder, {"sample", "in/cube.ply", "-n", "9", "-o", "s.csv"}).status == 0);
+    check_fails(folder, 3,
+                "s.csv: holds samples, but a mesh, a folder or a manifest is expected here",
+                {"batch", "s.csv", "-o", "other", "-n", "9"});
 }
 
 TEST_CASE("wrong lines of a manifest are told before any work") {

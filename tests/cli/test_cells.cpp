@@ -175,6 +175,8 @@ TEST_CASE("cells: what cannot be found leaves no file") {
     const std::string mesh = "builtin:cube:4";
     check_cells_refused(folder, 2, "the dual graph is written as .obj, .ply or .npz",
                         {mesh, "corners.csv", "-o", "no.csv", "--dual", "no.stl"});
+    check_cells_refused(folder, 3, "has no face that --mask allows, so no cell has an area: 'z' is",
+                        {mesh, "corners.csv", "-o", "no.csv", "--mask", "z>9"});
     check_cells_refused(folder, 2, "xyz", {mesh, "corners.csv", "-o", "no.xyz"});
     check_cells_refused(folder, 2, "no.obj",
                         {mesh, "corners.csv", "-o", "no.obj", "--dual", "no.obj"});

@@ -213,6 +213,8 @@ TEST_CASE("neighbours that cannot be found are refused, and no file is left") {
     refused(3, "empty.txt: names no vertex", {"--within", "1", "--vertices", "@empty.txt"});
     refused(3, "gone.txt", {"--within", "1", "--vertices", "@gone.txt"});
     refused(2, "--vertices: '3-1' is neither", {"--within", "1", "--vertices", "3-1"});
+    refused(3, "so there are no sources to find neighbours of",
+            {"--within", "1", "--mask", "x>=9"});
     refused(2, "--mask: all sources are given by --vertices",
             {"--within", "1", "--vertices", "1", "--mask", "x>=0"});
     refused(2, "--only: all sources are given by POINTS",

@@ -73,7 +73,15 @@ TEST_CASE("samples in the place of their mesh are told the order of the argument
         check_fails(folder, 3, message + "; give MESH SAMPLES in this order",
                     {"verify", name, "builtin:cube"});
         check_fails(folder, 3, message, {"sample", name, "-n", "20", "-o", "b.ply"});
+        check_fails(folder, 3, message + "; --from takes the mesh before, --update its samples",
+                    {"sample", "builtin:cube", "-d", "0.3", "--from", name, "-o", "b.ply"});
     }
+    Setting piping;
+    piping.stdin_path = (folder / "a.ply").string();
+    const Outcome piped =
+        run(folder, {"sample", "-", "--mesh-format", "ply", "-n", "9", "-o", "b.ply"}, piping);
+    CHECK(piped.status == 3);
+    CHECK(contains(piped.err, "standard input: holds samples, but a mesh is expected here"));
 }
 
 TEST_CASE("a mesh alone is sampled and drawn, and no file replaced") {

@@ -47,6 +47,27 @@ def test_pages_show_what_tests_compile(page, language, first, test):
     assert len(shown) >= 3 and [line for line in shown if line not in program] == []
 
 
+def test_embedding_names_what_is_installed():
+    """Headers, targets, pkg-config files and examples; no other files of the sources."""
+    page = (SOURCE / "host/docs/embedding.md").read_text()
+    prose = re.sub(r"^```.*?^```$", "", page, flags=re.M | re.S)
+    quoted = [name.strip("<>") for name in re.findall(r"`([^`]*)`", prose)]
+    headers = {name for name in quoted if re.fullmatch(r"geodisk/[\w/]+\.(hpp|h)", name)}
+    places = {"geodisk/shaders": SOURCE / "shaders/shared", "geodisk": SOURCE / "host/include/geodisk"}
+    for header in sorted(headers):
+        folder, name = header.rsplit("/", 1)
+        assert (places[folder] / name).is_file(), header
+    examples = {name for name in quoted if re.fullmatch(r"(engine|record|paint)(/[\w.]+)?", name)}
+    for name in sorted(examples):
+        assert (SOURCE / "tools/examples" / name).exists(), name
+    assert len(headers) > 5 and len(examples) > 4
+    files = [name for name in quoted if re.match(r"(tools|tests|host|kernels_ref|shaders)/", name)]
+    assert files == ["tools/examples/"]
+    targets = {name for name in quoted if name in ("geodisk::geodisk", "geodisk::context", "geodisk::c")}
+    exported = (SOURCE / "host/CMakeLists.txt").read_text()
+    assert targets and all(f"add_library({target} ALIAS " in exported for target in targets)
+
+
 def test_every_guide_is_told_of():
     page = GUIDES.read_text()
     for program in (SOURCE / "tools/examples/guides").iterdir():

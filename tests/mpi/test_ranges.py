@@ -10,7 +10,7 @@ import threading
 
 import pytest
 
-from launching import alone, run
+from launching import PROGRAM, alone, run
 from surfaces import grid, torus, write_ply
 
 
@@ -38,7 +38,7 @@ def check_same(tmp_path, arguments, counts, name="samples.ply", more=()):
         found = tmp_path / f"{count}-{name}"
         code, _, errors = run(count, "sample", *arguments, "-o", str(found), "--quiet", *more)
         assert code == 0, errors
-        assert all(line.startswith("geodisk: warning: ") for line in errors.splitlines())
+        assert all(line.startswith("geodisk_mpi: warning: ") for line in errors.splitlines())
         assert found.read_bytes() == expected.read_bytes(), count
 
 
@@ -316,6 +316,22 @@ def test_more_processes_than_faces(tmp_path):
                           "--quiet")
     assert code == 2 and errors.count("\n") == 1 and not out.exists()
     assert "there are 3 processes, but the mesh has 2 faces" in errors
+
+
+@pytest.mark.parametrize("there", ["missing", "shorter"])
+def test_file_that_processes_do_not_share(tmp_path, there):
+    for name in ("one", "two"):
+        (tmp_path / name).mkdir()
+    write_ply(tmp_path / "one" / "a.ply", *torus(90, 30))
+    if there == "shorter":
+        write_ply(tmp_path / "two" / "a.ply", *torus(60, 30))
+    sample = ["sample", "a.ply", "--count", "20", "-o", str(tmp_path / "s.ply"), "--quiet"]
+    parts = ["-wdir", str(tmp_path / "one"), PROGRAM, *sample, ":", "-n", "1"]
+    parts += ["-wdir", str(tmp_path / "two")]
+    code, _, errors = run(1, *sample, program=parts)
+    assert code == 3 and not (tmp_path / "s.ply").exists()
+    told = "cannot be opened on process 1" if there == "missing" else "differs on process 1: "
+    assert errors.count("\n") == 1 and f"geodisk_mpi: a.ply: {told}" in errors
 
 
 def test_file_that_changes_while_it_is_read(tmp_path):

@@ -66,6 +66,14 @@ def test_samples_are_those_of_the_program(tmp_path):
     )
 
 
+def test_samples_are_no_mesh(tmp_path):
+    samples = geodisk.sample("builtin:cube", count=20)
+    for name in ("a.ply", "a.csv", "a.npz", "a.obj", "a.glb"):
+        samples.save(tmp_path / name)
+        with pytest.raises(geodisk.MeshRejected, match="holds samples, but a mesh is expected here"):
+            geodisk.Mesh(tmp_path / name)
+
+
 def test_arrays_of_all_kinds():
     expected = geodisk.sample(VERTICES, FACES, min_distance=0.5)
     wide = np.zeros((len(VERTICES), 7))

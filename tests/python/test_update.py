@@ -261,6 +261,14 @@ def test_transfers_keep_normals_and_frames(roof):
         geodisk.update(there, roof[1])
 
 
+def test_removed_existing_samples_and_points_are_no_longer_told_of():
+    given = geodisk.sample(VERTICES, FACES, min_distance=0.3, seed=5, existing=SAMPLES[:3])
+    for samples in (SAMPLES, given):
+        there = geodisk.update(samples, existing=([], []), avoid=([], 0.5))
+        assert there.report["options"] == []
+        assert same(there, geodisk.sample(VERTICES, FACES, min_distance=0.3, seed=5))
+
+
 @pytest.mark.filterwarnings("ignore::geodisk.MeshWarning")
 def test_what_cannot_be_updated_is_refused(tmp_path):
     def refused(match, samples=SAMPLES, *arguments, kind=geodisk.InvalidArgument, **options):

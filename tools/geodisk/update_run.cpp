@@ -195,7 +195,9 @@ std::string edit_text(const SampleJob& job) {
 }
 
 UpdateRun::UpdateRun(const SampleJob& job, const MeshInput& mesh, ProgressLine& progress)
-    : job_(job), mesh_(mesh), before_(load_mesh(options_of(job), progress, job.density, job.mask)),
+    : job_(job), mesh_(mesh),
+      before_(load_mesh(options_of(job), progress, job.density, job.mask,
+                        "--from takes the mesh before, --update its samples")),
       params_(params_on(before_, job)) {
     check_edit(job, before_, mesh_);
     if (before_.split) {

@@ -83,6 +83,7 @@ struct PlyLayout {
 struct FileState {
     std::uint64_t size;
     std::int64_t time;
+    std::int64_t is_missing; ///< Not 0 for no file that can be opened.
 
     bool operator==(const FileState&) const = default;
 };
@@ -90,6 +91,10 @@ struct FileState {
 FileState state_of(const Path& path) {
     std::error_code error;
     FileState state{};
+    state.is_missing = std::ifstream(path) ? 0 : 1;
+    if (state.is_missing != 0) {
+        return state;
+    }
     state.size = std::filesystem::file_size(path, error);
     state.time = static_cast<std::int64_t>(
         std::filesystem::last_write_time(path, error).time_since_epoch().count());
@@ -314,6 +319,33 @@ MeshRange read_range(const Path& path, const PlyLayout& layout, const RangeWants
     return range;
 }
 
+/// Returns why the processes cannot read one file together, by its state before and after they
+/// read;
+/// "" if they can.
+std::string fault_of(std::span<const std::array<FileState, 2>> states) {
+    const FileState& first = states.front()[0];
+    for (std::size_t process = 0; process < states.size(); ++process) {
+        const auto& [before, after] = states[process];
+        const std::string on_it = " on process " + std::to_string(process);
+        if (before.is_missing != 0) {
+            return "cannot be opened" + on_it + ": every process reads the file at this path";
+        }
+        if (before.size != first.size && before == after) {
+            return "differs" + on_it + ": " + std::to_string(before.size) + " bytes, but " +
+                   std::to_string(first.size) +
+                   " on process 0; every process must read the same file";
+        }
+        if (before != after) {
+            return "changed while it was read; sample it when nothing writes to it";
+        }
+        if (before != first) {
+            return "changed while it was read, or is another file" + on_it +
+                   " than on process 0; sample one file of all when nothing writes to it";
+        }
+    }
+    return "";
+}
+
 /// Returns true if some value of a process is a factor that can be raised to the floor.
 bool has_factors(const RangeWants& wants, const MeshRange& range) {
     return wants.density && wants.density->floor &&
@@ -345,11 +377,8 @@ Result<MeshRange> read_ply_range(Exchange& exchange, const Path& path, const Ran
     if (!all_states) {
         return all_states.error();
     }
-    for (const auto& [first, last] : *all_states) {
-        if (first != states[0] || last != states[0]) {
-            return Error{Status::invalid_argument,
-                         "changed while it was read; sample it when nothing writes to it"};
-        }
+    if (const std::string fault = fault_of(*all_states); !fault.empty()) {
+        return Error{Status::invalid_argument, fault};
     }
     if (auto well = exchange.check_all(needs_whole ? &*needs_whole : nullptr); !well) {
         return well.error();

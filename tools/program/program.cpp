@@ -24,7 +24,7 @@
 namespace geodisk::tools {
 namespace {
 
-std::string noted_command;
+std::string noted_name = "geodisk", noted_command;
 
 int fail(const char* program, ExitCode code, const std::string& message) {
     std::cout.flush();
@@ -137,6 +137,10 @@ int run(const char* name, const char* description, SetUp set_up, int argc, char*
 
 } // namespace
 
+const std::string& program_name() {
+    return noted_name;
+}
+
 const std::string& given_command() {
     return noted_command;
 }
@@ -167,6 +171,7 @@ std::vector<std::string> words_of(const std::function<void(Command)>& set_up,
 
 int run_program(const char* name, const char* description, SetUp set_up, int argc, char** argv,
                 Rewrite rewrite) {
+    noted_name = name;
     occupy_closed_streams();
     install_signal_handlers(name);
     install_crash_handlers(name);

@@ -31,6 +31,9 @@ void run_arguments(const std::function<void(Command)>& set_up, std::vector<std::
 std::vector<std::string> words_of(const std::function<void(Command)>& set_up,
                                   const std::function<void(Command)>& set_up_usual);
 
+/// The name that run_program() was called with, as messages begin with it.
+const std::string& program_name();
+
 /// The command that run_program() was called by, as a line for a shell.
 const std::string& given_command();
 

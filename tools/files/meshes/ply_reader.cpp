@@ -8,6 +8,7 @@
 #include "files/meshes/polygon_mesh.hpp"
 #include "files/meshes/sidecar_files.hpp"
 #include "files/ply_file.hpp"
+#include "files/samples/told_samples.hpp"
 #include "geometry/mesh.hpp"
 #include "program/exact_text.hpp"
 #include "program/failure.hpp"
@@ -153,11 +154,12 @@ PolygonMesh read_ply(const Path& path, const PlyWanted& wanted, const ReadingPro
     PolygonMesh mesh;
     mesh.names = {"element face, record ", "element vertex, record ", {}, {}, 0};
     bool has_vertices = false;
-    bool has_faces = false;
+    bool has_faces = false, has_weights = false;
     for (const PlyElement& element : file.elements()) {
         if (element.name == "vertex") {
             file.check_unique(element);
             has_vertices = true;
+            has_weights = element.find_scalar("bary_u").has_value();
             read_vertices(path, file, element, wanted, mesh);
         } else if (element.name == "face") {
             file.check_unique(element);
@@ -176,6 +178,9 @@ PolygonMesh read_ply(const Path& path, const PlyWanted& wanted, const ReadingPro
         fail_input(path, "has no element vertex");
     }
     if (!has_faces) {
+        if (has_weights) { // As samples have; of a stream nothing else tells.
+            fail_input(path, kHoldsSamples);
+        }
         fail_input(path, "has no faces: there is no element face or tristrips");
     }
     if (mesh.corner_uvs.empty() && !mesh.uvs.empty()) {

@@ -14,9 +14,11 @@
 #include "files/meshes/mesh_file.hpp"
 #include "files/output/files_in_use.hpp"
 #include "files/samples/sample_format.hpp"
+#include "files/samples/told_samples.hpp"
 #include "geodisk/inputs/manifest.hpp"
 #include "geodisk/inputs/mesh_folder.hpp"
 #include "geodisk/options/sample_command.hpp"
+#include "geodisk/outputs/outputs.hpp"
 #include "geodisk/sample_run.hpp"
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
@@ -105,8 +107,19 @@ BatchItem item_of_mesh(const BatchOptions& batch, const std::string& mesh,
 
 std::vector<BatchItem> items_in_folder(const BatchOptions& batch, const Path& folder) {
     std::vector<BatchItem> items;
+    std::vector<std::string> skipped;
     for (const std::filesystem::path& file : mesh_files_in(folder, batch.folder)) {
-        items.push_back(item_of_mesh(batch, (folder / file).string(), file.string()));
+        const Path path = folder / file;
+        if (begins_as_samples(path)) {
+            skipped.push_back(path.string());
+        } else {
+            items.push_back(item_of_mesh(batch, path.string(), file.string()));
+        }
+    }
+    if (!skipped.empty()) {
+        print_warning(folder.string() + ": " + counted(skipped.size(), "file holds", "files hold") +
+                      " samples, not a mesh, and " + (skipped.size() == 1 ? "is" : "are") +
+                      " skipped: " + skipped.front() + (skipped.size() > 1 ? ", ..." : ""));
     }
     if (items.empty()) {
         fail_input(folder, "holds no mesh (*.gltf, *.glb, *.obj, *.off, *.ply or *.stl)");
@@ -151,7 +164,13 @@ std::vector<BatchItem> items_of(const BatchOptions& batch, const std::string& in
     if (is_mesh(input)) {
         return {item_of_mesh(batch, input, input)};
     }
-    return is_folder(input) ? items_in_folder(batch, input) : items_in_manifest(batch, input);
+    if (is_folder(input)) {
+        return items_in_folder(batch, input);
+    }
+    if (holds_samples(input)) {
+        fail_input(input, "holds samples, but a mesh, a folder or a manifest is expected here");
+    }
+    return items_in_manifest(batch, input);
 }
 
 /// Marks items that would write the same file: none of them has a better right to it.

@@ -170,6 +170,7 @@ void add_cells_command(Command app) {
                        "edges, triangles)");
     add_attributes_option(command, options->out.record);
     add_mesh_options(command, options->mesh);
+    options->mask.lacking = "no cell has an area";
     add_mask_options(command, options->mask, OptionUse::choosing);
     add_tolerance_option(command, options->tolerance);
     add_output_options(command, options->out);

@@ -291,6 +291,7 @@ void add_neighbours_command(Command app) {
     command.add_option("--most-pairs", options->max_pairs, "N",
                        "Stop if more than N pairs are expected (default 2^30)");
     add_mesh_options(command, options->mesh);
+    options->mask.lacking = "there are no sources to find neighbours of";
     add_mask_options(command, options->mask, OptionUse::choosing);
     add_tolerance_option(command, options->tolerance);
     add_json_option(command, options->out);

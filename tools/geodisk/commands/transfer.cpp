@@ -84,7 +84,7 @@ void check_files(const TransferOptions& options) {
 }
 
 MeshInput load(const MeshOptions& mesh, ProgressLine& progress) {
-    return load_mesh(mesh, progress, {}, {}, "SAMPLES MESH_A MESH_B");
+    return load_mesh(mesh, progress, {}, {}, "give SAMPLES MESH_A MESH_B in this order");
 }
 
 std::string corners_text(const MeshFile& mesh, std::size_t face) {

@@ -308,7 +308,7 @@ LoadedMask load_mask(const MaskOptions& options, const std::string& path, const 
         fail_input(path,
                    "has no face that " + options.names() +
                        (options.only.empty() || options.masks.empty() ? " allows" : " allow") +
-                       ", so no samples fit" + (ranges.empty() ? "" : ": " + ranges));
+                       ", so " + options.lacking + (ranges.empty() ? "" : ": " + ranges));
     }
     return loaded;
 }

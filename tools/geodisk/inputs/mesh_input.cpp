@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "files/meshes/mesh_file.hpp"
-#include "files/samples/sample_file.hpp"
+#include "files/samples/told_samples.hpp"
 #include "geodisk/inputs/mask_input.hpp"
 #include "geodisk/inputs/radii_input.hpp"
 #include "geodisk/outputs/outputs.hpp"
@@ -35,14 +35,6 @@ void collect_warnings(const std::string& path, MeshInput& mesh, bool has_normals
     }
     for (MeshWarning& warning : mesh.warnings) {
         warning.file = path;
-    }
-}
-
-bool holds_samples(const std::string& path) {
-    try {
-        return read_samples(path).has_faces;
-    } catch (const UserError&) {
-        return false;
     }
 }
 
@@ -187,7 +179,8 @@ void MeshInput::place(SampleRow& row) const {
 }
 
 MeshInput load_silently(const MeshOptions& options, ProgressLine& progress,
-                        const DensityOptions& density, const MaskOptions& mask) {
+                        const DensityOptions& density, const MaskOptions& mask,
+                        const std::string& hint) {
     const std::string& path = options.mesh;
     const std::optional<DensitySource> source = density.source();
     const std::vector<Lift> lifts = options.parsed_lifts();
@@ -198,7 +191,7 @@ MeshInput load_silently(const MeshOptions& options, ProgressLine& progress,
         check_interrupted();
         progress.update(part, "");
     };
-    MeshFile file = read_mesh(sources);
+    MeshFile file = read_unless_samples(path, hint, [&] { return read_mesh(sources); });
     const double load_seconds = watch.seconds();
     check_interrupted();
 
@@ -252,18 +245,8 @@ MeshInput load_silently(const MeshOptions& options, ProgressLine& progress,
 
 MeshInput load_mesh(const MeshOptions& options, ProgressLine& progress,
                     const DensityOptions& density, const MaskOptions& mask,
-                    const std::string& order) {
-    MeshInput mesh;
-    try {
-        mesh = load_silently(options, progress, density, mask);
-    } catch (const UserError& error) {
-        if (error.code() == ExitCode::bad_input && holds_samples(options.mesh)) {
-            fail_input(options.mesh,
-                       "holds samples, but a mesh is expected here" +
-                           (order.empty() ? "" : "; give " + order + " in this order"));
-        }
-        throw;
-    }
+                    const std::string& hint) {
+    MeshInput mesh = load_silently(options, progress, density, mask, hint);
     progress.clear();
     for (const MeshWarning& warning : mesh.warnings) {
         print_warning((warning.file.empty() ? "" : warning.file + ": ") + warning.message);

@@ -121,15 +121,16 @@ struct MeshInput {
 };
 
 /// Reads and prepares a mesh. Throws UserError as read_mesh(), lifted_positions(), load_radii() and
-/// load_mask(), or bad_input when the mesh is rejected.
+/// load_mask(), or bad_input when the mesh is rejected. The error for samples in its place ends
+/// with `hint`, unless that is "".
 MeshInput load_silently(const MeshOptions& options, ProgressLine& progress,
-                        const DensityOptions& density, const MaskOptions& mask);
+                        const DensityOptions& density, const MaskOptions& mask,
+                        const std::string& hint = "");
 
-/// The same, and writes warnings to standard error. The error for samples in the place of the mesh
-/// tells the order of the command's arguments, unless it is "".
+/// The same, and writes warnings to standard error.
 MeshInput load_mesh(const MeshOptions& options, ProgressLine& progress,
                     const DensityOptions& density = {}, const MaskOptions& mask = {},
-                    const std::string& order = "MESH SAMPLES");
+                    const std::string& hint = "give MESH SAMPLES in this order");
 
 /// The same for who takes whole faces. Throws UserError(usage) if an image shows more of the mask
 /// than corners of faces.

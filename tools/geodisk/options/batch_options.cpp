@@ -65,6 +65,9 @@ void drop_replaced(SampleOptions& common, const SampleOptions& line) {
         common.min_distance.clear();
         common.radius.clear();
     }
+    if ((!line.min_distance.empty() || !line.radius.empty()) && has_distances(common.classes)) {
+        common.classes.clear();
+    }
     if (has_length && !throws_darts) {
         common.count.clear();
         common.method.exact = false;
@@ -73,8 +76,11 @@ void drop_replaced(SampleOptions& common, const SampleOptions& line) {
     if (!line.density.given().empty()) {
         common.density = {};
     }
-    if (line.mask.is_given()) {
-        common.mask = {};
+    if (!line.mask.only.empty()) {
+        common.mask.only.clear();
+    }
+    if (!line.mask.masks.empty()) {
+        common.mask.masks.clear();
     }
 }
 
@@ -173,7 +179,7 @@ LineOptions parse_line(const SampleOptions& common, const std::vector<std::strin
         sample.density.place_files(
             [&folder](const std::string& name) { return seen_from(folder, name); });
     }
-    if (alone.sample.mask.is_given()) {
+    if (!alone.sample.mask.masks.empty()) {
         sample.mask.place_files(
             [&folder](const std::string& name) { return seen_from(folder, name); });
     }

@@ -42,6 +42,7 @@ struct MaskRule {
 /// As given on the command line.
 struct MaskOptions {
     std::vector<std::string> only, masks;
+    std::string lacking = "no samples fit"; ///< What follows from a mask that leaves nothing.
 
     bool is_given() const { return !only.empty() || !masks.empty(); }
     /// Throw UserError(usage) for what they cannot read.

@@ -10,6 +10,7 @@
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
 #include "program/interrupt.hpp"
+#include "program/program.hpp"
 #include "program/terminal.hpp"
 
 namespace geodisk::tools {
@@ -120,7 +121,8 @@ void flush_or_fail(const std::string& what) {
 
 void print_failure(const std::string& subject, const std::string& message) {
     const bool is_named = message.starts_with(subject + ": ");
-    std::cerr << "geodisk: " << one_line(is_named ? message : subject + ": " + message) << '\n';
+    std::cerr << program_name() << ": " << one_line(is_named ? message : subject + ": " + message)
+              << '\n';
 }
 
 void print_warning(const std::string& message) {
@@ -128,7 +130,8 @@ void print_warning(const std::string& message) {
     if (!printed.insert(message).second) {
         return;
     }
-    std::cerr << coloured("geodisk: warning:", Colour::yellow) << ' ' << one_line(message) << '\n';
+    std::cerr << coloured(program_name() + ": warning:", Colour::yellow) << ' ' << one_line(message)
+              << '\n';
 }
 
 } // namespace geodisk::tools

@@ -82,7 +82,7 @@ void flush_or_fail(const std::string& what);
 /// things go on.
 void print_failure(const std::string& subject, const std::string& message);
 
-/// "geodisk: warning: MESSAGE" on standard error, once for each message.
+/// "NAME: warning: MESSAGE", NAME that of the program, on standard error, once for each message.
 void print_warning(const std::string& message);
 
 } // namespace geodisk::tools

@@ -134,7 +134,8 @@ def bake(
     """
     if not isinstance(samples, Samples):
         raise TypeError(f"samples are a geodisk.Samples, not {type(samples).__name__}")
-    width, height = pixels(size if isinstance(size, (tuple, list, np.ndarray)) else (size, size))
+    sides = size if isinstance(size, (tuple, list, np.ndarray)) else (size, size)
+    width, height = pixels(sides, 1)
     padding = integer(padding, "padding", 16384)
     source, on, path = _texture_of(mesh, flag(allow_outside, "allow_outside"))
     points = points_of(on, samples, "samples", is_needed=True)

@@ -77,7 +77,7 @@ def render(
     vertices, faces, weld, keep_seams
         Mesh of the samples, as for :func:`sample`. Needed for samples that were read from a file.
     size : (int, int)
-        Width and height in pixels.
+        Width and height in pixels, 16 to 16384 each.
     style : {"auto", "disks", "points", "voronoi", "distance", "density"}
         Geodesic disks, exact in each pixel; or points, Voronoi cells, the distance to the nearest
         sample, or the density. "auto" draws disks, or points if disks would be too small.
@@ -119,7 +119,7 @@ def render(
     <geodisk.Picture of 320 x 240 pixels>
     """
     surface = surface_of(samples, vertices, faces, None, weld, keep_seams)
-    width, height = pixels(size)
+    width, height = pixels(size, 16)
     options: dict[str, Any] = {
         "size": f"{width}x{height}",
         "style": text(style, "style"),

@@ -316,6 +316,10 @@ def _parameters(before: Mapping[str, Any] | None) -> dict[str, Any]:
 
 
 def _is_chosen(name: str, value: Any) -> bool:
+    if name == "existing" and value is not None:
+        return not _is_empty(value)
+    if name == "avoid" and value is not None:
+        return not _avoids_nothing(value)
     return bool(value != 20) if name == "pool_ratio" else value is not None
 
 
@@ -335,11 +339,15 @@ def _existing(mesh: c.Handle, existing: ExistingLike | None) -> NDArray[Any]:
     return existing_of(mesh, existing)
 
 
+def _avoids_nothing(avoid: AvoidLike | None) -> bool:
+    return isinstance(avoid, (tuple, list)) and len(avoid) == 2 and _is_empty(avoid[0])
+
+
 def _avoided(
     mesh: c.Handle, avoid: AvoidLike | None
 ) -> tuple[NDArray[Any], NDArray[np.float64]]:
     """Returns points to avoid and radii as the library takes them; none for empty points."""
-    if isinstance(avoid, (tuple, list)) and len(avoid) == 2 and _is_empty(avoid[0]):
+    if _avoids_nothing(avoid):
         return avoided_of(mesh, None)
     return avoided_of(mesh, avoid)
 

@@ -86,12 +86,12 @@ def weld_of(weld: Any) -> bool | float:
     return distance
 
 
-def pixels(size: Any) -> tuple[int, int]:
-    """Returns a width and a height, each from 1 to 16384."""
+def pixels(size: Any, least: int) -> tuple[int, int]:
+    """Returns a width and a height, each from `least` to 16384."""
     sides = listed(size)
     if sides is None or len(sides) != 2:
         raise e.invalid(f"size is {reprlib.repr(size)}, not (width, height)")
-    return integer(sides[0], "size", 16384, 1), integer(sides[1], "size", 16384, 1)
+    return integer(sides[0], "size", 16384, least), integer(sides[1], "size", 16384, least)
 
 
 def text(value: object, name: str) -> str:

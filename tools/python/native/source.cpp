@@ -9,6 +9,7 @@
 #include "files/meshes/mesh_file.hpp"
 #include "files/meshes/part_columns.hpp"
 #include "files/meshes/polygon_mesh.hpp"
+#include "files/samples/told_samples.hpp"
 #include "program/failure.hpp"
 
 using namespace geodisk;
@@ -76,7 +77,7 @@ MeshFile mesh_of(const geodisk_source_params& params) {
             throw Stopped();
         }
     };
-    return read_mesh(sources);
+    return read_unless_samples(sources.mesh, "", [&] { return read_mesh(sources); });
 }
 
 std::unique_ptr<geodisk_source> source_of(const geodisk_source_params& params) {

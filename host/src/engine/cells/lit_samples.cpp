@@ -61,7 +61,7 @@ Result<std::unique_ptr<LitSamples>> LitSamples::make(Runner& runner, const Prepa
     GEODISK_TRY(check_mask_size(mesh, params.face_mask));
     if (!params.face_mask.empty() && std::ranges::count(params.face_mask, 0) ==
                                          static_cast<std::ptrdiff_t>(params.face_mask.size())) {
-        return invalid("the face mask leaves out all faces");
+        return invalid("the face mask leaves out all faces, so no cell has an area");
     }
     auto made = std::make_unique<LitSamples>();
     made->params = params;
