@@ -24,7 +24,9 @@ void NamedImages::take(const std::string& name, const Place& place, MaterialColo
     }
     material.image = material.tiles.begin()->second;
     if (!set->is_pattern) {
-        warnings_.push_back({"image_tiles", 1, "",
+        warnings_.push_back({"image_tiles",
+                             1,
+                             "",
                              place.owner + "its image " + in_quotes(name) + " and " +
                                  std::to_string(tiles.size() - 1) +
                                  " more are read as the tiles of one image (UDIM)",

@@ -22,8 +22,8 @@ class NamedImages {
     /// What names an image, for messages.
     struct Place {
         const Path& file;
-        std::string line;  ///< "line 2: ", or "".
-        std::string owner; ///< "material 'a': ", or "".
+        std::string line;   ///< "line 2: ", or "".
+        std::string owner;  ///< "material 'a': ", or "".
         const char* advice; ///< What to do if the image is not there.
     };
 
