@@ -230,7 +230,7 @@ def test_render(tmp_path):
         (lambda: geodisk.verify(SAMPLES, VERTICES * np.nan, FACES), geodisk.MeshRejected, "finite"),
         (lambda: geodisk.verify(SAMPLES, min_distance=np.nan), ValueError, "positive"),
         (lambda: geodisk.verify(SAMPLES, density=[1, 1]), ValueError, "one for each vertex"),
-        (lambda: geodisk.verify(SAMPLES, density="flat"), TypeError, "density"),
+        (lambda: geodisk.verify(SAMPLES, density="flat"), ValueError, "density"),
         (lambda: geodisk.verify(SAMPLES, density=-ONES), ValueError, "density"),
         (lambda: geodisk.verify(SAMPLES, radius_factor=2 * ONES), ValueError, "factor"),
         (

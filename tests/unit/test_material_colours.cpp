@@ -324,6 +324,41 @@ TEST_CASE("images of a set are the tiles of texture coordinates") {
           std::vector<double>{0, 1, 0});
 }
 
+TEST_CASE("comments of PLY files name images") {
+    const TemporaryFolder folder;
+    folder.write("a b.png", kColourImage);
+    folder.write("c.png", png_bytes(1, 1, std::string_view("\0\0\xff", 3), 8, 2));
+    const auto read_ply = [&](const std::string& comments, const std::string& property,
+                              const std::string& first, const std::string& second) {
+        return read_with_materials(folder.write(
+            "a.ply", "ply\nformat ascii 1.0\n" + comments +
+                         "element vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+                         "property float s\nproperty float t\nelement face 2\n"
+                         "property list uchar int vertex_indices\n" +
+                         property +
+                         "end_header\n0 0 0 0.25 0.75\n1 0 0 0.75 0.75\n"
+                         "0 1 0 0.75 0.25\n3 0 1 2" +
+                         first + "\n3 0 1 2" + second + "\n"));
+    };
+    const std::string one = "comment TextureFile A b.png\n",
+                      both = one + "comment TextureFile c.png\n";
+    const std::string number = "property int texnumber\n";
+    check_colours(read_ply(one, "", "", ""), 0, {kRed, kGreen, kWhiteColour});
+    const MeshFile mesh = read_ply(both, number, " 1", " 0");
+    check_colours(mesh, 0, {kBlue, kBlue, kBlue});
+    check_colours(mesh, 1, {kRed, kGreen, kWhiteColour});
+    CHECK(mesh.fields.empty());
+    const auto fails = [&](const std::string& comments, const std::string& property,
+                           const std::string& values, std::string_view part) {
+        check_fails(ExitCode::bad_input, part,
+                    [&] { read_ply(comments, property, values, values); });
+    };
+    fails(both, "", "", "a.ply: names several images, but its faces have no texnumber");
+    fails(both, number, " 2", "record 0: texnumber is 2, but the file names 2 images");
+    fails("comment TextureFile none.png\n", "", "", "none.png is not there; correct the comment");
+    fails("", "", "", "a.ply: has no materials, which --texture auto needs");
+}
+
 TEST_CASE("faces without material have the colours of their vertices") {
     const std::string colours = "v 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 1 1 0 1 1 1\n";
     const TemporaryFolder folder;

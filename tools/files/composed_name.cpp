@@ -11,14 +11,13 @@ namespace {
 std::string mapped(std::string_view bytes, int options) {
     const std::string text = readable_name(bytes);
     utf8proc_uint8_t* result = nullptr;
-    const auto size =
-        utf8proc_map(reinterpret_cast<const utf8proc_uint8_t*>(text.data()),
-                     static_cast<utf8proc_ssize_t>(text.size()), &result,
-                     static_cast<utf8proc_option_t>(options));
+    const auto size = utf8proc_map(reinterpret_cast<const utf8proc_uint8_t*>(text.data()),
+                                   static_cast<utf8proc_ssize_t>(text.size()), &result,
+                                   static_cast<utf8proc_option_t>(options));
     const std::unique_ptr<utf8proc_uint8_t, void (*)(void*)> owner(result, std::free);
-    return size < 0 ? text
-                    : std::string(reinterpret_cast<const char*>(result),
-                                  static_cast<std::size_t>(size));
+    return size < 0
+               ? text
+               : std::string(reinterpret_cast<const char*>(result), static_cast<std::size_t>(size));
 }
 
 } // namespace

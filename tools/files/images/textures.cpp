@@ -75,9 +75,9 @@ std::array<double, 3> Textures::image_colour(const MaterialColour& material,
     if (found == material.tiles.end()) {
         return images_[*material.image].at(place[0], place[1], material.wrap_u, material.wrap_v);
     }
-    const std::uint32_t index = *tile - kFirstTile;
-    return images_[found->second].at(place[0] - index % kTilesPerRow,
-                                     place[1] - index / kTilesPerRow, ImageWrap::clamp,
+    const std::uint32_t column = (*tile - kFirstTile) % kTilesPerRow;
+    const std::uint32_t row = (*tile - kFirstTile) / kTilesPerRow;
+    return images_[found->second].at(place[0] - column, place[1] - row, ImageWrap::clamp,
                                      ImageWrap::clamp);
 }
 

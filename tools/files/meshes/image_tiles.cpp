@@ -45,8 +45,8 @@ std::optional<TileName> tile_name(const std::string& name) {
             continue;
         }
         const bool is_pattern = mark[0] == '<';
-        const bool is_apart = at > 0 && !is_word(name[at - 1]) && end < name.size() &&
-                              !is_word(name[end]);
+        const bool is_apart =
+            at > 0 && !is_word(name[at - 1]) && end < name.size() && !is_word(name[end]);
         if (is_pattern || is_apart) {
             return TileName{name.substr(0, at), name.substr(end), is_pattern, mark == kMarks[1]};
         }

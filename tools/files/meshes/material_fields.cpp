@@ -29,8 +29,8 @@ void check_places(const Path& path, const ElementNames& names, std::size_t face,
 
 void take_materials(const Path& path, PolygonMesh& polygons, MeshFile& mesh) {
     if (!polygons.materials && !mesh.vertex_colours) {
-        fail_input(path, "has no materials, which --texture auto needs; only glTF files, and OBJ "
-                         "files with MTL files, may have them");
+        fail_input(path, "has no materials, which --texture auto needs; only glTF files, OBJ "
+                         "files with MTL files, and PLY files with images, may have them");
     }
     mesh.materials = std::move(polygons.materials).value_or(MaterialColours{});
     Found without, bare;

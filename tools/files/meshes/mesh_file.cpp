@@ -379,7 +379,7 @@ MeshFile read_mesh(const MeshSources& sources) {
     if (extension == ".ply") {
         const bool has_other_source = !sources.coordinates.empty() || !sources.edge_lengths.empty();
         const PlyWanted wanted{!has_other_source, sources.fields};
-        return to_triangles(sources, read_ply(path, wanted, sources.progress));
+        return to_triangles(sources, read_ply(path, wanted, scope, sources.progress));
     }
     if (extension == ".off") {
         return to_triangles(sources, read_off(path, sources.fields, sources.progress));

@@ -11,8 +11,8 @@
 #include <utility>
 
 #include "files/input_file.hpp"
-#include "files/meshes/image_tiles.hpp"
 #include "files/meshes/mtl_records.hpp"
+#include "files/meshes/named_images.hpp"
 #include "files/name_text.hpp"
 #include "files/text_file.hpp"
 #include "program/exact_text.hpp"
@@ -127,7 +127,10 @@ class MtlReader {
             words = words.subspan(size);
         }
         if (!words.empty()) {
-            take_image(joined_text(words));
+            images_.take(joined_text(words),
+                         {mtl_, "line " + std::to_string(line_) + ": ",
+                          "material " + in_quotes(name_) + ": ", "correct map_Kd, or add the file"},
+                         *current_);
         }
     }
 
@@ -165,58 +168,12 @@ class MtlReader {
         }
     }
 
-    /// Takes an image, or the tiles of a set of images.
-    void take_image(const std::string& name) {
-        const auto set = tile_name(name);
-        const auto tiles = set ? find_tiles(mtl_, *set) : std::map<std::uint32_t, std::string>();
-        current_->has_tiles_by_name = set && set->is_pattern && !tiles.empty();
-        if (tiles.size() > 1 || current_->has_tiles_by_name) {
-            for (const auto& [tile, file] : tiles) {
-                current_->tiles[tile] = image_of(file);
-            }
-            current_->image = current_->tiles.begin()->second;
-            if (!set->is_pattern) {
-                warnings_.push_back({"image_tiles",
-                                     1,
-                                     "",
-                                     material() + "its image " + in_quotes(name) + " and " +
-                                         std::to_string(tiles.size() - 1) +
-                                         " more are read as the tiles of one image (UDIM)",
-                                     {}});
-            }
-            return;
-        }
-        current_->image = image_of(name);
-    }
-
-    std::string material() const { return "material " + in_quotes(name_) + ": "; }
-
-    /// Returns the index of an image, which is read the first time that a material names it.
-    std::uint32_t image_of(const std::string& name) {
-        const FoundFile found = scope_.find(mtl_, name);
-        if (!found.refusal.empty()) {
-            fail(material() + "its image " + found.refusal);
-        }
-        if (!is_file(found.file)) {
-            fail(material() + "its image " + named_path(mtl_, readable_name(name)).string() +
-                 " is not there; correct map_Kd, or add the file");
-        }
-        const auto next = static_cast<std::uint32_t>(result_.images.size());
-        const auto [index, is_new] = images_.try_emplace(found.file.string(), next);
-        if (is_new) {
-            note_name(material() + "its image", found, warnings_);
-            result_.images.push_back({mtl_.string() + ": " + material() + found.file.string(),
-                                      read_regular_file(found.file)});
-        }
-        return index->second;
-    }
-
     const Path& obj_;
     const FileScope& scope_;
     std::vector<MeshWarning>& warnings_;
     MaterialColours result_;
     std::map<std::string, std::size_t> wanted_; ///< Numbers of materials by name.
-    std::map<std::string, std::uint32_t> images_;
+    NamedImages images_{scope_, result_.images, warnings_};
     std::set<std::string> known_files_;
     Path mtl_;
     std::uint32_t line_ = 0;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "files/meshes/ply_fields.hpp"
+#include "files/meshes/ply_materials.hpp"
 #include "files/meshes/polygon_mesh.hpp"
 #include "files/meshes/sidecar_files.hpp"
 #include "files/ply_file.hpp"
@@ -149,8 +150,12 @@ void read_strips(PlyFile& file, const PlyElement& element, PolygonMesh& mesh) {
 
 } // namespace
 
-PolygonMesh read_ply(const Path& path, const PlyWanted& wanted, const ReadingProgress& progress) {
+PolygonMesh read_ply(const Path& path, PlyWanted wanted, const FileScope& scope,
+                     const ReadingProgress& progress) {
     PlyFile file(path, progress);
+    if (wanted.fields.materials) {
+        wanted.fields.numbers.emplace_back(kImageNumber);
+    }
     PolygonMesh mesh;
     mesh.names = {"element face, record ", "element vertex, record ", {}, {}, 0};
     bool has_vertices = false;
@@ -196,6 +201,9 @@ PolygonMesh read_ply(const Path& path, const PlyWanted& wanted, const ReadingPro
     }
     if (mesh.has_lost_uvs) {
         std::erase_if(mesh.fields, [](const MeshField& field) { return field.name == kUvField; });
+    }
+    if (wanted.fields.materials) {
+        take_ply_materials(file, scope, mesh);
     }
     const Found& unknown = file.unknown_lines();
     add_warning(mesh.warnings, "unknown_header_lines", unknown.count,

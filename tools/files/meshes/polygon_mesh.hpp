@@ -94,7 +94,9 @@ struct PlyWanted {
 /// Reads the coordinates of element `vertex`, which are x0 x1 ..., 3 to 8 of them, where there is
 /// an x0, and x y z otherwise, and the list `vertex_indices` or `vertex_index` of element `face`
 /// and of strips of triangles in element `tristrips`, in any format, type and order; everything
-/// else is skipped. Throws UserError(bad_input) naming the element and record.
-PolygonMesh read_ply(const Path& path, const PlyWanted& wanted, const ReadingProgress& progress);
+/// else is skipped but, where asked for, the images of `scope` that comments name. Throws
+/// UserError(bad_input) naming the element and record.
+PolygonMesh read_ply(const Path& path, PlyWanted wanted, const FileScope& scope,
+                     const ReadingProgress& progress);
 
 } // namespace geodisk::tools
