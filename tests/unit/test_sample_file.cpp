@@ -391,7 +391,8 @@ TEST_CASE("comments are left out on request, and the samples read back") {
 TEST_CASE("a mesh file is not a sample file and the other way round") {
     const TemporaryFolder folder;
     write_samples(folder / "a.ply", kHeader, some_rows(0), false);
-    check_fails(ExitCode::bad_input, "no faces", [&] { read_mesh((folder / "a.ply").string()); });
+    check_fails(ExitCode::bad_input, "holds samples",
+                [&] { read_mesh((folder / "a.ply").string()); });
     check_refused("b.ply",
                   "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\n"
                   "property float y\nproperty float z\nelement face 1\n"

@@ -136,7 +136,9 @@ SampleJob parse_job(const SampleOptions& options) {
     }
     job.mesh.fields = options.out.record.fields();
     job.mesh.texture = options.out.record.image();
-    if (!job.out.output.empty()) {
+    const bool has_record =
+        job.out.record.frame_style().has_value() || !job.out.record.entries().empty();
+    if (!job.out.output.empty() && has_record) {
         job.out.record.check(job.out.target());
     }
     job.out.check_scene(!options.picture.empty());
