@@ -2,7 +2,9 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -62,6 +64,30 @@ std::string refusal(const PreparedMesh& mesh, const SampleParams& params) {
     return domain.error().message;
 }
 
+/// Distances between samples of a set with classes, by the twin in double precision.
+struct ClassPairs {
+    std::size_t violations = 0;
+    double closest_free =
+        std::numeric_limits<double>::infinity(); ///< Of classes without a distance.
+
+    ClassPairs(const PreparedMesh& mesh, const SampleParams& params, const SampleSet& set) {
+        std::vector<Point> points;
+        for (const Sample& s : set.samples) {
+            points.push_back({s.face, s.weights[1], s.weights[2]});
+        }
+        const auto count = static_cast<std::size_t>(std::sqrt(params.class_factors.size()));
+        GeodesicQuery<double> query(mesh, 1.1 * params.min_distance, points, tight_tolerances());
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            const std::vector<double> distances = query.from(points[i]);
+            for (std::size_t k = 0; k < i; ++k) {
+                const double factor = params.class_factors[count * set.classes[i] + set.classes[k]];
+                violations += distances[k] < factor * params.min_distance;
+                closest_free = factor == 0 ? std::min(closest_free, distances[k]) : closest_free;
+            }
+        }
+    }
+};
+
 } // namespace
 
 TEST_SUITE("classes") {
@@ -111,21 +137,7 @@ TEST_SUITE("classes") {
         SampleParams params = params_for(mesh, 150, 5);
         params.class_factors = kUneven;
         const SampleSet set = sample(mesh, params);
-        std::vector<Point> points;
-        for (const Sample& s : set.samples) {
-            points.push_back({s.face, s.weights[1], s.weights[2]});
-        }
-        GeodesicQuery<double> query(prepared(shape), 1.1 * params.min_distance, points,
-                                    tight_tolerances());
-        std::size_t violations = 0;
-        for (std::size_t i = 0; i < points.size(); ++i) {
-            const std::vector<double> distances = query.from(points[i]);
-            for (std::size_t k = 0; k < i; ++k) {
-                const double factor = kUneven[2u * set.classes[i] + set.classes[k]];
-                violations += distances[k] < factor * params.min_distance;
-            }
-        }
-        CHECK(violations == 0);
+        CHECK(ClassPairs(mesh, params, set).violations == 0);
     }
 
     TEST_CASE("two classes that keep no distance know nothing of each other") {
@@ -137,23 +149,9 @@ TEST_SUITE("classes") {
         groups.plan.disks_by = DisksBy::groups;
         const SampleSet set = check_classed(mesh, params);
         CHECK(points_of(check_classed(mesh, params, groups)) == points_of(set));
-        std::vector<Point> points;
-        for (const Sample& s : set.samples) {
-            points.push_back({s.face, s.weights[1], s.weights[2]});
-        }
-        GeodesicQuery<double> query(mesh, 1.1 * params.min_distance, points, tight_tolerances());
-        double closest = params.min_distance;
-        std::size_t violations = 0;
-        for (std::size_t i = 0; i < points.size(); ++i) {
-            const std::vector<double> distances = query.from(points[i]);
-            for (std::size_t k = 0; k < i; ++k) {
-                const double factor = free[3u * set.classes[i] + set.classes[k]];
-                violations += distances[k] < factor * params.min_distance;
-                closest = factor == 0 ? std::min(closest, distances[k]) : closest;
-            }
-        }
-        CHECK(violations == 0);
-        CHECK(closest < 0.1 * params.min_distance);
+        const ClassPairs pairs(mesh, params, set);
+        CHECK(pairs.violations == 0);
+        CHECK(pairs.closest_free < 0.1 * params.min_distance);
         const Factors bare{0, 1, 1, 1};
         params.class_factors = bare;
         CHECK(refusal(mesh, params) == "the factor of classes 0 and 0 is 0, not from 0.01 to 1");
