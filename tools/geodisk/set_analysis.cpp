@@ -7,6 +7,7 @@
 
 #include <geodisk/params.hpp>
 
+#include "geodisk/options/class_options.hpp"
 #include "geometry/mesh_parts.hpp"
 #include "program/arguments.hpp"
 #include "program/command.hpp"
