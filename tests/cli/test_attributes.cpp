@@ -263,6 +263,11 @@ TEST_CASE("no output replaces a file that a mesh names, however it is named") {
     fails(2, "m.mtl: the samples would replace a file that m.dat names",
           {"sample", "n.dat", "--from", "m.dat", "--mesh-format", "obj", "-d", "0.2", "-o", "m.mtl",
            "--format", "ply"});
+    folder.write("tile.1001.png", "kept");
+    fails(2, "tile.1001.png: the samples would replace the texture",
+          {"sample", "n.dat", "--mesh-format", "obj", "-d", "0.2", "--texture", "tile.<UDIM>.png",
+           "-o", "tile.1001.png", "--format", "csv"});
+    CHECK(bytes_of(folder / "tile.1001.png") == "kept");
     Setting piped;
     piped.stdin_path = (folder / "m.obj").string();
     fails(3, "'x.mtl' is not read, as a mesh from a stream has no folder",

@@ -110,6 +110,19 @@ TEST_CASE("cells: the dual mesh carries attributes") {
         CHECK(std::abs(std::stod(cut[cut.size() - 2]) - 2 * x) < 1e-5);
         CHECK(cut.back() == "3");
     }
+    write_file(folder, "area.ply",
+               "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+               "property float z\nproperty float area\nproperty float heat\nelement face 1\n"
+               "property list uchar int vertex_indices\nend_header\n"
+               "0 0 0 1 2\n1 0 0 1 2\n0 1 0 1 2\n3 0 1 2\n");
+    write_file(folder, "corner.csv", "x,y,z\n0.2,0.2,0\n0.5,0.3,0\n");
+    const Outcome all =
+        run(folder, {"cells", "area.ply", "corner.csv", "-o", "d.csv", "--attributes", "all"});
+    CHECK(all.status == 0);
+    CHECK(contains(all.err, "the attribute 'area' has the name of a column"));
+    CHECK(contains(bytes_of(folder / "d.csv"), ",area,heat\n"));
+    check_cells_refused(folder, 2, "area is the column of the areas of cells",
+                        {"area.ply", "corner.csv", "-o", "no.csv", "--attributes", "area"});
     check_cells_refused(
         folder, 2, "--dual: .obj has no attribute 'height', just color and uv",
         {"square.ply", "points.csv", "-o", "no.csv", "--dual", "no.obj", "--attributes", "height"});

@@ -234,6 +234,10 @@ TEST_CASE("two classes may keep no distance from each other") {
 
 TEST_CASE("each class has as many samples as asked for") {
     const TemporaryFolder folder;
+    // A table with -0 is read again.
+    REQUIRE(run(folder, {"sample", kClassesMesh, "-o", "zero.csv", "--classes", "0.5,-0;-0,0.5"})
+                .status == 0);
+    CHECK(run(folder, {"verify", kClassesMesh, "zero.csv"}).status == 0);
     const Arguments darts{"--classes", "0.5,0.4;0.4,0.3", "--method", "darts"};
     const auto sampled = [&](const char* file, const Arguments& options) {
         return run(folder, joined(joined({"sample", kClassesMesh, "-o", file}, darts), options));
@@ -253,6 +257,8 @@ TEST_CASE("each class has as many samples as asked for") {
     };
     refuses({"-n", "3000,7"}, "--count: placed only ");
     refuses({"-n", "3,7,9"}, "--count has 3 numbers, one for each class, but --classes has 2");
+    refuses({"-n", "2,7", "--existing", "few.csv"},
+            "class 0 has more existing samples than the 2 asked for");
     refuses({"-n", "3,"}, "--count: '' is not a whole number");
     CHECK(sampled("some.csv", {"-n", "3000,7", "--darts", "5000"}).status == 0);
     const Outcome pool =

@@ -271,6 +271,10 @@ TEST_SUITE("neighbours") {
         CHECK(near.distances == alone.distances);
         CHECK(near.report.windows == alone.report.windows);
 
+        // A distance that is short for the mesh cuts the lists too.
+        query.within = 1e-6;
+        CHECK(found(knot, query).indices.empty());
+
         // As many as there are within the distance, or within that of each source.
         query.within = std::sqrt(knot.statistics().area) / 20;
         query.nearest = 0;

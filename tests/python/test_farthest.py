@@ -39,6 +39,7 @@ def test_samples_come_in_that_order(samples):
     order = geodisk.farthest_order(samples)
     assert np.array_equal(far.points, samples.points[order.indices])
     assert np.array_equal(far.attributes["cover"], order.distances)
+    assert np.array_equal(far.attributes["row"], order.indices)
     assert np.array_equal(far.order, order.indices)
 
 

@@ -167,7 +167,7 @@ TEST_CASE("attributes that cannot be used are refused by name and place") {
                   "vertex 0 1 0\nendloop\nendfacet\nendsolid a\n",
                   "color", "has no attribute 'color', or any other");
     for (const char* const name : {"radius", "Class", "bary_u", "mesh", "qx", "points", "existing",
-                                   "cover", "normal", "normal_x", "st", "displayColor"}) {
+                                   "cover", "row", "normal", "normal_x", "st", "displayColor"}) {
         CAPTURE(name);
         const std::string taken =
             ply_of(heat + "property float " + name + "\n", {"1 1", "2 2", "3 3"});
@@ -180,6 +180,14 @@ TEST_CASE("attributes that cannot be used are refused by name and place") {
               "the attribute '" + std::string(name) +
                   "' has the name of a column of samples, so '" + name +
                   "' is left out; rename it in the file to have it");
+    }
+    // Composed letters, their parts, and Latin-1 are one name.
+    const std::string composed = "t\xc3\xb6", parts = "to\xcc\x88", latin = "t\xf6";
+    for (const std::string& in_file : {composed, parts, latin}) {
+        const std::string named = ply_of("property float " + in_file + "\n", {"1", "2", "3"});
+        for (const std::string& wanted : {composed, parts, latin}) {
+            CHECK(mesh_with("a.ply", named, wanted).fields.size() == 1);
+        }
     }
     for (const char* const names : {"heat HEAT", "my-heat my.heat", "heat _heat"}) {
         CAPTURE(names);

@@ -14,6 +14,7 @@
 #include "files/meshes/material_fields.hpp"
 #include "files/meshes/part_columns.hpp"
 #include "files/meshes/polygon_mesh.hpp"
+#include "files/name_text.hpp"
 #include "files/samples/sample_columns.hpp"
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
@@ -74,7 +75,7 @@ std::set<std::string> names_taken() {
     names.insert(kNumberedColumnNames.begin(), kNumberedColumnNames.end());
     names.insert(kFrameColumnNames.begin(), kFrameColumnNames.end());
     for (const std::string_view name :
-         {kExistingColumn, kClassColumn, kLevelColumn, kFeatureColumn, kCoverColumn}) {
+         {kExistingColumn, kClassColumn, kLevelColumn, kFeatureColumn, kCoverColumn, kRowColumn}) {
         names.emplace(name);
     }
     for (const std::string& name : part_column_names()) {
@@ -251,6 +252,11 @@ std::vector<std::string> component_names(std::string_view name) {
     return names;
 }
 
+/// Returns true for names of the same letters, however they are composed and encoded.
+bool are_same(std::string_view a, std::string_view b) {
+    return a == b || composed_name(a) == composed_name(b);
+}
+
 /// Returns true if `wanted` is `name`, or "red" for colours, "u" for texture coordinates and so on.
 /// Colours have "vertex_" before their name beside a texture.
 bool means(std::string_view wanted, std::string_view name) {
@@ -258,7 +264,7 @@ bool means(std::string_view wanted, std::string_view name) {
     if (name == kColourField && wanted.starts_with(kVertex)) {
         wanted.remove_prefix(kVertex.size());
     }
-    if (wanted == name) {
+    if (are_same(wanted, name)) {
         return true;
     }
     const std::vector<std::string> components = component_names(name);
@@ -353,18 +359,22 @@ MeshField luminance_of(const std::string& name, const MeshField& colours) {
 
 /// Returns the number that a name means, see take_fields().
 MeshField number_of(const Path& path, const std::string& name, const PolygonMesh& polygons) {
-    const auto own = std::ranges::find(polygons.own_columns, name, &MeshField::name);
+    const auto is_called = [&](const MeshField& field) { return are_same(name, field.name); };
+    const auto own = std::ranges::find_if(polygons.own_columns, is_called);
     if (own != polygons.own_columns.end()) {
         return *own;
     }
     for (const MeshField& field : polygons.fields) {
-        const auto found = std::ranges::find(field.components, name);
+        const auto found =
+            std::ranges::find_if(field.components, [&](const std::string& component) {
+                return are_same(name, component);
+            });
         if (found != field.components.end()) {
             return component_of(name, field,
                                 static_cast<std::size_t>(found - field.components.begin()));
         }
     }
-    const auto field = std::ranges::find(polygons.fields, name, &MeshField::name);
+    const auto field = std::ranges::find_if(polygons.fields, is_called);
     if (field == polygons.fields.end()) {
         fail_unknown(path, name, polygons.fields);
     }

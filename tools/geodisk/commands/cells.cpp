@@ -61,11 +61,18 @@ void check_files(const CellOptions& options) {
     options.out.check_scene(false);
 }
 
-void check_attributes(const CellOptions& options, const MeshInput& mesh) {
-    const std::vector<MeshField>& fields = mesh.file.fields;
-    if (std::ranges::find(fields, kAreaColumn, &MeshField::name) != fields.end()) {
-        fail_usage(
-            "--attributes: area is the column of the areas of cells; name the other attributes");
+/// Checks that the outputs can hold the attributes. With `all`, one called area is left out.
+void check_attributes(const CellOptions& options, MeshInput& mesh) {
+    std::vector<MeshField>& fields = mesh.file.fields;
+    const auto area = std::ranges::find(fields, kAreaColumn, &MeshField::name);
+    if (area != fields.end()) {
+        if (!options.mesh.fields.all) {
+            fail_usage("--attributes: area is the column of the areas of cells; name the other "
+                       "attributes");
+        }
+        fields.erase(area);
+        print_warning(options.mesh.mesh + ": the attribute 'area' has the name of a column of " +
+                      "samples with cells, so it is left out");
     }
     if (!options.dual.empty()) {
         check_dual(dual_format(options.dual), mesh.dimension(), fields);
@@ -101,7 +108,7 @@ void run_cells_command(CellOptions options) {
     check_files(options);
 
     ProgressLine progress(options.out.quiet);
-    const MeshInput mesh = load_masked_mesh(options.mesh, progress, options.mask);
+    MeshInput mesh = load_masked_mesh(options.mesh, progress, options.mask);
     check_dimension(options.out.target(), mesh.dimension());
     check_attributes(options, mesh);
     std::vector<MeshWarning> warnings;

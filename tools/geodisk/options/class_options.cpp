@@ -54,7 +54,7 @@ ClassTable table_of(const Rows& rows, const Fail& fail) {
                  counted(count, "row", "rows"));
         }
         for (std::size_t b = 0; b < count; ++b) {
-            const double distance = rows[a][b];
+            const double distance = rows[a][b] + 0.0; // -0 is 0.
             const bool is_free = a != b && distance == 0;
             if (!is_free && (!(distance > 0) || !std::isfinite(distance))) {
                 fail("the distance " + entry_text(a, b) + " is " + exact_text(distance) +

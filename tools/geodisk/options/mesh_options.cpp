@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "files/meshes/image_tiles.hpp"
 #include "files/meshes/mesh_file.hpp"
 #include "program/command.hpp"
 #include "program/failure.hpp"
@@ -47,6 +48,11 @@ void MeshOptions::add_files(std::vector<NamedFile>& read, const std::string& wha
                                      std::pair{std::string("the texture"), texture}}) {
         if (!path.empty()) {
             read.push_back({name, path});
+        }
+    }
+    if (const auto tiles = tile_name(texture); tiles && tiles->is_pattern) {
+        for (const auto& [number, image] : find_tiles("", *tiles)) {
+            read.push_back({"the texture", image});
         }
     }
 }

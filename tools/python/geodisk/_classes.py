@@ -23,7 +23,7 @@ class Classes:
     """The classes of a run: factors of the minimum distance, and distances where a table has them."""
 
     def __init__(self, classes: ClassesLike) -> None:
-        table = real(classes, "classes").astype(np.float64)
+        table = real(classes, "classes").astype(np.float64) + 0.0  # -0 is 0.
         self.distances: NDArray[np.float64] | None = None
         if table.ndim == 0:
             if not 1 <= table <= _MAX or table != int(table):

@@ -188,11 +188,11 @@ def put_farthest_first(
     device: DeviceLike | None,
     progress: bool | ProgressCallback,
 ) -> Samples:
-    """Returns samples in farthest-point order after existing ones, with the attribute cover."""
+    """Returns samples in farthest-point order after existing ones, with attributes cover and row."""
     if len(samples) == 0:
         return samples
     points = points_of(handle, samples, "samples")
     order = order_on(handle, points, None, 0, existing, device, progress)
     chosen = samples[order.indices]
-    cover = order.distances.astype(np.float64)
-    return dataclasses.replace(chosen, attributes={**chosen.attributes, "cover": cover})
+    told = {"cover": order.distances.astype(np.float64), "row": order.indices.astype(np.int64)}
+    return dataclasses.replace(chosen, attributes={**chosen.attributes, **told})

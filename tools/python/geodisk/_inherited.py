@@ -64,7 +64,7 @@ class Wanted:
         columns = before.columns.keys() - after.columns.keys() - {"existing"}
         lost = [f"columns[{name!r}]" for name in columns]
         if self.attributes is None:
-            own = before.attributes.keys() - after.attributes.keys() - {"cover"}
+            own = before.attributes.keys() - after.attributes.keys() - {"cover", "row"}
             own -= {"frames"} if self.frames is not None else set()
             lost += [f"attributes[{name!r}]" for name in own]
         had = record_of(before).normals

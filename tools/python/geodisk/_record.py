@@ -103,6 +103,8 @@ def _style_of(frames: bool | str) -> tuple[str | None, bool]:
         return ("yes" if frames else None), False
     if not isinstance(frames, str):
         raise TypeError(f"frames is {reprlib.repr(frames)}, neither True, False nor a text")
+    if not frames:
+        raise e.invalid("frames is '', which names no style")
     (style,) = c.run("frame_style", text=text(frames, "frames"))
     read = json.loads(style)
     return read["text"], read["has_up"]

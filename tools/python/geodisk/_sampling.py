@@ -113,7 +113,7 @@ def sample(
         ``samples.level_distances`` their distances.
         "farthest" puts samples in farthest-point order after `existing` ones, see
         :func:`farthest_order`;
-        ``samples.attributes["cover"]`` has the distance of each to the nearest before it.
+        ``samples.attributes["cover"]`` has the distance of each to the nearest before it, and ``["row"]`` its place in dart order.
     levels : int, optional
         Number of levels, 1 to 32. By default the first one has 16 samples or somewhat more.
     level_factor : float, optional

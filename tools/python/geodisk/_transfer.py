@@ -18,7 +18,7 @@ from ._record import Record, recorded
 from ._samples import Samples
 from ._surface import Surface
 
-_OF_ONE_POSE = frozenset({"cover", "frames"})
+_OF_ONE_POSE = frozenset({"cover", "row", "frames"})
 
 
 def transfer(
@@ -69,7 +69,7 @@ def transfer(
     Returns
     -------
     Samples
-        Samples with the same faces and weights, and their attributes but for ``cover``, which other
+        Samples with the same faces and weights, and their attributes but for ``cover`` and ``row``, which other
         poses change. `min_distance` is their smallest distance there, NaN if no path joins two
         samples, and `radius` is half of it.
 

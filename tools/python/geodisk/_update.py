@@ -401,7 +401,7 @@ def _mesh_before(
         path = vertices
         mesh, _ = wanted.mesh(
             samples,
-            tuple(name for name in samples.attributes if name not in ("frames", "cover")),
+            tuple(name for name in samples.attributes if name not in ("frames", "cover", "row")),
             lambda record, read: mesh_of(
                 path, None, None, weld, keep_seams, attributes=read, record=record,
                 allow_outside=allow_outside,

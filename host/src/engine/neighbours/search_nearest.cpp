@@ -26,7 +26,8 @@ constexpr double kFactor = 2;
 class NearestSearch {
   public:
     NearestSearch(Runner::Impl& runner, const PreparedMesh& mesh, const NeighbourQuery& query)
-        : runner_(runner), mesh_(mesh), query_(query), bound_(distance_bound(mesh)) {}
+        : runner_(runner), mesh_(mesh), query_(query), shortest_(shortest_distance(mesh)),
+          bound_(distance_bound(mesh)) {}
     NearestSearch(const NearestSearch&) = delete;
     NearestSearch& operator=(const NearestSearch&) = delete;
 
@@ -54,6 +55,7 @@ class NearestSearch {
     Runner::Impl& runner_;
     const PreparedMesh& mesh_;
     const NeighbourQuery& query_;
+    double shortest_;                    ///< Disks are no smaller.
     double bound_;                       ///< No path is longer.
     std::vector<std::uint32_t> wanted_;  ///< Neighbours of each source.
     std::vector<std::uint32_t> pending_; ///< Sources that lack some.
@@ -105,7 +107,7 @@ double NearestSearch::first_distance() const {
     const double each = mesh_.statistics().area / static_cast<double>(targets_);
     const double wanted = std::min<double>(query_.nearest, static_cast<double>(targets_));
     const double needed = std::sqrt(each * wanted / std::numbers::pi);
-    return std::max(kFirst * needed, shortest_distance(mesh_));
+    return std::max(kFirst * needed, shortest_);
 }
 
 Progress NearestSearch::so_far(const Progress& now) {
@@ -128,7 +130,7 @@ Task<Result<Done>> NearestSearch::search(double within) {
     double largest = 0;
     for (const std::uint32_t source : pending_) {
         points_.push_back(query_.sources[source]);
-        radii_.push_back(std::min(within, limit(source)));
+        radii_.push_back(std::max(std::min(within, limit(source)), shortest_));
         largest = std::max(largest, radii_.back());
     }
     NeighbourQuery query = query_;
@@ -160,7 +162,9 @@ void NearestSearch::keep(const Neighbours& found, double within) {
         for (std::size_t at = found.offsets[row]; at < found.offsets[row + 1]; ++at) {
             const bool is_own =
                 query_.kind == NeighbourKind::sources && found.indices[at] == source;
-            if (!is_own && indices.size() < wanted_[source]) {
+            // A disk may be larger than the query allows, where that is short for the mesh.
+            const bool is_near = limit(source) >= shortest_ || found.distances[at] <= limit(source);
+            if (!is_own && is_near && indices.size() < wanted_[source]) {
                 indices.push_back(found.indices[at]);
                 distances.push_back(found.distances[at]);
             }

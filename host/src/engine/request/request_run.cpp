@@ -7,6 +7,7 @@
 #include <string>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 #include <geodisk/request.hpp>
 
@@ -103,6 +104,29 @@ class SurfaceSteps {
     std::size_t corners_ = 0;
 };
 
+/// Checks that there is a number for each class, and that its existing samples are no more.
+Result<Done> check_class_counts(const SampleRequest& request) {
+    const auto counts = request.class_counts;
+    const SampleParams& params = request.params;
+    const std::size_t classes = params.class_factors.empty() ? 0 : class_count(params);
+    if (counts.empty()) {
+        return Done{};
+    }
+    if (counts.size() != classes) {
+        return invalid("class_counts has " + std::to_string(counts.size()) + " numbers for " +
+                       std::to_string(classes) + " classes");
+    }
+    std::vector<std::size_t> existing(classes);
+    for (std::size_t i = 0; i < params.existing.size(); ++i) {
+        const std::size_t own = params.existing_classes.empty() ? 0 : params.existing_classes[i];
+        if (own < classes && ++existing[own] > counts[own]) {
+            return invalid("class " + std::to_string(own) + " has more existing samples than the " +
+                           std::to_string(counts[own]) + " asked for");
+        }
+    }
+    return Done{};
+}
+
 Result<Done> SurfaceSteps::prepare() {
     const std::size_t existing = request_.params.existing.size();
     GEODISK_TRY(check_rules(request_));
@@ -118,12 +142,7 @@ Result<Done> SurfaceSteps::prepare() {
         return invalid("keep is " + std::to_string(request_.keep) + ", but " +
                        std::to_string(existing) + " existing samples are kept too");
     }
-    const std::size_t classes =
-        request_.params.class_factors.empty() ? 0 : class_count(request_.params);
-    if (!request_.class_counts.empty() && request_.class_counts.size() != classes) {
-        return invalid("class_counts has " + std::to_string(request_.class_counts.size()) +
-                       " numbers for " + std::to_string(classes) + " classes");
-    }
+    GEODISK_TRY(check_class_counts(request_));
     const Levels& levels = request_.levels;
     if (!has_levels() && (levels.count != 0 || levels.factor != Levels{0}.factor)) {
         return invalid("levels are for the progressive order");
