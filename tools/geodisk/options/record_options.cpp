@@ -14,8 +14,8 @@ namespace {
 
 /// By NormalKind.
 const std::vector<std::string>& normal_names() {
-    static const std::vector<std::string> names{"face", "file", "smooth"};
-    return names;
+    static const std::vector<std::string> kNames{"face", "file", "smooth"};
+    return kNames;
 }
 
 } // namespace

@@ -180,6 +180,7 @@ Result<Done> FarthestSearch::search(std::uint32_t first) {
     const bool is_infinite = distance == kInfinite;
     const std::vector<std::uint32_t> sources = is_infinite ? first_of_parts() : farthest_open();
     std::vector<Sample> points;
+    points.reserve(sources.size());
     for (const std::uint32_t source : sources) {
         points.push_back(samples_[source]);
     }

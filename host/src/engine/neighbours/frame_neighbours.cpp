@@ -198,7 +198,7 @@ Result<Done> FrameNeighbours::Impl::make_lists(std::uint32_t least, VkCommandBuf
     const double expected = ready > 0 ? kSparePairs * pairs / ready * count()
                                       : sizes.each() * std::min<double>(count(), kFirstSources);
     const double most =
-        std::min(static_cast<double>(engine().report.limits.max_storage_buffer_range / 4),
+        std::min(static_cast<double>(engine().report.limits.max_storage_buffer_range) / 4,
                  static_cast<double>(query.max_pairs) + kMinPairs);
     if (least > most) {
         return Error{Status::job_too_large,
@@ -445,9 +445,7 @@ Result<bool> FrameNeighbours::Impl::record_next(VkCommandBuffer commands, std::u
                    Sampler::kFirstUse.access | kCopies.access);
     for (;;) {
         const auto goes_on = record_phase(commands, lag);
-        if (!goes_on) {
-            return goes_on;
-        }
+        GEODISK_TRY(goes_on);
         if (!*goes_on) {
             break;
         }
