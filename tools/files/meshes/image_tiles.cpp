@@ -4,7 +4,6 @@
 #include <array>
 #include <cctype>
 #include <string_view>
-#include <system_error>
 
 #include "files/name_text.hpp"
 #include "geometry/material_colours.hpp"

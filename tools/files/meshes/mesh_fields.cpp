@@ -141,7 +141,7 @@ class FieldTaker {
                names_.vertex_number(faces_.vertices[corner]);
     }
 
-    /// What values may be.
+    /// Oddities that values may have.
     struct Allowed {
         bool gaps = false;     ///< Corners may lack values.
         bool infinite = false; ///< Values need not be finite.

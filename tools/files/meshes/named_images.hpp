@@ -19,7 +19,7 @@ class NamedImages {
                 std::vector<MeshWarning>& warnings)
         : scope_(scope), images_(images), warnings_(warnings) {}
 
-    /// What names an image, for messages.
+    /// Name of the image in messages.
     struct Place {
         const Path& file;
         std::string line;   ///< "line 2: ", or "".
