@@ -10,7 +10,7 @@ template <class Real>
 void keep_out(const Surface<Real>& surface, const Pool<Real>& pool, const Tolerances& tolerances,
               std::span<const AvoidedPoint<Real>> avoided, std::uint8_t* decided,
               RunResult& result) {
-    for (const auto& [center, radius] : avoided) {
+    for (const auto& [center, radius, only_class] : avoided) {
         const Real scale = scale_of(radius);
         const Surface<Real> large = scaled(surface, scale);
         const Bins<Real> bins(large, pool.bins.points);
@@ -18,7 +18,12 @@ void keep_out(const Surface<Real>& surface, const Pool<Real>& pool, const Tolera
         Detector<Real, false> detector(large, bins, tolerances, limit);
         const DiskCount disk = detector.run(
             center, [&](std::uint32_t q) { return !decided[bins.order[q]]; },
-            [&](std::uint32_t q, Real) { decided[bins.order[q]] = 1; });
+            [&](std::uint32_t q, Real) {
+                const std::uint32_t place = bins.order[q];
+                if (only_class == kAllClasses || pool.class_at(place) == only_class) {
+                    decided[place] = 1;
+                }
+            });
         result.longest_chain = std::max(result.longest_chain, disk.chain);
     }
 }
@@ -32,7 +37,8 @@ RunResult throw_from(const Surface<Real>& surface, const Pool<Real>& pool,
     RunResult result;
     const std::uint32_t count = pool.size();
     // Use a pointer: the callbacks would reload the vector's address after every store.
-    std::vector<std::uint8_t> flags(count, 0);
+    std::vector<std::uint8_t> flags = pool.dropped;
+    flags.resize(count, 0);
     std::uint8_t* const decided = flags.data();
     keep_out(surface, pool, tolerances, avoided, decided, result);
     Detector<Real, kMayVary> detector(surface, pool.bins, tolerances, tolerances.limit);

@@ -24,7 +24,8 @@ struct RunResult {
 template <class Real>
 struct AvoidedPoint {
     FacePoint<Real> center;
-    Real radius; ///< In units of the frame.
+    Real radius;                           ///< In units of the frame.
+    std::uint8_t only_class = kAllClasses; ///< The class that it keeps out.
 };
 
 /// Returns the power of two by which lengths are multiplied in the disk of a point to avoid.

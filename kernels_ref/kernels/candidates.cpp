@@ -92,10 +92,27 @@ bool propose_by_density(const Draw& draw, const FaceRadii<Real>& radii, float fr
     return fraction * most < thinned(interpolated(draw, radii.spread), packing);
 }
 
+/// Returns a fraction by the bits that the weights do not use.
+float fraction_of(const std::array<std::uint32_t, 4>& random) {
+    const std::uint32_t bits = (random[2] & 511u) << 9 | (random[3] & 511u);
+    return (static_cast<float>(bits) + 0.5f) * 0x1p-18f;
+}
+
+/// Returns true if a candidate of a class is no dart, by the share of the class at its place.
+bool is_dropped(std::span<const float> shares, std::size_t first_share, const Draw& draw,
+                const std::array<std::uint32_t, 4>& random) {
+    if (shares.empty()) {
+        return false;
+    }
+    const float* const at = &shares[first_share];
+    const float corners[3] = {at[0], at[1], at[2]};
+    const float share = interpolated(draw, corners);
+    return share < 1 && fraction_of(random) >= share_of_candidates(share);
+}
+
 template <class Real>
 bool propose(Draw& draw, const FaceRadii<Real>& radii, const std::array<std::uint32_t, 4>& random) {
-    const std::uint32_t bits = (random[2] & 511u) << 9 | (random[3] & 511u);
-    const float fraction = (static_cast<float>(bits) + 0.5f) * 0x1p-18f;
+    const float fraction = fraction_of(random);
     return radii.has_packing() ? propose_by_density(draw, radii, fraction)
                                : propose_by_factors(draw, radii, fraction);
 }
@@ -158,13 +175,18 @@ void draw_candidates(const Surface<Real>& surface, const SampleParams& params, s
         const std::array<std::uint32_t, 4> counter{key, k, stage, 0};
         const auto random = philox(params.seed, counter);
         priorities[k] = random[0] >> kPriorityShift;
+        const Draw draw = draw_in_face(surface, params.seed, counter, face, random);
+        points[k] = draw.template point<Real>();
         if (surface.has_classes()) { // In the lowest bits; classes of few candidates come early.
             const std::uint32_t own = surface.classes.of(random[1]);
             const std::uint64_t early = priorities[k] * surface.classes.turns[own] >> 31;
             priorities[k] = static_cast<std::uint32_t>(early) / 8 * 8 + own;
+            const std::size_t first_share =
+                std::size_t{3} * (std::size_t{own} * surface.face_count() + face);
+            if (is_dropped(surface.classes.shares, first_share, draw, random)) {
+                priorities[k] |= gpu::kNoDart;
+            }
         }
-        points[k] =
-            draw_in_face(surface, params.seed, counter, face, random).template point<Real>();
     }
 }
 

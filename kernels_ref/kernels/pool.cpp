@@ -5,6 +5,7 @@
 #include <span>
 #include <tuple>
 
+#include "constants.h"
 #include "kernels/candidates.hpp"
 #include "kernels/dart_order.hpp"
 
@@ -36,6 +37,7 @@ class Drawing {
         pool_.bins.starts.resize(pool_.bins.lay_out(surface_) + 1);
         pool_.bins.points.resize(darts_.size());
         pool_.words.resize(darts_.size());
+        pool_.dropped.resize(surface_.classes.shares.empty() ? 0 : darts_.size());
         for (std::uint32_t face = 0; face < surface_.face_count(); ++face) {
             const Grid& grid = pool_.bins.grids[face];
             grid.single() ? draw_cell(face, grid) : draw_cells(face, grid);
@@ -46,7 +48,11 @@ class Drawing {
     }
 
   private:
-    void add_dart(std::size_t stage, std::uint32_t place, std::uint32_t priority) {
+    void add_dart(std::size_t stage, std::uint32_t place, std::uint32_t drawn) {
+        const std::uint32_t priority = drawn & ~gpu::kNoDart;
+        if (priority != drawn) {
+            pool_.dropped[place] = 1;
+        }
         pool_.words[place] = order_word(static_cast<std::uint32_t>(stage), priority);
         darts_[next_[stage]++] = make_dart(priority, place);
     }
@@ -152,6 +158,9 @@ void keep_first(Pool<Real>& pool, std::uint32_t count) {
             if (ranks[place] < count) {
                 bins.points[kept] = bins.points[place];
                 pool.words[kept] = pool.words[place];
+                if (!pool.dropped.empty()) {
+                    pool.dropped[kept] = pool.dropped[place];
+                }
                 pool.places[ranks[place]] = kept;
                 ++kept;
             }
@@ -160,6 +169,7 @@ void keep_first(Pool<Real>& pool, std::uint32_t count) {
     bins.starts.back() = kept;
     bins.points.resize(kept);
     pool.words.resize(kept);
+    pool.dropped.resize(pool.dropped.empty() ? 0 : kept);
     pool.places.resize(kept);
 }
 

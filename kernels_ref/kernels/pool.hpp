@@ -15,7 +15,9 @@ namespace geodisk::ref {
 template <class Real>
 struct Pool {
     Bins<Real> bins;
-    std::vector<std::uint32_t> words;  ///< Order words in the order of the bins, see order_word().
+    std::vector<std::uint32_t> words; ///< Order words in the order of the bins, see order_word().
+    /// By place, 1 for a candidate that is no dart; empty if all are darts.
+    std::vector<std::uint8_t> dropped;
     std::vector<std::uint32_t> places; ///< Places in the bins, by rank.
 
     std::uint32_t size() const { return static_cast<std::uint32_t>(places.size()); }

@@ -52,6 +52,10 @@ Surface<Real>::Surface(const PreparedMesh& mesh, const SampleParams& params,
       one_cell_each(has_small_faces(mesh, params, frame)) {
     place_edges(mesh);
     set_classes(params.class_factors);
+    for (const double share : params.class_shares) {
+        classes.shares.push_back(
+            share > 0 ? static_cast<float>(std::max(std::round(share * 512), 1.0) / 512) : 0);
+    }
     if (params.radii == nullptr) {
         return;
     }

@@ -46,6 +46,8 @@ struct Classes {
     Real reach[8]{};          ///< Largest distance of each class.
     std::uint64_t ends[8]{};  ///< Random words below it are of a class up to this.
     std::uint64_t turns[8]{}; ///< Factors of priorities, in units of 2^-31.
+    /// Shares at the corners of faces, class by class; empty if all classes may lie everywhere.
+    std::vector<float> shares;
 
     /// Returns the class that a random word stands for.
     std::uint32_t of(std::uint32_t random) const {

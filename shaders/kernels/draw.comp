@@ -26,7 +26,8 @@ void visit(Unit unit, uint number) {
             cells[(word & kFirstCellMask) + 1u] = number + 1u;
         }
     }
-    weights[2u * place] = weight_with_class(c.weight1, c.order);
+    uint dropped = is_dropped(c, unit.stage, number - unit.first) ? kNoDart : 0u;
+    weights[2u * place] = weight_with_class(c.weight1, c.order) | dropped;
     weights[2u * place + 1u] = c.weight2;
     orders[place] = c.order;
 }

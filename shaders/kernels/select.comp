@@ -22,6 +22,12 @@ void settle_point(uint slot, uvec4 record) {
     if ((record.y & kKeepsOut) != 0u) {
         slots[slot].face = record.y & ~kKeepsOut;
         slots[slot].turn = record.x;
+        if (kClasses) {
+            uint weight_bits = (1u << kKeptClassShift) - 1u;
+            slots[slot].weight1 = record.z & weight_bits;
+            slots[slot].weight2 = record.w & weight_bits;
+            slots[slot].order = (record.z >> kKeptClassShift) << 2 | record.w >> kKeptClassShift;
+        }
     }
 }
 

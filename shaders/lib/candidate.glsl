@@ -91,14 +91,31 @@ bool propose_by_density(Candidate c, vec4 radii, float fraction) {
     return threshold < thinned(interpolated(densities, weight1, weight2), packing);
 }
 
-// Returns true if the candidate is kept. It has uniform weights, and is moved in its face.
-bool propose(inout Candidate c, uvec4 random) {
-    // Bits that the weights do not use.
+// Returns a fraction by the bits that the weights do not use.
+float fraction_of(uvec4 random) {
     uint bits = (random.z & 511u) << 9 | (random.w & 511u);
     precise float fraction = (float(bits) + 0.5) * 3.814697265625e-6;
+    return fraction;
+}
+
+// Returns true if the candidate is kept. It has uniform weights, and is moved in its face.
+bool propose(inout Candidate c, uvec4 random) {
+    float fraction = fraction_of(random);
     vec4 radii = face_radii(c.face);
     return has_packing(radii) ? propose_by_density(c, radii, fraction)
                               : propose_by_factors(c, fraction);
+}
+
+// Returns true if the candidate is no dart: its class has fewer candidates there, or none, for its share of the
+// samples that fit.
+bool is_dropped(Candidate c, uint stage, uint number) {
+    if (!kClasses || !has_shares()) {
+        return false;
+    }
+    float share = interpolated(class_shares(c.face, c.order & kClassMask), weight_of(c.weight1),
+                               weight_of(c.weight2));
+    float kept = share < 1.0 ? candidates_for_share(share) : 1.0;
+    return fraction_of(random_of(c.face, number, stage, 0u)) >= kept;
 }
 
 Candidate draw_candidate(uint face, uint stage, uint number) {

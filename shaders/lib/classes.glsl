@@ -25,6 +25,18 @@ uint class_of_random(uint random) {
     return low.x + low.y + low.z + low.w + high.x + high.y + high.z;
 }
 
+// Returns true if classes have shares.
+bool has_shares() { return class_word(kClassShares) != 0u; }
+
+// Returns the shares of a class at the corners of a face.
+vec3 class_shares(uint face, uint number) {
+    uint word = class_word(kClassWords + face * class_word(kClassShares) + number);
+    uint most = (1u << kShareBits) - 1u;
+    vec3 steps = vec3(word & most, word >> kShareBits & most, word >> (2u * kShareBits));
+    precise vec3 shares = steps * (1.0 / float(kWholeShare));
+    return shares;
+}
+
 // Returns the order of a candidate with its class in the lowest bits. Priorities of a class with a large
 // distance are smaller, so that the few candidates that it has are as dense among the first of a stage as
 // those of other classes.

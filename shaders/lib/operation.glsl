@@ -20,11 +20,16 @@ uint own_place; // of the candidate whose disk this is, kNoPlace for a settled s
 // If radii vary, the radius of the candidate whose disk this is; with classes the largest distance of its
 // class. For a point to avoid minus its radius.
 float own_radius;
-uint own_class;
+uint own_class; // of a point to avoid the class that it keeps out + 1, or 0 for all
 vec4 radii;         // of the face, if radii vary
 
 // Returns true for the disk of a point to avoid. It keeps out all candidates, whatever their radii.
 bool keeps_out() { return kAvoids && own_radius < 0.0; }
+
+// Returns false for the disk of a point that keeps out another class alone.
+bool keeps_out_class(uint other_class) {
+    return !kAvoids || !kClasses || own_class == 0u || own_class == other_class + 1u;
+}
 
 // Returns what lengths are multiplied by in the disk of a point to avoid with this radius, 0 for other disks:
 // a power of two, so that distances stay below 2 and lengths exact.

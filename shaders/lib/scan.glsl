@@ -172,7 +172,8 @@ void scan_some() {
         precise float to = high * dy;
         float limit2 = kAdaptive ? conflict_square(limit_with(radius_at(radii, weight1, weight2)))
                        : kClasses && !keeps_out() ? conflict_square(limit_for(class_in(word)))
-                                                  : rest2;
+                       : keeps_out_class(class_in(word)) ? rest2
+                                                         : 0.0;
         float square = squared(dx, dy);
         bool conflicts = square < limit2 && (inside || (at >= from && at <= to));
         note_conflict(place, is_active(strip, bit), conflicts, square);

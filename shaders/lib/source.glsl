@@ -25,6 +25,7 @@ void load_candidate(uint slot) {
     if (kAvoids) {
         float avoided = uintBitsToFloat(slots[slot].turn);
         own_radius = avoided > 0.0 ? -avoided : (kAdaptive || kClasses ? own_radius : 0.0);
+        own_class = kClasses && avoided > 0.0 ? slots[slot].order : own_class;
     }
 }
 

@@ -94,22 +94,30 @@ GEODISK_CONST uint kCellSeed = 0xb0c5u;
 GEODISK_CONST uint kCountNumber = 0xffffffffu;
 
 // Bit of the face of a settled sample: it is a point to avoid, and its order is the word of its radius, in
-// units of the minimum distance.
+// units of the minimum distance. If it keeps out a single class, the bits above the two weights say which, from
+// kKeptClassShift on: those of weight1 the higher two bits, those of weight2 the lower two of the class + 1.
 GEODISK_CONST uint kKeepsOut = 0x80000000u;
+GEODISK_CONST uint kKeptClassShift = 30u;
 
 // Classes of candidates. The lowest bits of an order are the class, and the bits of a candidate's first
 // weight word from kClassShift on.
 GEODISK_CONST uint kMaxClasses = 8u;
 GEODISK_CONST uint kClassMask = 7u;
 GEODISK_CONST uint kClassShift = 28u;
+GEODISK_CONST uint kNoDart = 0x80000000u; // bit of that word: no dart, see kClassShares
 // Words of the table of classes: for each class the highest random word of it and those before it; for each
-// pair its distance; for each class its largest distance; the cells per unit of length; for each class what
-// its priorities are multiplied by, in units of 2^-31. Lengths are in units of the minimum distance.
+// pair its distance; for each class its largest distance; the cells per unit of length; the number of classes
+// with shares, 0 or all; for each class what its priorities are multiplied by, in units of 2^-31. Lengths are
+// in units of the minimum distance. From kClassWords on the shares of all faces, a word for each class: that
+// of each corner in ten bits, in units of 1 / kWholeShare.
 GEODISK_CONST uint kClassDistances = 8u;
 GEODISK_CONST uint kClassReaches = 72u;
 GEODISK_CONST uint kClassCells = 80u;
+GEODISK_CONST uint kClassShares = 81u;
 GEODISK_CONST uint kClassTurns = 84u;
 GEODISK_CONST uint kClassWords = 92u; // whole rows
+GEODISK_CONST uint kShareBits = 10u;
+GEODISK_CONST uint kWholeShare = 512u;
 
 // Modes of select.
 GEODISK_CONST uint kSelectPool = 0u;    // visits all candidates, and lists those that come next

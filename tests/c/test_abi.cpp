@@ -54,6 +54,8 @@ CHECK_FIELD(geodisk_surface_params, avoid_count, 104);
 CHECK_FIELD(geodisk_surface_params, class_factors, 112);
 CHECK_FIELD(geodisk_surface_params, existing_classes, 128);
 CHECK_FIELD(geodisk_surface_params, is_maximal, 136);
+CHECK_FIELD(geodisk_surface_params, avoid_classes, 144);
+CHECK_FIELD(geodisk_surface_params, class_shares, 152);
 CHECK_FIELD(geodisk_surface_point, weights, 4);
 CHECK_FIELD(geodisk_surface_part, scale, 24);
 CHECK_FIELD(geodisk_neighbour_params, source_count, 24);

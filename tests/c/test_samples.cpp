@@ -1,6 +1,7 @@
 // The C API gives what the C++ API gives.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -29,6 +30,18 @@ Placed placed_set(const SampleSet& set) {
 const TestMesh& sampled_knot() {
     static const TestMesh kMesh = builtin("torus-knot", 8);
     return kMesh;
+}
+
+/// Number of samples of a class.
+std::size_t count_of(const geodisk_mesh* mesh, const geodisk_surface_params& params,
+                     std::uint32_t number) {
+    const auto domain = owned<geodisk_domain>(
+        [&](auto made, auto error) { return geodisk_domain_surface(mesh, &params, made, error); });
+    const auto samples = sample(shared_sampler(), domain.get());
+    std::vector<std::uint32_t> classes(geodisk_samples_count(samples.get()));
+    REQUIRE(geodisk_samples_copy(samples.get(), GEODISK_CLASS, GEODISK_UINT32, classes.data(), 0,
+                                 classes.size(), nullptr) == GEODISK_OK);
+    return static_cast<std::size_t>(std::ranges::count(classes, number));
 }
 
 } // namespace
@@ -124,7 +137,38 @@ TEST_CASE("samples have classes") {
     const auto plain = sample(shared_sampler(), surface_of(mesh.get(), 0.5, 0).get());
     CHECK(geodisk_samples_width(plain.get(), GEODISK_CLASS) == 0);
 
+    // The second class nowhere, and the first out of the disk around its first sample.
+    factors = {1, 0.5f, 0.5f, 0.8f};
+    std::vector<float> shares(std::size_t{6} * sampled_knot().triangles.size() / 3, 1);
+    std::fill(shares.begin() + static_cast<std::ptrdiff_t>(shares.size() / 2), shares.end(), 0.0f);
+    params.class_shares = shares.data();
+    CHECK(count_of(mesh.get(), params, 1) == 0);
+    const std::size_t alone = count_of(mesh.get(), params, 0);
+    CHECK(alone >= static_cast<std::size_t>(first));
+    const geodisk_surface_point at{0, {0.5f, 0.25f, 0.25f}};
+    const double radius = 1.5;
+    std::uint8_t kept_out = 1;
+    params.avoid = &at;
+    params.avoid_radii = &radius;
+    params.avoid_count = 1;
+    params.avoid_classes = &kept_out;
+    CHECK(count_of(mesh.get(), params, 0) == alone);
+    kept_out = 255;
+    CHECK(count_of(mesh.get(), params, 0) < alone);
+    kept_out = 2;
     geodisk_domain* none = nullptr;
+    CHECK(geodisk_domain_surface(mesh.get(), &params, &none, nullptr) == GEODISK_INVALID_ARGUMENT);
+    params.avoid_count = 0;
+    params.avoid_classes = nullptr;
+    shares[0] = 2;
+    CHECK(geodisk_domain_surface(mesh.get(), &params, &none, nullptr) == GEODISK_INVALID_ARGUMENT);
+    params.class_count = 0;
+    params.class_factors = nullptr;
+    CHECK(geodisk_domain_surface(mesh.get(), &params, &none, nullptr) == GEODISK_INVALID_ARGUMENT);
+    params.class_shares = nullptr;
+    params.class_count = 2;
+    params.class_factors = factors.data();
+    factors.assign(4, 0);
     CHECK(geodisk_domain_surface(mesh.get(), &params, &none, nullptr) == GEODISK_INVALID_ARGUMENT);
     factors.assign(81, 1);
     for (const std::size_t wrong : {std::size_t{1}, std::size_t{9}}) {

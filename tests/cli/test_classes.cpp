@@ -23,6 +23,76 @@ constexpr const char* kClassesMesh = "builtin:torus-knot:8";
 
 } // namespace
 
+TEST_CASE("places of one class") {
+    const TemporaryFolder folder;
+    const std::vector<std::string> where{"--class-mask", "0:z>0",         "--class-density",
+                                         "1:file:d.txt", "--class-avoid", "2:p.csv:30%"};
+    std::ofstream density(folder / "d.txt");
+    for (int v = 0; v < 26; ++v) {
+        density << v % 2 << '\n';
+    }
+    density.close();
+    std::ofstream(folder / "p.csv") << "x,y,z\n0.5,0.5,0.5\n";
+    const auto with = [&](std::vector<std::string> words, const std::vector<std::string>& more) {
+        words.insert(words.end(), more.begin(), more.end());
+        return run(folder, words);
+    };
+    const Outcome made =
+        with({"sample", "builtin:cube:2", "-o", "a.csv", "-d", "5%", "--classes", "3"}, where);
+    INFO(made.out, made.err);
+    REQUIRE(made.status == 0);
+    const tools::SampleFile samples = tools::read_samples(folder / "a.csv");
+    const auto classes = samples.extra_values("class");
+    for (std::size_t i = 0; i < classes.size(); ++i) {
+        const double* const at = samples.rows[i].position;
+        CHECK((classes[i] != 0 || at[2] >= 0));
+        CHECK((classes[i] != 2 || std::hypot(at[0] - 0.5, at[1] - 0.5, at[2] - 0.5) > 0.3));
+    }
+    CHECK(std::ranges::count(classes, 1u) > 0);
+    CHECK(*samples.header.find("class_avoid") == "2:p.csv:30%");
+    CHECK(with({"verify", "builtin:cube:2", "a.csv"}, where).status == 0);
+    const Outcome others = run(folder, {"verify", "builtin:cube:2", "a.csv", "--class-mask",
+                                        "0:z<0", "--class-avoid", "1:p.csv:30%"});
+    CHECK(others.status == 1);
+    CHECK(contains(others.err, "that --class-mask left out"));
+    CHECK(contains(others.err, "within the radius of a point or line to avoid"));
+    // A line of a batch takes the place of what is given for all.
+    std::ofstream(folder / "list.txt") << "builtin:cube:2 --class-mask 1:z<0 -o one\n";
+    const Outcome batch =
+        run(folder, {"batch", "list.txt", "-o", "out", "-d", "5%", "--classes", "2", "--class-mask",
+                     "0:z>0", "--class-avoid", "1:p.csv:30%"});
+    INFO(batch.err);
+    REQUIRE(batch.status == 0);
+    const tools::SampleFile one = tools::read_samples(folder / "out/one.ply");
+    CHECK(*one.header.find("class_mask") == "1:z<0");
+    CHECK(*one.header.find("class_avoid") == "1:p.csv:30%");
+
+    struct Wrong {
+        std::vector<std::string> words;
+        const char* message;
+    };
+    for (const Wrong& wrong : std::vector<Wrong>{
+             {{"--class-mask", "3:z>0"}, "there is no class 3; --classes has 3, numbered from 0"},
+             {{"--class-mask", "z>0"}, "'z>0' does not begin with a class from 0 to 7 and a colon"},
+             {{"--class-mask", "0:z"}, "--class-mask: 'z' is not PROPERTY<VALUE"},
+             {{"--class-mask", "0:z>2"}, "has no face for class 0 by --class-mask"},
+             {{"--class-avoid", "0:border"}, "--class-avoid: 'border' is not POINTS:RADIUS"},
+             {{"--class-avoid", "7:p.csv:1"}, "there is no class 7"},
+             {{"--class-density", "0:nope"}, "has no attribute 'nope'"},
+             {{"--class-density", "0:file:d.txt", "--class-density", "0:curvature"},
+              "--class-density is given twice for class 0"}}) {
+        const Outcome outcome = with(
+            {"sample", "builtin:cube:2", "-o", "b.csv", "-d", "5%", "--classes", "3"}, wrong.words);
+        INFO(outcome.err);
+        CHECK(outcome.status != 0);
+        CHECK(contains(outcome.err, wrong.message));
+    }
+    CHECK(contains(run(folder, {"sample", "builtin:cube:2", "-o", "b.csv", "-d", "5%",
+                                "--class-density", "0:curvature"})
+                       .err,
+                   "--class-density is for classes, two or more; add --classes"));
+}
+
 TEST_CASE("classes by number") {
     const TemporaryFolder folder;
     const Outcome made = run(folder, {"sample", kClassesMesh, "-o", "a.ply", "-d", "5%",

@@ -40,10 +40,12 @@ Points sequential_set(const PreparedMesh& mesh, const SampleParams& params, doub
         given.push_back({sample.face, sample.weights[1], sample.weights[2]});
     }
     std::vector<ref::AvoidedPoint<Real>> avoided;
-    for (const auto& [center, radius] : params.avoid) {
+    for (std::size_t i = 0; i < params.avoid.size(); ++i) {
+        const auto& [center, radius] = params.avoid[i];
         const double ratio = radius / ref::frame_of(mesh, params).unit;
         avoided.push_back({{center.face, center.weights[1], center.weights[2]},
-                           static_cast<Real>(static_cast<float>(ratio))});
+                           static_cast<Real>(static_cast<float>(ratio)),
+                           params.avoid_classes.empty() ? kAllClasses : params.avoid_classes[i]});
     }
     const ref::RunResult result =
         ref::throw_darts<Real>(surface, pool, ref::frame_of(mesh, params).tolerances(error_bound),

@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -87,6 +88,32 @@ struct ClassPairs {
         }
     }
 };
+
+/// Shares that are the same everywhere, of each class.
+std::vector<float> shares_of(const PreparedMesh& mesh, const std::vector<float>& of_class) {
+    std::vector<float> shares;
+    for (const float share : of_class) {
+        shares.insert(shares.end(), std::size_t{3} * mesh.face_count(), share);
+    }
+    return shares;
+}
+
+/// Number of samples of the first and of other classes within a distance from a point.
+std::array<std::size_t, 2> classes_within(const PreparedMesh& mesh, const SampleSet& set,
+                                          const Sample& center, double distance) {
+    std::vector<Point> points;
+    for (const Sample& s : set.samples) {
+        points.push_back({s.face, s.weights[1], s.weights[2]});
+    }
+    GeodesicQuery<double> query(mesh, 1.1 * distance, points, tight_tolerances());
+    const std::vector<double> distances =
+        query.from({center.face, center.weights[1], center.weights[2]});
+    std::array<std::size_t, 2> counts{};
+    for (std::size_t i = 0; i < distances.size(); ++i) {
+        counts[set.classes[i] == 0 ? 0 : 1] += std::size_t{distances[i] < distance};
+    }
+    return counts;
+}
 
 } // namespace
 
@@ -182,6 +209,98 @@ TEST_SUITE("classes") {
         params.stop_count = 0;
         params.darts = 3000;
         check_classed(mesh, params);
+    }
+
+    TEST_CASE("shares of classes: none, some and all of the samples that fit") {
+        for (const auto& [name, resolution, count] :
+             {std::tuple{"torus-knot", 8, 100.0}, {"cube", 1, 400.0}}) {
+            const char* const shown = name;
+            CAPTURE(shown);
+            const PreparedMesh mesh = prepared(builtin(name, resolution));
+            SampleParams params = params_for(mesh, count, 3);
+            params.class_factors = kThree;
+            const std::vector<float> whole(shares_of(mesh, {1, 1, 1}));
+            const SampleSet all = check_classed(mesh, params);
+            params.class_shares = whole;
+            CHECK(points_of(check_classed(mesh, params)) == points_of(all));
+
+            // The first class on odd faces alone, the second with less towards corner 2, the third
+            // nowhere.
+            std::vector<float> shares = shares_of(mesh, {1, 0.6f, 0});
+            for (std::size_t f = 0; f < mesh.face_count(); ++f) {
+                std::fill_n(&shares[3 * f], 3, static_cast<float>(f % 2));
+                shares[3 * (mesh.face_count() + f) + 2] = 0.1f;
+            }
+            params.class_shares = shares;
+            const SampleSet set = check_classed(mesh, params);
+            const auto counts = counts_of(set.classes, 3);
+            CHECK(counts[0] > 0);
+            CHECK(counts[1] > 0);
+            CHECK(counts[2] == 0);
+            for (std::size_t i = 0; i < set.samples.size(); ++i) {
+                CHECK((set.classes[i] != 0 || set.samples[i].face % 2 == 1));
+            }
+            RunnerOptions narrow, groups;
+            narrow.plan.slots = 16;
+            narrow.plan.stages = 1;
+            groups.plan.disks_by = DisksBy::groups;
+            CHECK(points_of(check_classed(mesh, params, narrow)) == points_of(set));
+            CHECK(points_of(check_classed(mesh, params, groups)) == points_of(set));
+            params.stop_count = static_cast<std::uint32_t>(set.samples.size() / 2);
+            check_classed(mesh, params);
+            params.stop_count = 0;
+            params.darts = 1000;
+            check_classed(mesh, params);
+        }
+    }
+
+    TEST_CASE("points to avoid that keep out one class") {
+        const PreparedMesh mesh = prepared(builtin("torus-knot", 8));
+        SampleParams params = params_for(mesh, 100, 3);
+        const Factors many = max_factors();
+        for (const Factors* factors : {&kThree, &many}) {
+            params.class_factors = *factors;
+            params.avoid = {};
+            params.avoid_classes = {};
+            const SampleSet free = sample(mesh, params);
+            const auto last = static_cast<std::uint8_t>(factors == &kThree ? 2 : 7);
+            const std::vector<KeepOut> avoid{{free.samples[30], 4 * params.min_distance},
+                                             {free.samples[5], 0.7 * params.min_distance},
+                                             {free.samples[9], 2 * params.min_distance}};
+            const Classes classes{0, last, kAllClasses};
+            params.avoid = avoid;
+            params.avoid_classes = classes;
+            const SampleSet set = check_classed(mesh, params);
+            RunnerOptions groups;
+            groups.plan.disks_by = DisksBy::groups;
+            CHECK(points_of(check_classed(mesh, params, groups)) == points_of(set));
+            const Sample& center = free.samples[30];
+            const auto inside = classes_within(mesh, set, center, avoid[0].radius);
+            CHECK(inside[0] == 0);
+            CHECK(inside[1] > 0);
+        }
+        const Classes two{0, 1}, high{0, 8, 0};
+        params.avoid_classes = two;
+        CHECK(refusal(mesh, params) == "there are 2 classes for 3 disks to avoid");
+        params.avoid_classes = high;
+        CHECK(refusal(mesh, params) ==
+              "point to avoid 1 keeps out class 8, but there are 8, numbered from 0");
+    }
+
+    TEST_CASE("what no shares are") {
+        const PreparedMesh mesh = prepared(builtin("cube", 1));
+        SampleParams params = params_for(mesh, 100);
+        std::vector<float> shares = shares_of(mesh, {1, 1, 1});
+        params.class_shares = shares;
+        CHECK(refusal(mesh, params) == "classes have shares, but there is no table of classes");
+        params.class_factors = kUneven;
+        CHECK(refusal(mesh, params) ==
+              "there are 108 shares of classes; 2 classes take 3 for each of 12 faces");
+        params.class_factors = kThree;
+        for (const float wrong : {1.5f, -0.5f, std::numeric_limits<float>::quiet_NaN()}) {
+            shares[41] = wrong;
+            CHECK(refusal(mesh, params).starts_with("the share of class 1 in face 1 is "));
+        }
     }
 
     TEST_CASE("what no classes are") {

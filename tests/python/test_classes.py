@@ -102,6 +102,44 @@ def test_each_class_has_a_number():
     assert np.array_equal(many[1].points, few.points)
 
 
+def test_classes_have_places_of_their_own():
+    mesh = geodisk.Mesh(VERTICES, FACES)
+    mask = np.arange(len(mesh.triangles)) % 2 == 0
+    density = np.zeros(len(VERTICES))
+    density[FACES[0]] = 1
+    point = geodisk.sample(mesh, count=20).points[:1]
+    places = {
+        "class_masks": {0: mask},
+        "class_densities": {1: density},
+        "class_avoid": {2: (point, 1.0)},
+    }
+    samples = geodisk.sample(mesh, min_distance=0.2, classes=3, **places)
+    assert np.bincount(samples.classes, minlength=3).min() > 0 and geodisk.verify(samples)
+    assert mask[samples.face_index[samples.classes == 0]].all()
+    assert not mask[samples.face_index].all()
+    near = (density[mesh.triangles] > 0).any(axis=1)
+    assert near[samples.face_index[samples.classes == 1]].all()
+    assert geodisk.verify(samples[samples.classes == 2], mesh, avoid=(point, 1.0))
+    assert not geodisk.verify(samples, mesh, avoid=(point, 1.0))
+    many = geodisk.sample_many(
+        [mesh] * 2, min_distance=0.2, classes=3, **{name: [one, None] for name, one in places.items()}
+    )
+    plain = geodisk.sample(mesh, min_distance=0.2, classes=3)
+    assert same(many[0], samples) and same(many[1], plain)
+    for option, text in (
+        ({"class_masks": {3: mask}}, "the class of class_masks is 3, not from 0 to 2"),
+        ({"class_masks": {0: mask & False}}, "class 0 may lie nowhere"),
+        ({"class_densities": {0: density - 1}}, r"class_densities\[0\] is -1.0 at vertex"),
+        ({"class_densities": {0: density * 0}}, r"class_densities\[0\] is 0 everywhere"),
+    ):
+        with pytest.raises(geodisk.InvalidArgument, match=text):
+            geodisk.sample(mesh, min_distance=0.2, classes=3, **option)
+    with pytest.raises(geodisk.InvalidArgument, match="class_masks is for classes, two or more"):
+        geodisk.sample(mesh, min_distance=0.2, class_masks={0: mask})
+    with pytest.raises(TypeError, match="class_avoid is a dict"):
+        geodisk.sample(mesh, min_distance=0.2, classes=3, class_avoid=[(point, 1.0)])
+
+
 def test_wrong_ones_are_refused():
     samples = geodisk.sample(VERTICES, FACES, min_distance=0.6, classes=3)
     for options, text in (

@@ -214,6 +214,7 @@ SampleResult sample_mesh(const SampleJob& job, const MeshInput& mesh, RunDevice&
     params.existing = given.samples;
     params.existing_classes = given.classes;
     params.avoid = given.avoided;
+    params.avoid_classes = given.avoid_classes;
     std::optional<UpdateRun> update;
     if (!job.from.empty()) {
         update.emplace(job, mesh, progress);
@@ -243,6 +244,7 @@ SampleResult sample_mesh(const SampleJob& job, const MeshInput& mesh, RunDevice&
     params.existing = {};
     params.existing_classes = {};
     params.avoid = {};
+    params.avoid_classes = {};
     SampleResult result;
     result.frame = frame_to_tell(job, mesh, params, update);
     result.params = params;
@@ -308,6 +310,7 @@ DryRun try_sampling(const SampleJob& job, const MeshInput& mesh, RunDevice& devi
     params.existing = given.samples;
     params.existing_classes = given.classes;
     params.avoid = given.avoided;
+    params.avoid_classes = given.avoid_classes;
     const MeshView view = mesh.sampled_view();
     SampleRequest request = request_of(job, mesh, params, view);
     request.count = 0; // Just the first distance is tried, and the faces at once.

@@ -14,7 +14,7 @@ template <class Params, class Visitor>
 constexpr void for_each_field(Params& params, Visitor&& visit) {
     static_assert(std::is_same_v<std::remove_const_t<Params>, SampleParams>);
     auto& [min_distance, seed, pool_ratio, darts, stop_count, radii, face_keys, face_mask, existing,
-           avoid, class_factors, existing_classes, maximal] = params;
+           avoid, class_factors, existing_classes, avoid_classes, class_shares, maximal] = params;
     visit("min_distance", min_distance);
     visit("seed", seed);
     visit("pool_ratio", pool_ratio);
@@ -27,6 +27,8 @@ constexpr void for_each_field(Params& params, Visitor&& visit) {
     visit("avoid", avoid);
     visit("class_factors", class_factors);
     visit("existing_classes", existing_classes);
+    visit("avoid_classes", avoid_classes);
+    visit("class_shares", class_shares);
     visit("maximal", maximal);
 }
 

@@ -379,6 +379,12 @@ typedef struct geodisk_surface_params {
      * geodisk_sample and geodisk_run do. For GEODISK_GEODESIC, without darts, stop_count, and radii
      * from a density. */
     int32_t is_maximal;
+    /* Class that each point to avoid keeps out, 255 for all; NULL if all keep out all. Copied. */
+    const uint8_t *avoid_classes;
+    /* Share of its samples that each class has at the corners of faces, from 0 for none to 1 for all
+     * that fit: class_count * face_count * 3 of them, class by class, which are copied; NULL if all
+     * classes may lie everywhere. Linear in a face, in steps of 1/512. */
+    const float *class_shares;
 } geodisk_surface_params;
 
 /* Makes the domain of one surface. Stable. */

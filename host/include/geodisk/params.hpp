@@ -28,6 +28,8 @@ inline constexpr double kStageRatio = 5;
 inline constexpr std::uint32_t kMaxPoolStages = 15;
 /// Maximum of classes of samples.
 inline constexpr std::uint32_t kMaxClasses = 8;
+/// In SampleParams::avoid_classes, for a disk that keeps out all classes.
+inline constexpr std::uint8_t kAllClasses = 255;
 /// Minimum of SampleParams::class_factors, but for 0.
 inline constexpr float kMinClassFactor = 0.01f;
 /// Maximum of candidates that one face may expect in one stage.
@@ -74,6 +76,15 @@ struct SampleParams {
     std::span<const float> class_factors{};
     /// Class of each existing sample; empty if all have class 0. Must outlive the run.
     std::span<const std::uint8_t> existing_classes{};
+    /// Class that each disk to avoid keeps out, kAllClasses for all of them; empty if all keep out
+    /// all. Must outlive the run.
+    std::span<const std::uint8_t> avoid_classes{};
+    /// Share of its samples that each class has at the corners of faces, from 0 for none to 1 for
+    /// all that fit: that of class a at corner k of face f is class_shares[3 * (F * a + f) + k],
+    /// with F faces. Linear in a face, and rounded to multiples of 1 / 512, but to none above 0.
+    /// A class has fewer candidates there (candidates_for_share), and `darts` counts those that it
+    /// lacks. Empty if all classes may lie everywhere. Must outlive the run.
+    std::span<const float> class_shares{};
     /// Goes on after the pool until no further sample fits anywhere: the set is maximal. Only
     /// Runner does, in several rounds; see RunReport::maximal and host/docs/maximal.md. The samples
     /// begin with those of the pool. Not with `darts`, `stop_count`, a density, classes, several

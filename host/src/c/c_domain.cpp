@@ -77,6 +77,19 @@ Result<Done> fill(const geodisk_mesh* mesh, const geodisk_surface_params& given,
                                      given.existing_classes + given.existing_count);
         part.params.existing_classes = part.existing_classes;
     }
+    if (given.avoid_classes != nullptr) {
+        part.avoid_classes.assign(given.avoid_classes, given.avoid_classes + given.avoid_count);
+        part.params.avoid_classes = part.avoid_classes;
+    }
+    if (given.class_shares != nullptr && given.class_count == 0) {
+        return wrong("params->class_shares is for classes, and params->class_count is 0");
+    }
+    if (given.class_shares != nullptr) {
+        const std::size_t of_class = std::size_t{3} * part.mesh->prepared.face_count();
+        part.class_shares.assign(given.class_shares,
+                                 given.class_shares + given.class_count * of_class);
+        part.params.class_shares = part.class_shares;
+    }
     part.params.maximal = given.is_maximal != 0;
     return Done{};
 }

@@ -23,7 +23,8 @@ struct Part {
     std::vector<std::uint8_t> face_mask;
     std::vector<KeepOut> avoid;
     std::vector<float> class_factors;
-    std::vector<std::uint8_t> existing_classes;
+    std::vector<std::uint8_t> existing_classes, avoid_classes;
+    std::vector<float> class_shares;
     SampleParams params;
 };
 

@@ -22,7 +22,10 @@ constexpr double kOutside = std::numeric_limits<double>::infinity();
 
 std::vector<Intrusion> find_intrusions(const MeshInput& mesh, std::span<const SampleRow> rows,
                                        std::span<const std::uint32_t> existing,
-                                       std::span<const KeepOut> avoided, ProgressLine& progress) {
+                                       std::span<const std::uint32_t> classes,
+                                       const Avoided& all_avoided, ProgressLine& progress) {
+    const std::span<const KeepOut> avoided = all_avoided.disks;
+    const std::span<const std::uint8_t> kept_out = all_avoided.classes;
     if (avoided.empty() || rows.empty()) {
         return {};
     }
@@ -65,15 +68,23 @@ std::vector<Intrusion> find_intrusions(const MeshInput& mesh, std::span<const Sa
         const double radius = radius_of(point);
         const auto is_wanted = [&](std::uint32_t place) {
             const std::uint32_t row = bins.order[place];
-            return row >= rows.size() || existing.empty() || existing[row] == 0;
+            if (row >= rows.size()) {
+                return true;
+            }
+            const bool is_kept_out = kept_out[point] == kAllClasses ||
+                                     (!classes.empty() && classes[row] == kept_out[point]);
+            return is_kept_out && (existing.empty() || existing[row] == 0);
         };
         const auto hit = [&](std::uint32_t place, double length) {
             const std::uint32_t row = bins.order[place];
             const double distance = length * unit;
             if (row >= rows.size()) {
                 const std::size_t other = row - rows.size();
-                is_held[other] =
-                    is_held[other] || radius == longest || radius - distance >= radius_of(other);
+                const bool keeps_out_as_many =
+                    kept_out[point] == kAllClasses || kept_out[point] == kept_out[other];
+                is_held[other] = is_held[other] ||
+                                 (keeps_out_as_many &&
+                                  (radius == longest || radius - distance >= radius_of(other)));
             } else if (const Intrusion one{row, point, distance};
                        depth_of(one) > depth_of(deepest[row])) {
                 deepest[row] = one;

@@ -8,6 +8,7 @@
 #include <geodisk/sample.hpp>
 
 #include "files/samples/sample_file.hpp"
+#include "geodisk/inputs/line_input.hpp"
 #include "geodisk/inputs/mesh_input.hpp"
 #include "geodisk/outputs/progress.hpp"
 
@@ -22,10 +23,11 @@ struct Intrusion {
 };
 
 /// Finds the rows within the radii of the points by more than a billionth, in their order. Rows
-/// with `existing` other than 0 may be anywhere; none do if that is empty. Throws UserError
-/// when interrupted.
+/// with `existing` other than 0 may be anywhere; none do if that is empty. `classes` are those of
+/// the rows, or none. Throws UserError when interrupted.
 std::vector<Intrusion> find_intrusions(const MeshInput& mesh, std::span<const SampleRow> rows,
                                        std::span<const std::uint32_t> existing,
-                                       std::span<const KeepOut> avoided, ProgressLine& progress);
+                                       std::span<const std::uint32_t> classes,
+                                       const Avoided& avoided, ProgressLine& progress);
 
 } // namespace geodisk::tools

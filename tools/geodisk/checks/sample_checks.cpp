@@ -142,15 +142,20 @@ std::vector<StrayRow> find_strays(const SampleFile& samples, const MeshInput& me
 
 std::vector<std::uint32_t> masked_samples(const SampleFile& samples, const MeshInput& mesh) {
     const auto existing = samples.extra_values(kExistingColumn);
+    const auto classes = samples.extra_values(kClassColumn);
     const auto edges = mesh.sampled().half_edges();
-    const auto is_beside_mask = [&](const Sample& at) {
+    const auto takes = [&](std::uint32_t row, const Sample& at) {
+        return (mesh.face_mask.empty() || mesh.face_mask[at.face] != 0) &&
+               (classes.empty() || mesh.has_room(classes[row], at));
+    };
+    const auto is_beside_mask = [&](std::uint32_t row, const Sample& at) {
         constexpr float kAtEdge = 1e-4f; // Weight of the corner opposite to it.
         for (std::uint32_t corner = 0; corner < 3; ++corner) {
             const std::uint32_t edge = next_in_face(3 * at.face + corner);
             for (std::uint32_t other = around_half_edge(edges[edge].around);
                  at.weights[corner] < kAtEdge && other != edge;
                  other = around_half_edge(edges[other].around)) {
-                if (mesh.face_mask[other / 3] != 0) {
+                if (takes(row, {other / 3, {1 / 3.0f, 1 / 3.0f, 1 / 3.0f}})) {
                     return true;
                 }
             }
@@ -158,12 +163,12 @@ std::vector<std::uint32_t> masked_samples(const SampleFile& samples, const MeshI
         return false;
     };
     std::vector<std::uint32_t> masked;
-    for (std::uint32_t i = 0; i < samples.rows.size() && !mesh.face_mask.empty(); ++i) {
+    for (std::uint32_t i = 0; i < samples.rows.size() && mesh.leaves_out(); ++i) {
         const SampleRow& row = samples.rows[i];
         const bool is_existing = i < existing.size() && existing[i] != 0;
         const Sample at = mesh.sampled_of(row);
         const bool is_exact = samples.has_faces && !mesh.split; // Else it was moved.
-        if (mesh.face_mask[at.face] == 0 && !is_existing && (is_exact || !is_beside_mask(at))) {
+        if (!takes(i, at) && !is_existing && (is_exact || !is_beside_mask(i, at))) {
             masked.push_back(i);
         }
     }

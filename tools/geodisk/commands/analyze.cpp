@@ -130,8 +130,7 @@ void run_analyze(const AnalyzeOptions& options) {
     options.distance.parsed(); // Before the files are read.
     check_tolerance(options.tolerance);
     parse_seed("--seed", options.seed);
-    options.mask.only_rules();
-    options.mask.mask_rules();
+    options.mask.check(kMaxClasses);
     probes_for(options.probes, 1);
     std::vector<NamedFile> read;
     for (const std::string& samples : options.samples) {

@@ -99,8 +99,9 @@ SampleCheck check_samples(const VerifyOptions& options, const MeshInput& mesh,
         check_maximal(spacing);
     }
     ExistingSpacing found = measure_spacing(mesh, samples, spacing, progress, note);
-    std::vector<Intrusion> intrusions = find_intrusions(
-        mesh, samples.rows, samples.extra_values(kExistingColumn), avoided.disks, progress);
+    std::vector<Intrusion> intrusions =
+        find_intrusions(mesh, samples.rows, samples.extra_values(kExistingColumn),
+                        samples.extra_values(kClassColumn), avoided, progress);
     std::optional<GapCheck> gaps;
     if (options.is_maximal) {
         gaps = find_gaps(mesh, samples.rows, spacing.radii, spacing.min_distance, avoided.disks,

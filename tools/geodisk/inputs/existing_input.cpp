@@ -27,13 +27,29 @@ void check_count(const SampleJob& job, std::size_t existing) {
 /// samples to keep.
 void take_avoided(const Avoided& avoided, const MeshInput& mesh, bool keeps_samples,
                   ExistingInput& existing) {
-    CoveredParts covered = covered_parts(mesh.sampled(), avoided.disks);
+    std::vector<KeepOut> of_all;
+    for (std::size_t i = 0; i < avoided.disks.size(); ++i) {
+        if (avoided.classes[i] == kAllClasses) {
+            of_all.push_back(avoided.disks[i]);
+        }
+    }
+    CoveredParts covered = covered_parts(mesh.sampled(), of_all);
     if (!avoided.empty() && !keeps_samples && covered.cover_all(mesh.sampled(), mesh.face_mask)) {
         fail_usage("--avoid: the points leave no room for samples; lower their radii");
     }
     existing.points_to_avoid = avoided.points;
     existing.lines_to_avoid = avoided.length;
     existing.avoided = std::move(covered.needed);
+    if (of_all.size() == avoided.disks.size()) {
+        return;
+    }
+    existing.avoid_classes.assign(existing.avoided.size(), kAllClasses);
+    for (std::size_t i = 0; i < avoided.disks.size(); ++i) {
+        if (avoided.classes[i] != kAllClasses) {
+            existing.avoided.push_back(avoided.disks[i]);
+            existing.avoid_classes.push_back(avoided.classes[i]);
+        }
+    }
 }
 
 /// Says that a file of points of an option has none.
@@ -114,6 +130,7 @@ Avoided load_avoided(const ConstraintOptions& options, const MeshOptions& of_mes
                      ProgressLine& progress) {
     Avoided avoided;
     std::vector<KeepOut> along_lines;
+    std::vector<std::uint8_t> of_lines;
     for (const AvoidOption& option : options.parsed_avoid()) {
         if (option.kind == AvoidOption::Kind::file) {
             avoid_file(option, options.tolerance, of_mesh, mesh, warnings, progress, avoided,
@@ -121,9 +138,12 @@ Avoided load_avoided(const ConstraintOptions& options, const MeshOptions& of_mes
         } else {
             avoid_edges(option, of_mesh, mesh, warnings, avoided, along_lines);
         }
+        avoided.classes.resize(avoided.disks.size(), option.only_class);
+        of_lines.resize(along_lines.size(), option.only_class);
     }
     avoided.points = avoided.disks.size();
     avoided.disks.insert(avoided.disks.end(), along_lines.begin(), along_lines.end());
+    avoided.classes.insert(avoided.classes.end(), of_lines.begin(), of_lines.end());
     for (KeepOut& disk : avoided.disks) {
         disk.center = mesh.on_sampled(disk.center);
     }

@@ -16,11 +16,12 @@ namespace geodisk::tools {
 /// The samples of --existing and the points of --avoid, and what is odd about them.
 struct ExistingInput {
     std::vector<Sample> samples;
-    std::vector<std::uint8_t> classes; ///< Classes of the samples, if there are several.
-    std::vector<KeepOut> avoided;      ///< All but disks on parts that another one covers.
-    std::size_t points_to_avoid = 0;   ///< With those.
-    double lines_to_avoid = 0;         ///< Length of the lines.
-    std::vector<MeshWarning> warnings; ///< Not printed.
+    std::vector<std::uint8_t> classes;       ///< Classes of the samples, if there are several.
+    std::vector<KeepOut> avoided;            ///< All but disks on parts that another one covers.
+    std::vector<std::uint8_t> avoid_classes; ///< SampleParams::avoid_classes.
+    std::size_t points_to_avoid = 0;         ///< With those.
+    double lines_to_avoid = 0;               ///< Length of the lines.
+    std::vector<MeshWarning> warnings;       ///< Not printed.
 };
 
 /// Reads the points and lines of --avoid, if there are any, and adds warnings without printing

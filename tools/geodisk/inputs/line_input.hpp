@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -15,9 +16,10 @@ namespace geodisk::tools {
 
 /// Points and lines to avoid, as disks that new samples keep out of.
 struct Avoided {
-    std::vector<KeepOut> disks; ///< Those of points in files come first.
-    std::size_t points = 0;     ///< Points in files, the ends of lines among them.
-    double length = 0;          ///< Length of all lines along the surface.
+    std::vector<KeepOut> disks;        ///< Those of points in files come first.
+    std::vector<std::uint8_t> classes; ///< Class that each keeps out, or kAllClasses.
+    std::size_t points = 0;            ///< Points in files, the ends of lines among them.
+    double length = 0;                 ///< Length of all lines along the surface.
 
     bool empty() const { return disks.empty(); }
 };

@@ -260,11 +260,75 @@ MeshWarning warning_of_all(const std::string& option, const std::string& range) 
             option + " leaves out no face" + (range.empty() ? "" : ": " + range), ""};
 }
 
+/// Rules that all must hold, and what they found.
+class RuleSet {
+  public:
+    /// `texts` are the rules as `option` has them, for warnings.
+    RuleSet(const char* option, const std::vector<MaskRule>& rules,
+            const std::vector<std::string>& texts, const MeshFile& mesh, const SplitFaces* split)
+        : option_(option), rules_(rules), texts_(texts), mesh_(mesh), split_(split) {}
+
+    /// Takes out of a mask of the faces of the file, which becomes one of parts, what a rule does
+    /// not hold for.
+    void apply(Mask& mask) {
+        for (std::size_t i = 0; i < rules_.size(); ++i) {
+            if (!rules_[i].is_map) {
+                const bool is_axis = rules_[i].axis().has_value();
+                note(RuleEffect(rules_[i], mesh_, is_axis ? nullptr : &mesh_.number(rules_[i].name),
+                                mask),
+                     i);
+            }
+        }
+        if (split_ != nullptr) {
+            Mask of_parts;
+            for (const FacePart& part : split_->parts().parts()) {
+                of_parts.push_back(mask[part.face]);
+            }
+            mask = std::move(of_parts);
+        }
+        for (std::size_t i = 0; i < rules_.size(); ++i) {
+            if (rules_[i].is_map) {
+                note(RuleEffect(rules_[i], mesh_, nullptr, mask, split_), i);
+            }
+        }
+    }
+
+    /// Returns the ranges of the values, to end a message with; "" without rules.
+    std::string ranges() const { return ranges_.empty() ? "" : ": " + ranges_; }
+    /// Returns warnings of rules that leave out nothing.
+    const std::vector<MeshWarning>& warnings() const { return warnings_; }
+
+  private:
+    void note(const RuleEffect& effect, std::size_t rule) {
+        ranges_ += (ranges_.empty() ? "" : ", ") + effect.range();
+        if (!effect.leaves_out()) {
+            warnings_.push_back(
+                warning_of_all(std::string(option_) + " " + texts_[rule], effect.range()));
+        }
+    }
+
+    const char* option_;
+    const std::vector<MaskRule>& rules_;
+    const std::vector<std::string>& texts_;
+    const MeshFile& mesh_;
+    const SplitFaces* split_;
+    std::string ranges_;
+    std::vector<MeshWarning> warnings_;
+};
+
+bool is_empty(const Mask& mask) {
+    return std::ranges::count(mask, 1) == 0;
+}
+
+void add_to(std::vector<MeshWarning>& warnings, const std::vector<MeshWarning>& more) {
+    warnings.insert(warnings.end(), more.begin(), more.end());
+}
+
 } // namespace
 
 LoadedMask load_mask(const MaskOptions& options, const std::string& path, const MeshFile& mesh,
                      const SplitFaces* split) {
-    if (!options.is_given()) {
+    if (options.only.empty() && options.masks.empty()) {
         return {};
     }
     LoadedMask loaded{chosen_by(path, mesh, options.only_rules()), {}};
@@ -277,38 +341,50 @@ LoadedMask load_mask(const MaskOptions& options, const std::string& path, const 
         loaded.warnings.push_back(warning_of_all("--only", ""));
     }
     const std::vector<MaskRule> rules = options.mask_rules();
-    std::string ranges;
-    const auto note = [&](const RuleEffect& effect, std::size_t rule) {
-        ranges += (ranges.empty() ? "" : ", ") + effect.range();
-        if (!effect.leaves_out()) {
-            loaded.warnings.push_back(
-                warning_of_all("--mask " + options.masks[rule], effect.range()));
-        }
-    };
-    for (std::size_t i = 0; i < rules.size(); ++i) {
-        if (!rules[i].is_map) {
-            note(RuleEffect(rules[i], mesh, rules[i].axis() ? nullptr : &mesh.number(rules[i].name),
-                            mask),
-                 i);
-        }
-    }
-    if (split != nullptr) {
-        Mask of_parts;
-        for (const FacePart& part : split->parts().parts()) {
-            of_parts.push_back(mask[part.face]);
-        }
-        mask = std::move(of_parts);
-    }
-    for (std::size_t i = 0; i < rules.size(); ++i) {
-        if (rules[i].is_map) {
-            note(RuleEffect(rules[i], mesh, nullptr, mask, split), i);
-        }
-    }
-    if (std::ranges::count(mask, 1) == 0) {
+    RuleSet set("--mask", rules, options.masks, mesh, split);
+    set.apply(mask);
+    add_to(loaded.warnings, set.warnings());
+    if (is_empty(mask)) {
         fail_input(path,
-                   "has no face that " + options.names() +
+                   "has no face that " + options.of_all_classes().names() +
                        (options.only.empty() || options.masks.empty() ? " allows" : " allow") +
-                       ", so " + options.lacking + (ranges.empty() ? "" : ": " + ranges));
+                       ", so " + options.lacking + set.ranges());
+    }
+    return loaded;
+}
+
+LoadedShares load_shares(const MaskOptions& options, const std::string& path, const MeshFile& file,
+                         const PreparedMesh& mesh, const SplitFaces* split) {
+    LoadedShares loaded;
+    const std::vector<ClassPlace> places = options.class_places();
+    if (places.empty()) {
+        return loaded;
+    }
+    loaded.count = std::max(options.class_count, std::size_t{1} + places.back().number);
+    const auto corners = split ? std::span(split->parts().triangles()) : std::span(file.triangles);
+    loaded.shares.assign(loaded.count * corners.size(), 1);
+    for (const ClassPlace& place : places) {
+        const std::string name = "class " + std::to_string(place.number);
+        const auto shares =
+            std::span(loaded.shares).subspan(place.number * corners.size(), corners.size());
+        Mask mask(file.triangle_count(), 1);
+        RuleSet set("--class-mask", place.rules, place.texts, file, split);
+        set.apply(mask);
+        add_to(loaded.warnings, set.warnings());
+        const std::vector<double> density =
+            place.density ? density_parts(*place.density, path, file, mesh, split)
+                          : std::vector<double>();
+        bool has_room = false;
+        for (std::size_t corner = 0; corner < corners.size(); ++corner) {
+            shares[corner] = mask[corner / 3] == 0 ? 0
+                             : density.empty()     ? 1
+                                                   : static_cast<float>(density[corners[corner]]);
+            has_room = has_room || shares[corner] > 0;
+        }
+        if (!has_room) {
+            fail_input(path, "has no face for " + name + " by --class-mask and --class-density" +
+                                 set.ranges());
+        }
     }
     return loaded;
 }

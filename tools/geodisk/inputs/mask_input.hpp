@@ -1,9 +1,12 @@
 // The triangles that take samples, by the options of a command.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
+
+#include <geodisk/mesh.hpp>
 
 #include "geodisk/inputs/split_faces.hpp"
 #include "geodisk/options/mask_options.hpp"
@@ -24,5 +27,17 @@ struct LoadedMask {
 /// and if no triangle is left.
 LoadedMask load_mask(const MaskOptions& options, const std::string& path, const MeshFile& mesh,
                      const SplitFaces* split = nullptr);
+
+/// Where single classes of samples may lie.
+struct LoadedShares {
+    std::size_t count = 0;     ///< Number of classes.
+    std::vector<float> shares; ///< SampleParams::class_shares; empty without options.
+    std::vector<MeshWarning> warnings;
+};
+
+/// Returns the shares of classes by their masks and densities, on `mesh`, which is of the file or
+/// of the parts of split faces. Throws as load_mask() and load_radii().
+LoadedShares load_shares(const MaskOptions& options, const std::string& path, const MeshFile& file,
+                         const PreparedMesh& mesh, const SplitFaces* split = nullptr);
 
 } // namespace geodisk::tools

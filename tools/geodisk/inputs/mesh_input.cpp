@@ -51,16 +51,19 @@ struct Positions {
 };
 
 /// Returns the images that the density and the mask name, with what matters of them.
-std::vector<ReadImage> images_of(const std::optional<DensitySource>& density,
+std::vector<ReadImage> images_of(const std::vector<DensitySource>& densities,
                                  const std::vector<MaskRule>& masks) {
     std::vector<ReadImage> images;
-    if (density && density->kind == DensitySource::Kind::map) {
-        const auto image = std::make_shared<const GreyImage>(density->name);
+    for (const DensitySource& density : densities) {
+        if (density.kind != DensitySource::Kind::map) {
+            continue;
+        }
+        const auto image = std::make_shared<const GreyImage>(density.name);
         // Radii go by the square root of a density, so by the ratio of factors.
         const double step = image->largest() / kGreySteps;
-        const bool is_density = density->is_density;
-        const double floor = density->floor.value_or(RadiusField::kMinFactor);
-        images.push_back({image, density->name, [=](double grey, double linear, const auto&) {
+        const bool is_density = density.is_density;
+        const double floor = density.floor.value_or(RadiusField::kMinFactor);
+        images.push_back({image, density.name, [=](double grey, double linear, const auto&) {
                               const double allowed =
                                   is_density
                                       ? step
@@ -109,7 +112,7 @@ std::optional<SplitSurface> split_surface(const std::string& path, const MeshFil
 
 /// Returns what the lifts, the density and the mask need of the mesh file.
 MeshSources sources_of(const MeshOptions& options, std::span<const Lift> lifts,
-                       const std::optional<DensitySource>& density,
+                       const std::vector<DensitySource>& densities,
                        const std::vector<MaskRule>& masks) {
     using Kind = DensitySource::Kind;
     MeshSources sources;
@@ -130,10 +133,12 @@ MeshSources sources_of(const MeshOptions& options, std::span<const Lift> lifts,
             fields.numbers.push_back(rule.name);
         }
     }
-    if (density && density->kind == Kind::attribute) {
-        fields.numbers.push_back(density->name);
+    for (const DensitySource& density : densities) {
+        if (density.kind == Kind::attribute) {
+            fields.numbers.push_back(density.name);
+        }
+        fields.uvs = fields.uvs || density.kind == Kind::map;
     }
-    fields.uvs = fields.uvs || (density && density->kind == Kind::map);
     return sources;
 }
 
@@ -184,9 +189,20 @@ MeshInput load_silently(const MeshOptions& options, ProgressLine& progress,
     const std::string& path = options.mesh;
     const std::optional<DensitySource> source = density.source();
     const std::vector<Lift> lifts = options.parsed_lifts();
+    std::vector<DensitySource> densities;
+    if (source) {
+        densities.push_back(*source);
+    }
+    std::vector<MaskRule> masks = mask.mask_rules();
+    for (const ClassPlace& place : mask.class_places()) {
+        masks.insert(masks.end(), place.rules.begin(), place.rules.end());
+        if (place.density) {
+            densities.push_back(*place.density);
+        }
+    }
     progress.begin_stage("reading the mesh");
     Stopwatch watch;
-    MeshSources sources = sources_of(options, lifts, source, mask.mask_rules());
+    MeshSources sources = sources_of(options, lifts, densities, masks);
     sources.progress = [&](double part) {
         check_interrupted();
         progress.update(part, "");
@@ -208,7 +224,7 @@ MeshInput load_silently(const MeshOptions& options, ProgressLine& progress,
             : prepare_lengths(path, file);
     std::vector<MeshWarning> density_warnings;
     std::optional<SplitSurface> split =
-        split_surface(path, file, surface, images_of(source, mask.mask_rules()), density_warnings);
+        split_surface(path, file, surface, images_of(densities, masks), density_warnings);
     const SplitFaces* const faces = split ? &split->faces : nullptr;
     std::optional<RadiusField> radii;
     double distance_part = 1;
@@ -224,11 +240,15 @@ MeshInput load_silently(const MeshOptions& options, ProgressLine& progress,
         }
     }
     LoadedMask loaded_mask = load_mask(mask, path, file, faces);
+    LoadedShares loaded_shares =
+        load_shares(mask, path, file, split ? split->prepared : prepared, faces);
     MeshInput mesh{std::move(file),  std::move(prepared),
                    std::move(radii), std::move(loaded_mask.faces),
                    distance_part,    {},
                    load_seconds,     watch.seconds()};
     mesh.split = std::move(split);
+    mesh.class_count = loaded_shares.count;
+    mesh.class_shares = std::move(loaded_shares.shares);
     if (mesh.file.materials) {
         mesh.textures.emplace(mesh.file);
         mesh.file.materials->images = {}; // Which are decoded now.
@@ -239,6 +259,8 @@ MeshInput load_silently(const MeshOptions& options, ProgressLine& progress,
     mesh.warnings.insert(mesh.warnings.end(), density_warnings.begin(), density_warnings.end());
     mesh.warnings.insert(mesh.warnings.end(), loaded_mask.warnings.begin(),
                          loaded_mask.warnings.end());
+    mesh.warnings.insert(mesh.warnings.end(), loaded_shares.warnings.begin(),
+                         loaded_shares.warnings.end());
     check_interrupted();
     return mesh;
 }

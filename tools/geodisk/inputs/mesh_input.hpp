@@ -57,6 +57,9 @@ struct MeshInput {
     };
     std::optional<Known> known = std::nullopt;
     std::optional<SplitSurface> split = std::nullopt; ///< Set if images show more than corners.
+    /// SampleParams::class_shares of so many classes on sampled(), where options give some.
+    std::size_t class_count = 0;
+    std::vector<float> class_shares{};
 
     /// Returns the mesh that samples are drawn on, and that radii and masks are of.
     const PreparedMesh& sampled() const { return split ? split->prepared : prepared; }
@@ -68,6 +71,18 @@ struct MeshInput {
     /// Returns the point of the file's face that a point of sampled() is of.
     Sample in_file(const Sample& sample) const {
         return split ? split->faces.parts().whole(sample) : sample;
+    }
+    /// Returns true if there are places without samples, or without those of a class.
+    bool leaves_out() const { return !face_mask.empty() || class_count > 0; }
+    /// Returns false for a point of sampled() where a class has no samples.
+    bool has_room(std::size_t of_class, const Sample& at) const {
+        if (of_class >= class_count) {
+            return true;
+        }
+        const std::size_t faces = sampled().face_count();
+        const float* const shares = &class_shares[3 * (of_class * faces + at.face)];
+        return shares[0] * at.weights[0] + shares[1] * at.weights[1] + shares[2] * at.weights[2] >
+               0;
     }
     /// Returns the view of sampled() for distances through space.
     MeshView sampled_view() const {
@@ -111,6 +126,7 @@ struct MeshInput {
     SampleParams with_fields(SampleParams params) const {
         params.radii = radii ? &*radii : nullptr;
         params.face_mask = face_mask;
+        params.class_shares = class_shares;
         if (split) {
             params.face_keys = split->faces.keys();
         }

@@ -12,11 +12,15 @@
 #include "geometry/mean_curvature.hpp"
 #include "geometry/vertex_numbers.hpp"
 #include "geometry/weld_mesh.hpp"
+#include "program/exact_text.hpp"
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
 
 namespace geodisk::tools {
 namespace {
+
+/// Curvature makes no radius smaller.
+constexpr double kLeastFactor = 0.1;
 
 /// Values at the vertices, and where they come from for messages.
 struct Values {
@@ -131,8 +135,11 @@ std::vector<double> map_values(const GreyImage& image, const MeshFile& file,
     return sums;
 }
 
-LoadedRadii load_radii(const DensitySource& of, const std::string& path, const MeshFile& file,
-                       const PreparedMesh& mesh, const SplitFaces* split) {
+namespace {
+
+/// Returns the values at the vertices of `mesh`.
+Values loaded_values(const DensitySource& of, const std::string& path, const MeshFile& file,
+                     const PreparedMesh& mesh, const SplitFaces* split) {
     using Kind = DensitySource::Kind;
     const std::size_t vertex_count =
         file.positions.empty() ? mesh.vertex_count() : file.positions.size() / file.dimension;
@@ -154,9 +161,44 @@ LoadedRadii load_radii(const DensitySource& of, const std::string& path, const M
     }
     // With edge lengths, unused vertices at the end are none.
     values.values.resize(mesh.vertex_count());
+    return values;
+}
+
+} // namespace
+
+LoadedRadii load_radii(const DensitySource& of, const std::string& path, const MeshFile& file,
+                       const PreparedMesh& mesh, const SplitFaces* split) {
+    Values values = loaded_values(of, path, file, mesh, split);
     std::optional<MeshWarning> warning;
     RadiusField field = field_of(of, values, mesh, warning);
     return {std::move(field), std::move(warning)};
+}
+
+std::vector<double> density_parts(const DensitySource& of, const std::string& path,
+                                  const MeshFile& file, const PreparedMesh& mesh,
+                                  const SplitFaces* split) {
+    Values values = loaded_values(of, path, file, mesh, split);
+    double largest = 0;
+    for (std::size_t v = 0; v < values.values.size(); ++v) {
+        double& value = values.values[v];
+        if (mesh.fans()[v].corner_count == 0) {
+            value = 0;
+        } else if (of.kind == DensitySource::Kind::curvature) { // A factor of radii.
+            const double factor = std::max(value, kLeastFactor);
+            value = 1 / (factor * factor);
+        } else if (!(value >= 0) || !std::isfinite(value)) {
+            fail_input(values.source, "the density of vertex " + std::to_string(v) + " is " +
+                                          exact_text(value) + ", not a finite number from 0 on");
+        }
+        largest = std::max(largest, value);
+    }
+    if (largest == 0) {
+        fail_input(values.source, "the density is 0 everywhere");
+    }
+    for (double& value : values.values) {
+        value /= largest;
+    }
+    return std::move(values.values);
 }
 
 } // namespace geodisk::tools

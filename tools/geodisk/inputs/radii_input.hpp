@@ -36,4 +36,10 @@ struct LoadedRadii {
 LoadedRadii load_radii(const DensitySource& source, const std::string& path, const MeshFile& file,
                        const PreparedMesh& mesh, const SplitFaces* split = nullptr);
 
+/// Returns a density at the vertices of `mesh`, as a part of the largest one. Throws as
+/// load_radii().
+std::vector<double> density_parts(const DensitySource& source, const std::string& path,
+                                  const MeshFile& file, const PreparedMesh& mesh,
+                                  const SplitFaces* split);
+
 } // namespace geodisk::tools

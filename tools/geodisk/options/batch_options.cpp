@@ -79,9 +79,6 @@ void drop_replaced(SampleOptions& common, const SampleOptions& line) {
     if (!line.mask.only.empty()) {
         common.mask.only.clear();
     }
-    if (!line.mask.masks.empty()) {
-        common.mask.masks.clear();
-    }
 }
 
 } // namespace
@@ -179,9 +176,13 @@ LineOptions parse_line(const SampleOptions& common, const std::vector<std::strin
         sample.density.place_files(
             [&folder](const std::string& name) { return seen_from(folder, name); });
     }
-    if (!alone.sample.mask.masks.empty()) {
-        sample.mask.place_files(
-            [&folder](const std::string& name) { return seen_from(folder, name); });
+    MaskOptions& mask = alone.sample.mask;
+    mask.place_files([&folder](const std::string& name) { return seen_from(folder, name); });
+    for (std::vector<std::string> MaskOptions::*const values :
+         {&MaskOptions::masks, &MaskOptions::class_masks, &MaskOptions::class_densities}) {
+        if (!(mask.*values).empty()) {
+            sample.mask.*values = mask.*values;
+        }
     }
     ConstraintOptions& own = alone.sample.constraints;
     own.place_files([&folder](const std::string& name) { return seen_from(folder, name); });
@@ -190,6 +191,9 @@ LineOptions parse_line(const SampleOptions& common, const std::vector<std::strin
     }
     if (!own.avoid.empty()) {
         sample.constraints.avoid = own.avoid;
+    }
+    if (!own.class_avoid.empty()) {
+        sample.constraints.class_avoid = own.class_avoid;
     }
     if (!alone.sample.classes.empty()) {
         place_class_file(sample.classes,

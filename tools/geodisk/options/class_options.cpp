@@ -199,6 +199,28 @@ ClassTable parse_classes(const std::string& text) {
     return {*count, {}};
 }
 
+OfClass parse_of_class(const std::string& option, const std::string& text) {
+    const std::size_t colon = text.find(':');
+    const auto number = colon == std::string::npos
+                            ? std::nullopt
+                            : parse_integer<std::uint8_t>(text.substr(0, colon));
+    if (!number || *number >= kMaxClasses || colon + 1 == text.size()) {
+        fail_usage(option + ": " + in_quotes(text) +
+                   " does not begin with a class from 0 to 7 and a colon, such as 0:...");
+    }
+    return {*number, text.substr(colon + 1)};
+}
+
+void check_of_class(const std::string& option, const OfClass& own, std::size_t count) {
+    if (count < 2) {
+        fail_usage(option + " is for classes, two or more; add --classes");
+    }
+    if (own.number >= count) {
+        fail_usage(option + ": there is no class " + std::to_string(own.number) +
+                   "; --classes has " + std::to_string(count) + ", numbered from 0");
+    }
+}
+
 void add_class_file(const std::string& text, std::vector<NamedFile>& read) {
     if (names_class_file(text)) {
         read.push_back({"the table of classes", text});

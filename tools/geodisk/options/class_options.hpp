@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
@@ -51,6 +52,18 @@ float class_factor(double factor);
 /// Reads the number of classes, or a table of distances: from the text, rows divided by semicolons,
 /// or else from the file that it names. Throws UserError for what is neither.
 ClassTable parse_classes(const std::string& text);
+
+/// What an option says of a single class.
+struct OfClass {
+    std::uint8_t number;
+    std::string text;
+};
+
+/// Reads CLASS:TEXT, as `option` takes it. Throws UserError(usage) for what is not.
+OfClass parse_of_class(const std::string& option, const std::string& text);
+
+/// Throws UserError(usage) unless there are `count` classes and this is one of them.
+void check_of_class(const std::string& option, const OfClass& own, std::size_t count);
 
 /// Returns true for a table, which has all distances, read or not.
 bool has_distances(const std::string& text);

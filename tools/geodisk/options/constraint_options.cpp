@@ -4,6 +4,7 @@
 #include <cctype>
 #include <utility>
 
+#include "geodisk/options/class_options.hpp"
 #include "geodisk/options/tolerance_option.hpp"
 #include "program/command.hpp"
 #include "program/failure.hpp"
@@ -12,10 +13,13 @@
 namespace geodisk::tools {
 namespace {
 
-AvoidOption parse_avoid(const std::string& text) {
+constexpr const char* kAvoid = "--avoid";
+constexpr const char* kClassAvoid = "--class-avoid";
+
+AvoidOption parse_avoid(const std::string& name, const std::string& text) {
     const std::size_t colon = text.rfind(':');
     if (colon == std::string::npos || colon == 0 || colon + 1 == text.size()) {
-        fail_usage("--avoid: " + in_quotes(text) +
+        fail_usage(name + ": " + in_quotes(text) +
                    " is not POINTS:RADIUS, such as wells.csv:5, wells.csv:size or border:5");
     }
     AvoidOption option;
@@ -27,14 +31,23 @@ AvoidOption parse_avoid(const std::string& text) {
     const bool is_number = std::isdigit(static_cast<unsigned char>(radius.front())) != 0 ||
                            std::string("+-.").find(radius.front()) != std::string::npos;
     if (is_number) {
-        option.radius = parse_length("--avoid", radius);
+        option.radius = parse_length(name, radius);
     } else if (option.kind == AvoidOption::Kind::file) {
         option.column = radius;
     } else {
-        fail_usage("--avoid: " + option.points + " takes a length, not " + in_quotes(radius) +
+        fail_usage(name + ": " + option.points + " takes a length, not " + in_quotes(radius) +
                    "; for a file of that name, write ./" + option.points);
     }
     return option;
+}
+
+/// Puts `place(name)` for the file of a value of --avoid.
+void place_points(const std::string& name, std::string& text,
+                  const std::function<std::string(const std::string&)>& place) {
+    const std::size_t colon = text.rfind(':');
+    if (colon != std::string::npos && parse_avoid(name, text).kind == AvoidOption::Kind::file) {
+        text = place(text.substr(0, colon)) + text.substr(colon);
+    }
 }
 
 } // namespace
@@ -42,7 +55,12 @@ AvoidOption parse_avoid(const std::string& text) {
 std::vector<AvoidOption> ConstraintOptions::parsed_avoid() const {
     std::vector<AvoidOption> options;
     for (const std::string& text : avoid) {
-        options.push_back(parse_avoid(text));
+        options.push_back(parse_avoid(kAvoid, text));
+    }
+    for (const std::string& text : class_avoid) {
+        const OfClass own = parse_of_class(kClassAvoid, text);
+        options.push_back(parse_avoid(kClassAvoid, own.text));
+        options.back().only_class = own.number;
     }
     return options;
 }
@@ -58,6 +76,12 @@ void ConstraintOptions::check() const {
     parsed_avoid();
     if (!reads_points() && !tolerance.empty()) {
         fail_usage("--tolerance is for points that are read; give --existing or --avoid");
+    }
+}
+
+void ConstraintOptions::check_classes(std::size_t count) const {
+    for (const std::string& text : class_avoid) {
+        check_of_class(kClassAvoid, parse_of_class(kClassAvoid, text), count);
     }
 }
 
@@ -77,10 +101,12 @@ void ConstraintOptions::place_files(const std::function<std::string(const std::s
         existing = place(existing);
     }
     for (std::string& text : avoid) {
-        const std::size_t colon = text.rfind(':');
-        if (colon != std::string::npos && parse_avoid(text).kind == AvoidOption::Kind::file) {
-            text = place(text.substr(0, colon)) + text.substr(colon);
-        }
+        place_points(kAvoid, text, place);
+    }
+    for (std::string& text : class_avoid) {
+        OfClass own = parse_of_class(kClassAvoid, text);
+        place_points(kClassAvoid, own.text, place);
+        text = std::to_string(own.number) + ":" + own.text;
     }
 }
 
@@ -92,13 +118,16 @@ HeaderEntries ConstraintOptions::entries() const {
     for (const std::string& text : avoid) {
         entries.emplace_back("avoid", text);
     }
+    for (const std::string& text : class_avoid) {
+        entries.emplace_back("class_avoid", text);
+    }
     return entries;
 }
 
 void add_avoid_option(Command command, ConstraintOptions& options, OptionUse use,
                       const std::string& group) {
     command
-        .add_option("--avoid", options.avoid, "POINTS:RADIUS",
+        .add_option(kAvoid, options.avoid, "POINTS:RADIUS",
                     help_for(use,
                              "Place no new sample within RADIUS of the points and lines of a\n",
                              "Check that new samples keep RADIUS from points and lines of a\n") +
@@ -106,6 +135,10 @@ void add_avoid_option(Command command, ConstraintOptions& options, OptionUse use
                         "column of the file with one per point. POINTS may be border or\n"
                         "creases: edges of the mesh. May be given several times",
                     group)
+        .takes_one_value();
+    command
+        .add_option(kClassAvoid, options.class_avoid, "CLASS:POINTS:RADIUS",
+                    "The same for samples of one class of --classes", group)
         .takes_one_value();
 }
 

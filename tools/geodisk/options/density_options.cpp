@@ -23,6 +23,16 @@ constexpr double kCurvatureFloor = 0.1;
 constexpr std::array<std::pair<std::string_view, Kind>, 3> kPrefixes{
     {{"attribute:", Kind::attribute}, {"file:", Kind::file}, {"map:", Kind::map}}};
 
+DensitySource old_source(const std::string& option, Kind kind, const std::string& name) {
+    DensitySource source;
+    source.option = option;
+    source.kind = kind;
+    source.name = name;
+    return source;
+}
+
+} // namespace
+
 DensitySource parse_source(const std::string& option, const std::string& text) {
     DensitySource source;
     source.option = option;
@@ -49,16 +59,6 @@ DensitySource parse_source(const std::string& option, const std::string& text) {
     }
     return source;
 }
-
-DensitySource old_source(const std::string& option, Kind kind, const std::string& name) {
-    DensitySource source;
-    source.option = option;
-    source.kind = kind;
-    source.name = name;
-    return source;
-}
-
-} // namespace
 
 std::string DensitySource::text() const {
     for (const auto& [prefix, of] : kPrefixes) {

@@ -28,6 +28,9 @@ struct DensitySource {
     std::string text() const;
 };
 
+/// Reads a source as `option` takes it. Throws UserError(usage) for one that names nothing.
+DensitySource parse_source(const std::string& option, const std::string& text);
+
 /// As given on the command line.
 struct DensityOptions {
     std::string density, radius_factor, factor_floor;

@@ -4,10 +4,12 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <map>
 #include <string_view>
 #include <utility>
 
 #include "files/samples/sample_columns.hpp"
+#include "geodisk/options/class_options.hpp"
 #include "program/arguments.hpp"
 #include "program/command.hpp"
 #include "program/exact_text.hpp"
@@ -34,6 +36,9 @@ constexpr std::array<std::pair<std::string_view, Comparison>, 6> kComparisons{
      {"<", Comparison::less},
      {">", Comparison::greater},
      {"=", Comparison::equal}}};
+constexpr const char* kMask = "--mask";
+constexpr const char* kClassMask = "--class-mask";
+constexpr const char* kClassDensity = "--class-density";
 constexpr std::string_view kMap = "map:";
 /// Grey of an image from which on it counts as white.
 constexpr double kWhite = 0.5;
@@ -58,8 +63,8 @@ bool is_file(const std::string& name) {
     return std::filesystem::exists(Path(name), ignored);
 }
 
-/// The comparison that ends `text`, whose first sign is at `at`.
-MaskRule parse_comparison(const std::string& text, std::size_t at) {
+/// The comparison that ends `text`, a value of `option`, whose first sign is at `at`.
+MaskRule parse_comparison(const std::string& option, const std::string& text, std::size_t at) {
     for (const auto& [sign, comparison] : kComparisons) {
         if (std::string_view(text).substr(at).starts_with(sign)) {
             const auto value = parse_real(std::string_view(text).substr(at + sign.size()));
@@ -69,14 +74,14 @@ MaskRule parse_comparison(const std::string& text, std::size_t at) {
             return {false, text.substr(0, at), comparison, *value};
         }
     }
-    fail_usage("--mask: " + in_quotes(text) +
+    fail_usage(option + ": " + in_quotes(text) +
                " is not PROPERTY<VALUE, with one of < <= > >= = != and a number");
 }
 
-MaskRule parse_map(const std::string& text) {
+MaskRule parse_map(const std::string& option, const std::string& text) {
     const std::string name = text.substr(kMap.size());
     if (name.empty()) {
-        fail_usage("--mask: " + in_quotes(text) + " names nothing");
+        fail_usage(option + ": " + in_quotes(text) + " names nothing");
     }
     std::size_t at = text.find_last_of("<>=");
     if (at == std::string::npos || is_file(name)) {
@@ -85,22 +90,35 @@ MaskRule parse_map(const std::string& text) {
     const bool has_two =
         text[at] == '=' && std::string_view("<>!").find(text[at - 1]) != std::string_view::npos;
     at -= has_two ? 1 : 0;
-    MaskRule rule = parse_comparison(text, at);
+    MaskRule rule = parse_comparison(option, text, at);
     rule.is_map = true;
     rule.name.erase(0, kMap.size());
     return rule;
 }
 
-MaskRule parse_mask(const std::string& text) {
+MaskRule parse_mask(const std::string& option, const std::string& text) {
     if (text.starts_with(kMap)) {
-        return parse_map(text);
+        return parse_map(option, text);
     }
     const std::size_t at = text.find_first_of("<>=!");
     if (at == std::string::npos && is_file(text)) {
-        fail_usage("--mask: " + in_quotes(text) + " is a file; give map:" + text +
+        fail_usage(option + ": " + in_quotes(text) + " is a file; give map:" + text +
                    " for an image, or a property and a comparison");
     }
-    return parse_comparison(text, std::min(at, text.size()));
+    return parse_comparison(option, text, std::min(at, text.size()));
+}
+
+/// Puts `place(name)` for the image of a value of an option like --mask.
+void place_image(const std::string& option, std::string& text,
+                 const std::function<std::string(const std::string&)>& place) {
+    if (const MaskRule rule = parse_mask(option, text); rule.is_map) {
+        const std::string comparison = text.substr(kMap.size() + rule.name.size());
+        text = std::string(kMap) + place(rule.name) + comparison;
+    }
+}
+
+bool reads_file(const DensitySource& source) {
+    return source.kind == DensitySource::Kind::file || source.kind == DensitySource::Kind::map;
 }
 
 } // namespace
@@ -147,24 +165,81 @@ std::vector<OnlyRule> MaskOptions::only_rules() const {
 std::vector<MaskRule> MaskOptions::mask_rules() const {
     std::vector<MaskRule> rules;
     for (const std::string& text : masks) {
-        rules.push_back(parse_mask(text));
+        rules.push_back(parse_mask(kMask, text));
     }
     return rules;
 }
 
+std::vector<ClassPlace> MaskOptions::class_places() const {
+    std::map<std::uint8_t, ClassPlace> places;
+    for (const std::string& text : class_masks) {
+        const OfClass own = parse_of_class(kClassMask, text);
+        ClassPlace& place = places[own.number];
+        place.texts.push_back(text);
+        place.rules.push_back(parse_mask(kClassMask, own.text));
+    }
+    for (const std::string& text : class_densities) {
+        const OfClass own = parse_of_class(kClassDensity, text);
+        ClassPlace& place = places[own.number];
+        if (place.density) {
+            fail_usage(std::string(kClassDensity) + " is given twice for class " +
+                       std::to_string(own.number));
+        }
+        place.density = parse_source(kClassDensity, own.text);
+        place.density->is_density = true;
+    }
+    std::vector<ClassPlace> result;
+    for (auto& [number, place] : places) {
+        place.number = number;
+        result.push_back(std::move(place));
+    }
+    return result;
+}
+
+void MaskOptions::check(std::size_t classes) const {
+    only_rules();
+    mask_rules();
+    class_places();
+    for (const auto& [option, values] :
+         {std::pair{kClassMask, &class_masks}, {kClassDensity, &class_densities}}) {
+        for (const std::string& text : *values) {
+            check_of_class(option, parse_of_class(option, text), classes);
+        }
+    }
+}
+
 void MaskOptions::add_files(std::vector<NamedFile>& read) const {
-    for (const MaskRule& rule : mask_rules()) {
-        if (rule.is_map) {
-            read.push_back({"the mask", rule.name});
+    const auto add_images = [&](const std::vector<MaskRule>& rules) {
+        for (const MaskRule& rule : rules) {
+            if (rule.is_map) {
+                read.push_back({"the mask", rule.name});
+            }
+        }
+    };
+    add_images(mask_rules());
+    for (const ClassPlace& place : class_places()) {
+        add_images(place.rules);
+        if (place.density && reads_file(*place.density)) {
+            read.push_back({"the density", place.density->name});
         }
     }
 }
 
 void MaskOptions::place_files(const std::function<std::string(const std::string&)>& place) {
     for (std::string& text : masks) {
-        if (const MaskRule rule = parse_mask(text); rule.is_map) {
-            const std::string comparison = text.substr(kMap.size() + rule.name.size());
-            text = std::string(kMap) + place(rule.name) + comparison;
+        place_image(kMask, text, place);
+    }
+    for (std::string& text : class_masks) {
+        OfClass own = parse_of_class(kClassMask, text);
+        place_image(kClassMask, own.text, place);
+        text = std::to_string(own.number) + ":" + own.text;
+    }
+    for (std::string& text : class_densities) {
+        const OfClass own = parse_of_class(kClassDensity, text);
+        DensitySource source = parse_source(kClassDensity, own.text);
+        if (reads_file(source)) {
+            source.name = place(source.name);
+            text = std::to_string(own.number) + ":" + source.text();
         }
     }
 }
@@ -177,11 +252,26 @@ HeaderEntries MaskOptions::entries() const {
     for (const std::string& text : masks) {
         entries.emplace_back("mask", text);
     }
+    for (const std::string& text : class_masks) {
+        entries.emplace_back("class_mask", text);
+    }
+    for (const std::string& text : class_densities) {
+        entries.emplace_back("class_density", text);
+    }
     return entries;
 }
 
 std::string MaskOptions::names() const {
-    return only.empty() ? "--mask" : masks.empty() ? "--only" : "--only and --mask";
+    std::string names;
+    for (const auto& [name, values] : {std::pair{"--only", &only},
+                                       {kMask, &masks},
+                                       {kClassMask, &class_masks},
+                                       {kClassDensity, &class_densities}}) {
+        if (!values->empty()) {
+            names += (names.empty() ? "" : " and ") + std::string(name);
+        }
+    }
+    return names;
 }
 
 HeaderEntries with_entries(HeaderEntries entries, const MaskOptions& options) {
@@ -203,12 +293,28 @@ void add_mask_options(Command command, MaskOptions& options, OptionUse use) {
                     group)
         .takes_one_value();
     command
-        .add_option("--mask", options.masks, "RULE",
+        .add_option(kMask, options.masks, "RULE",
                     help_for(use, "Sample only", "Samples lie on", "Take only") +
                         " faces where PROPERTY<VALUE (or <= > >= = !=) holds:\n"
                         "x, y, z (x0 to x7 in R^n) or an attribute, as red, at all\n"
                         "corners, or of the face. map:FILE: what is white in an image, or\n"
                         "compared as a property from 0 to 1. Repeat to add rules",
+                    group)
+        .takes_one_value();
+    if (use == OptionUse::choosing) {
+        return;
+    }
+    command
+        .add_option(kClassMask, options.class_masks, "CLASS:RULE",
+                    "The same for samples of one class of --classes, numbered from 0", group)
+        .takes_one_value();
+    command
+        .add_option(kClassDensity, options.class_densities, "CLASS:SOURCE",
+                    help_for(use,
+                             "Give samples of one class a density: where it is half of the\n"
+                             "largest, the class has half of the samples that fit. SOURCE as\n"
+                             "for --density",
+                             "Check that samples of one class lie where its density is not 0"),
                     group)
         .takes_one_value();
 }

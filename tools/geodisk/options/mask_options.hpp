@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
@@ -9,6 +10,7 @@
 
 #include "files/output/files_in_use.hpp"
 #include "files/samples/sample_file.hpp"
+#include "geodisk/options/density_options.hpp"
 #include "geodisk/options/option_use.hpp"
 
 namespace geodisk::tools {
@@ -39,21 +41,44 @@ struct MaskRule {
     std::optional<std::size_t> axis() const;
 };
 
+/// Where samples of one class may lie, and how dense they are there.
+struct ClassPlace {
+    std::uint8_t number = 0;
+    std::vector<std::string> texts; ///< Its rules, as given.
+    std::vector<MaskRule> rules;
+    std::optional<DensitySource> density;
+};
+
 /// As given on the command line.
 struct MaskOptions {
     std::vector<std::string> only, masks;
+    std::vector<std::string> class_masks, class_densities; ///< With the number of a class before.
+    std::size_t class_count = 0;            ///< Number of --classes, where that is known.
     std::string lacking = "no samples fit"; ///< What follows from a mask that leaves nothing.
 
-    bool is_given() const { return !only.empty() || !masks.empty(); }
+    bool is_given() const {
+        return !only.empty() || !masks.empty() || !class_masks.empty() || !class_densities.empty();
+    }
     /// Throw UserError(usage) for what they cannot read.
     std::vector<OnlyRule> only_rules() const;
     std::vector<MaskRule> mask_rules() const;
+    /// The classes with rules or a density, by number.
+    std::vector<ClassPlace> class_places() const;
+    /// Checks all that can be read of the options without a mesh.
+    void check(std::size_t classes) const;
     /// Adds the files that are read.
     void add_files(std::vector<NamedFile>& read) const;
     /// Puts `place(name)` for each file that is named.
     void place_files(const std::function<std::string(const std::string&)>& place);
     /// Name and value of what is given, as the header of a sample file names it.
     HeaderEntries entries() const;
+    /// Returns the options that are for samples of all classes.
+    MaskOptions of_all_classes() const {
+        MaskOptions options = *this;
+        options.class_masks.clear();
+        options.class_densities.clear();
+        return options;
+    }
     /// Names the options that are given, for messages.
     std::string names() const;
 };

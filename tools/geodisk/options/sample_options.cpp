@@ -179,11 +179,12 @@ SampleJob parse_job(const SampleOptions& options) {
     check_metric(options, job);
     take_edit(options, job);
     job.constraints.check();
+    job.constraints.check_classes(job.classes.count);
     job.mesh.parsed_lifts(); // Wrong ones are known before a mesh is read.
     job.mesh.weld_distance();
     job.density.is_given();
-    job.mask.only_rules();
-    job.mask.mask_rules();
+    job.mask.check(job.classes.count);
+    job.mask.class_count = job.classes.count;
     return job;
 }
 

@@ -63,8 +63,7 @@ void VerifyOptions::check() const {
         parse_length("--min-distance", min_distance);
     }
     check_tolerance(tolerance);
-    mask.only_rules();
-    mask.mask_rules();
+    mask.check(kMaxClasses); // The file tells how many there are.
     constraints.parsed_avoid();
     check_class_options(*this);
     if (samples.empty()) {

@@ -81,7 +81,8 @@ Json mesh_json(const std::string& path, const HeaderEntries& additions, const Me
     const bool has_box = mesh.diagonal > 0; // Edge lengths have none.
     Json json{{"path", path}};
     for (const auto& [name, value] : additions) {
-        if (name == "lift" || name == "only" || name == "mask") { // There may be several.
+        if (name == "lift" || name == "only" || name.ends_with("mask") ||
+            name == "class_density") { // There may be several.
             json[name].push_back(value);
         } else {
             json[name] = value;

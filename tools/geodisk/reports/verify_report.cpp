@@ -187,7 +187,7 @@ std::string report_json(const SampleCheck& check) {
         {"levels", levels_json(levels)},
         {"wrong_radii", spacing.wrong},
         {"wrong_features", features.size()},
-        {"masked", mesh.face_mask.empty() ? Json(nullptr) : Json(masked.size())},
+        {"masked", mesh.leaves_out() ? Json(masked.size()) : Json(nullptr)},
         {"off_the_mesh", strays.size()}});
 }
 

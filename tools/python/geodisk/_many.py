@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import reprlib
 from collections.abc import Sequence
-from typing import Any, Iterable
+from typing import Any, Iterable, Mapping
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -46,6 +46,9 @@ def sample_many(
     level_factor: float | None = None,
     classes: ClassesLike | None = None,
     class_counts: Sequence[int] | None = None,
+    class_masks: Sequence[Mapping[int, ArrayLike] | None] | None = None,
+    class_densities: Sequence[Mapping[int, ArrayLike] | None] | None = None,
+    class_avoid: Sequence[Mapping[int, AvoidLike] | None] | None = None,
     features: float | None = None,
     metric: str = "geodesic",
     weld: bool | float = False,
@@ -74,7 +77,8 @@ def sample_many(
         faces, as for :func:`sample`. A :class:`Mesh` may appear several times.
     min_distance, radius, count, seed : number, or a sequence with one per mesh
         As for :func:`sample`.
-    density, radius_factor, face_keys, face_mask, existing, avoid : sequence of one per mesh, or None
+    density, radius_factor, face_keys, face_mask, existing, avoid, class_masks, class_densities,
+    class_avoid : sequence of one per mesh, or None
         As for :func:`sample`; None for a mesh without.
     exact, pool_ratio, darts, stop_count, maximal, order, levels, level_factor, classes,
     class_counts, features, metric, weld, keep_seams, columns, attributes, texture, normals, frames,
@@ -125,6 +129,9 @@ def sample_many(
             ("face_mask", face_mask),
             ("existing", existing),
             ("avoid", avoid),
+            ("class_masks", class_masks),
+            ("class_densities", class_densities),
+            ("class_avoid", class_avoid),
         )
     }
 

@@ -329,21 +329,23 @@ def mesh_of(
     return vertices
 
 
-def mask_of(surface: Surface, face_mask: ArrayLike) -> NDArray[np.uint8]:
+def mask_of(
+    surface: Surface, face_mask: ArrayLike, name: str = "face_mask"
+) -> NDArray[np.uint8]:
     """Returns which triangles take samples, as the library takes it."""
-    given = array_of(face_mask, "face_mask")
+    given = array_of(face_mask, name)
     triangles, polygons = len(surface.indices()), surface.polygons
     if given.dtype.kind != "b":
-        chosen = indices(given, "face_mask")
+        chosen = indices(given, name)
         if chosen.ndim != 1:
-            raise e.invalid(f"face_mask has the shape {chosen.shape}, not (k,)")
+            raise e.invalid(f"{name} has the shape {chosen.shape}, not (k,)")
         if chosen.size and int(chosen.max()) >= triangles:
             raise e.invalid(
-                f"face_mask has the triangle {chosen.max()}, the mesh has {triangles}; a mask of "
+                f"{name} has the triangle {chosen.max()}, the mesh has {triangles}; a mask of "
                 "zeros and ones must be of type bool"
             )
         if chosen.size > 2 and int(chosen.max()) <= 1:  # Indices would repeat.
-            raise e.invalid("face_mask is a mask of zeros and ones, which must be of type bool")
+            raise e.invalid(f"{name} is a mask of zeros and ones, which must be of type bool")
         mask = np.zeros(triangles, np.uint8)
         mask[chosen] = 1
         return mask
@@ -351,7 +353,7 @@ def mask_of(surface: Surface, face_mask: ArrayLike) -> NDArray[np.uint8]:
         if given.ndim == 1 and given.size > int(polygons.max()):
             given = given[polygons]
     if given.shape != (triangles,):
-        raise e.invalid(f"face_mask has the shape {given.shape}, not ({triangles},)")
+        raise e.invalid(f"{name} has the shape {given.shape}, not ({triangles},)")
     return np.ascontiguousarray(given).view(np.uint8)
 
 

@@ -6,7 +6,7 @@ import numbers
 import ctypes
 import os
 from ctypes import c_double, pointer
-from typing import Sequence
+from typing import Mapping, Sequence
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -53,6 +53,9 @@ def sample(
     avoid: AvoidLike | None = None,
     classes: ClassesLike | None = None,
     class_counts: Sequence[int] | None = None,
+    class_masks: Mapping[int, ArrayLike] | None = None,
+    class_densities: Mapping[int, ArrayLike] | None = None,
+    class_avoid: Mapping[int, AvoidLike] | None = None,
     features: float | None = None,
     metric: str = "geodesic",
     edge_lengths: ArrayLike | None = None,
@@ -142,6 +145,13 @@ def sample(
     class_counts : sequence of int, optional
         Number of samples of each class: the first ones of each. A warning reports if fewer fit. Not
         with `count` and `stop_count`.
+    class_masks : dict from int to what `face_mask` takes, optional
+        Triangles on which samples of single classes may lie, by the number of the class: ``{0: mask}``.
+    class_densities : dict from int to what `density` takes, optional
+        Densities of single classes, as parts of the largest value: where it is half of that, the class
+        has about half of the samples that fit there, and none where it is 0.
+    class_avoid : dict from int to what `avoid` takes, optional
+        Points that single classes keep away from.
     features : float, optional
         Sample corners first, then edges whose triangles meet at more than this angle in degrees (1
         to 180), borders and edges of more than two triangles, then the triangles.
@@ -241,6 +251,9 @@ def sample(
         avoid=avoid,
         classes=classes,
         class_counts=class_counts,
+        class_masks=class_masks,
+        class_densities=class_densities,
+        class_avoid=class_avoid,
         features=features,
         metric=metric,
     )

@@ -144,6 +144,8 @@ class SurfaceParams(_Sized):
         ("class_count", c_size_t),
         ("existing_classes", c_void_p),
         ("is_maximal", c_int32),
+        ("avoid_classes", c_void_p),
+        ("class_shares", c_void_p),
     ]
 
 

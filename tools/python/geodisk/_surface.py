@@ -99,7 +99,7 @@ class Surface:
         if isinstance(values, str):
             values = number_named(self.attributes, values, name)
         array = array_of(values, name)
-        if array.dtype == bool and name == "density":  # A mask.
+        if array.dtype == bool and name != "radius_factor":  # A mask.
             array = array.astype(np.float64)
         array = np.ascontiguousarray(real(array, name))
         if array.shape != (self.vertex_count(),):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 from ctypes import byref, pointer
-from typing import Callable, Sequence
+from typing import Callable, Mapping, Sequence
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -12,9 +12,10 @@ from numpy.typing import ArrayLike
 from . import _errors as e
 from . import _library as c
 from . import _structs as s
+from ._class_places import ClassPlaces
 from ._classes import Classes, ClassesLike
 from ._devices import DeviceLike
-from ._existing import AvoidLike, ExistingLike, avoided_of, existing_of
+from ._existing import AvoidLike, ExistingLike, existing_of
 from ._farthest import put_farthest_first
 from ._features import degrees_of
 from ._job import Job, JobFrame, exact_text, joins_of
@@ -56,6 +57,9 @@ class Wanted:
         avoid: AvoidLike | None,
         classes: ClassesLike | None,
         class_counts: Sequence[int] | None,
+        class_masks: Mapping[int, ArrayLike] | None,
+        class_densities: Mapping[int, ArrayLike] | None,
+        class_avoid: Mapping[int, AvoidLike] | None,
         features: float | None,
         metric: str,
     ) -> None:
@@ -103,7 +107,14 @@ class Wanted:
         mask = None if face_mask is None else mask_of(mesh._surface, face_mask)
         warn_of_whole_mask(mask)
         kept = existing_of(mesh._handle, existing)
-        points, point_radii = avoided_of(mesh._handle, avoid)
+        places = ClassPlaces(
+            mesh,
+            kinds,
+            avoid,
+            class_masks=class_masks,
+            class_densities=class_densities,
+            class_avoid=class_avoid,
+        )
         if count is not None and len(kept) >= count:
             raise e.invalid(f"count is {count}, but {len(kept)} existing samples count too")
         part = 1.0 if radii is None else radii.distance_part
@@ -119,9 +130,9 @@ class Wanted:
             metric=s.METRICS[metric],
             existing=kept.ctypes.data,
             existing_count=len(kept),
-            avoid=points.ctypes.data,
-            avoid_radii=point_radii.ctypes.data,
-            avoid_count=len(points),
+            avoid=places.points.ctypes.data,
+            avoid_radii=places.radii.ctypes.data,
+            avoid_count=len(places.points),
             is_maximal=int(maximal),
         )
         own_classes = None
@@ -130,6 +141,10 @@ class Wanted:
             params.class_factors = kinds.factors.ctypes.data
             params.class_count = kinds.count
             params.existing_classes = own_classes.ctypes.data
+            if places.shares is not None:
+                params.class_shares = places.shares.ctypes.data
+            if places.avoid_classes is not None:
+                params.avoid_classes = places.avoid_classes.ctypes.data
         #: As the library takes it.
         self.request = s.Request(
             params=pointer(params),
@@ -147,10 +162,10 @@ class Wanted:
         if in_levels is not None:
             self.request.levels, self.request.level_factor = in_levels.count, in_levels.factor
 
-        self._kept_alive = radii, keys, kept, points, point_radii, own_classes
+        self._kept_alive = radii, keys, kept, places, own_classes
         self._distance, self._part, self._seed, self._mask = distance, part, seed, mask
         self._count, self._stop_count, self._darts = count, stop_count, darts
-        self._existing, self._avoids, self._classes = len(kept), len(points) > 0, kinds
+        self._existing, self._avoids, self._classes = len(kept), len(places.points) > 0, kinds
         self._is_farthest, self._degrees = order == "farthest", degrees
         chosen = {
             "pool_ratio": pool_ratio != 20,
@@ -164,6 +179,9 @@ class Wanted:
             "metric": metric != "geodesic",
             "classes": classes is not None,
             "class_counts": class_counts is not None,
+            "class_masks": class_masks is not None,
+            "class_densities": class_densities is not None,
+            "class_avoid": class_avoid is not None,
             "features": features is not None,
             "order": order != "dart",
             "maximal": maximal,

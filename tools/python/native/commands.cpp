@@ -146,6 +146,7 @@ void verify(RunningTask& run) {
     }
     Avoided avoided;
     avoided.points = run.options.at("avoided");
+    avoided.classes.assign(avoided.points, kAllClasses);
     SampleFile places;
     for (std::size_t i = 0; i < avoided.points; ++i) {
         avoided.disks.push_back({c::sample_of(task.avoid[i]), task.avoid_radii[i]});

@@ -66,6 +66,52 @@ Result<Done> check_factors(const SampleParams& params) {
     return Done{};
 }
 
+Result<Done> check_avoid_classes(const SampleParams& params) {
+    const auto classes = params.avoid_classes;
+    if (!classes.empty() && classes.size() != params.avoid.size()) {
+        return invalid("there are " + std::to_string(classes.size()) + " classes for " +
+                       std::to_string(params.avoid.size()) + " disks to avoid");
+    }
+    for (std::size_t i = 0; i < classes.size(); ++i) {
+        if (classes[i] != kAllClasses && classes[i] >= class_count(params)) {
+            return invalid("point to avoid " + std::to_string(i) + " keeps out class " +
+                           std::to_string(classes[i]) + ", but there are " +
+                           std::to_string(class_count(params)) + ", numbered from 0");
+        }
+    }
+    return Done{};
+}
+
+Result<Done> check_shares(const SampleParams& params, std::uint32_t faces) {
+    const auto shares = params.class_shares;
+    const std::size_t of_class = std::size_t{3} * faces;
+    if (!shares.empty() && shares.size() != class_count(params) * of_class) {
+        return invalid("there are " + std::to_string(shares.size()) + " shares of classes; " +
+                       std::to_string(class_count(params)) + " classes take 3 for each of " +
+                       std::to_string(faces) + " faces");
+    }
+    const auto wrong =
+        std::ranges::find_if(shares, [](float share) { return !(share >= 0 && share <= 1); });
+    if (wrong != shares.end()) {
+        const auto at = static_cast<std::size_t>(wrong - shares.begin());
+        return invalid("the share of class " + std::to_string(at / of_class) + " in face " +
+                       std::to_string(at % of_class / 3) + " is " + number_text(*wrong) +
+                       ", not from 0 to 1");
+    }
+    return Done{};
+}
+
+/// Returns the number of words of the shares, whole rows.
+std::size_t share_words(const SampleParams& params) {
+    return (params.class_shares.size() / 3 + 3) / 4 * 4;
+}
+
+/// Returns a share in units of 1 / kWholeShare. Only 0 is none.
+std::uint32_t share_steps(float share) {
+    const auto steps = std::lround(static_cast<double>(share) * gpu::kWholeShare);
+    return share > 0 ? static_cast<std::uint32_t>(std::max(steps, 1L)) : 0;
+}
+
 } // namespace
 
 std::uint32_t class_count(const SampleParams& params) noexcept {
@@ -110,13 +156,18 @@ float class_cells_per_unit(const SampleParams& params) noexcept {
     return std::bit_cast<float>(0x7f000000u - (std::bit_cast<std::uint32_t>(half) & 0x7f800000u));
 }
 
-Result<Done> check_classes(const SampleParams& params) {
+Result<Done> check_classes(const SampleParams& params, std::uint32_t faces) {
     if (params.class_factors.empty()) {
-        return params.existing_classes.empty()
-                   ? Result<Done>(Done{})
-                   : invalid("existing samples have classes, but there is no table of classes");
+        const char* const what = !params.existing_classes.empty() ? "existing samples have classes"
+                                 : !params.avoid_classes.empty()  ? "disks to avoid have classes"
+                                 : !params.class_shares.empty()   ? "classes have shares"
+                                                                  : nullptr;
+        return what == nullptr ? Result<Done>(Done{})
+                               : invalid(std::string(what) + ", but there is no table of classes");
     }
     GEODISK_TRY(check_factors(params));
+    GEODISK_TRY(check_avoid_classes(params));
+    GEODISK_TRY(check_shares(params, faces));
     if (!params.existing_classes.empty() &&
         params.existing_classes.size() != params.existing.size()) {
         return invalid("there are " + std::to_string(params.existing_classes.size()) +
@@ -134,7 +185,9 @@ Result<Done> check_classes(const SampleParams& params) {
 }
 
 std::size_t class_bytes(const SampleParams& params) {
-    return params.class_factors.empty() ? 0 : sizeof(Table);
+    return params.class_factors.empty()
+               ? 0
+               : sizeof(Table) + share_words(params) * sizeof(std::uint32_t);
 }
 
 void add_classes(const SampleParams& params, UploadParts& parts) {
@@ -166,10 +219,24 @@ void add_classes(const SampleParams& params, UploadParts& parts) {
         }
     }
     table[gpu::kClassCells] = std::bit_cast<std::uint32_t>(class_cells_per_unit(params));
+    table[gpu::kClassShares] = params.class_shares.empty() ? 0 : count;
     parts.push_back({sizeof table[0], table.size(),
                      [table](std::size_t begin, std::size_t end, std::byte* out) {
                          std::memcpy(out, &table[begin], (end - begin) * sizeof table[0]);
                      }});
+    parts.push_back(
+        {sizeof(std::uint32_t), share_words(params),
+         [count, shares = params.class_shares](std::size_t begin, std::size_t end, std::byte* out) {
+             const std::size_t words = shares.size() / 3;
+             for (std::size_t i = begin; i < end; ++i, out += sizeof(std::uint32_t)) {
+                 std::uint32_t word = 0;
+                 const std::size_t of_face = 3 * (words / count * (i % count) + i / count);
+                 for (std::size_t k = 0; k < 3 && i < words; ++k) {
+                     word |= share_steps(shares[of_face + k]) << (k * gpu::kShareBits);
+                 }
+                 std::memcpy(out, &word, sizeof word);
+             }
+         }});
 }
 
 } // namespace geodisk

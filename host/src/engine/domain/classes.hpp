@@ -27,12 +27,14 @@ double class_crowding(const SampleParams& params) noexcept;
 /// largest distances that the classes have, and more than a quarter.
 float class_cells_per_unit(const SampleParams& params) noexcept;
 
-/// Checks the table, the classes of existing samples, and that nothing contradicts them.
-Result<Done> check_classes(const SampleParams& params);
+/// Checks the table, the classes of existing samples and of disks to avoid, the shares for a mesh
+/// of so many faces, and that nothing contradicts them.
+Result<Done> check_classes(const SampleParams& params, std::uint32_t faces);
 
-/// Returns the bytes of the table of classes; 0 if samples have none.
+/// Returns the bytes of the table of classes and of their shares, whole rows; 0 if samples have
+/// none.
 std::size_t class_bytes(const SampleParams& params);
-/// Appends the table.
+/// Appends the table and the shares.
 void add_classes(const SampleParams& params, UploadParts& parts);
 
 } // namespace geodisk

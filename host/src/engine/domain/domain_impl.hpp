@@ -57,6 +57,7 @@ struct Domain::Impl {
     std::vector<gpu::SampleRec> settled;
     std::uint32_t avoided = 0; ///< Number of them that are points to avoid.
     std::uint32_t classes = 0; ///< Number of classes; 0 if samples have none.
+    bool has_shares = false;   ///< Classes have SampleParams::class_shares.
     ErrorModel error;          ///< Bound on the error of distances.
     /// Set if the samples of this domain, made with its parameters, are only the first ones of a
     /// maximal set.

@@ -20,6 +20,12 @@ constexpr double kMinRadius = 0x1p-20;
 // Error of weights that other programs rounded.
 constexpr double kWeightTolerance = 1e-5;
 
+/// Returns a weight with two bits above it, see gpu::kKeptClassShift.
+float with_bits(float weight, std::uint32_t bits) {
+    return std::bit_cast<float>(std::bit_cast<std::uint32_t>(weight) | bits
+                                                                           << gpu::kKeptClassShift);
+}
+
 double sum_of(const float (&weights)[3]) {
     return double{weights[0]} + double{weights[1]} + double{weights[2]};
 }
@@ -94,12 +100,17 @@ void add_existing(const SampleParams& params, std::uint32_t first_face,
 }
 
 void add_avoided(const PlacedSurface& surface, std::vector<gpu::SampleRec>& settled) {
-    for (const auto& [center, radius] : surface.params.avoid) {
+    const auto& classes = surface.params.avoid_classes;
+    for (std::size_t i = 0; i < surface.params.avoid.size(); ++i) {
+        const auto& [center, radius] = surface.params.avoid[i];
         const double length = working_distance(*surface.mesh, radius / surface.scale);
         const auto ratio = static_cast<float>(std::max(length / surface.frame.unit, kMinRadius));
         const auto [second, third] = rounded_weights(center.weights);
+        const std::uint32_t kept =
+            classes.empty() || classes[i] == kAllClasses ? 0 : classes[i] + 1u;
         settled.push_back({std::bit_cast<std::uint32_t>(ratio),
-                           (surface.first_face + center.face) | gpu::kKeepsOut, second, third});
+                           (surface.first_face + center.face) | gpu::kKeepsOut,
+                           with_bits(second, kept >> 2), with_bits(third, kept & 3)});
     }
 }
 

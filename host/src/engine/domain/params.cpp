@@ -146,7 +146,7 @@ Result<Done> check_params(const PreparedMesh& mesh, const SampleParams& params) 
         return invalid("there are " + std::to_string(params.face_keys.size()) + " face keys for " +
                        std::to_string(mesh.face_count()) + " faces");
     }
-    GEODISK_TRY(check_classes(params));
+    GEODISK_TRY(check_classes(params, mesh.face_count()));
     GEODISK_TRY(check_mask(mesh, params));
     GEODISK_TRY(check_fields(fields_of(params)));
     return check_existing(mesh, params);

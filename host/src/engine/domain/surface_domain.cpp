@@ -234,6 +234,7 @@ SurfaceDomain::SurfaceDomain(std::vector<PlacedSurface> surfaces, FaceCells cell
     kernels.avoids = avoided > 0;
     kernels.classes = !surfaces_[0].params.class_factors.empty();
     classes = kernels.classes ? class_count(surfaces_[0].params) : 0;
+    has_shares = !surfaces_[0].params.class_shares.empty();
     kernels.keyed = !kernels.several && !surfaces_[0].params.face_keys.empty();
     kernels.many_rows = cells_.count != 0;
     // Several have none of it, and seeds of their own.

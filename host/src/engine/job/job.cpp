@@ -315,6 +315,7 @@ Result<Done> Job::Impl::set_out(const Domain& of_domain, const RunPlan& new_plan
     existing = static_cast<std::uint32_t>(of.settled.size());
     avoided = of.avoided;
     classes = of.classes;
+    has_shares = of.has_shares;
     push = {};
     constants = {};
     constants.capacity = capacity_for(of.stages, new_plan.stages);

@@ -301,6 +301,9 @@ bool record_begin(VkCommandBuffer commands, Job::Impl& job, Budget& budget) {
         draw_candidates(recorder, job);
     }
     recorder.single(Kernel::begin_chunk, push);
+    if (job.has_shares) {
+        recorder.pass_over_candidates(Kernel::drop, 32 * gpu::kWideLanes, push);
+    }
     job.is_end_changed = false;
     return recorder.is_complete();
 }

@@ -99,6 +99,7 @@ struct Job::Impl {
     std::uint32_t existing = 0;      ///< Samples that are settled from the start,
     std::uint32_t avoided = 0;       ///< of which so many, the first, are points to avoid.
     std::uint32_t classes = 0;       ///< Domain::Impl::classes.
+    bool has_shares = false;         ///< Domain::Impl::has_shares.
     std::uint64_t thrown = 0;        ///< Candidates of the stages before.
     /// Lowest order, of these stages, that does not take part. Unknown while the exact number of
     /// darts is still to be found: none is decided until then.

@@ -27,6 +27,7 @@ bool has_kernel(const KernelVariant& variant, Kernel kernel) {
     const bool is_common = variant.domain == DomainKind::any;
     return (info.domain == DomainKind::any) == is_common && info.serves(variant.domain) &&
            (kernel != Kernel::group_detect || variant.groups) &&
+           (kernel != Kernel::drop || variant.classes) &&
            (!computes_by_lanes(kernel) || kernel == lanes_kernel(variant));
 }
 
