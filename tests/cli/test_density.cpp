@@ -427,7 +427,7 @@ TEST_CASE("radii that cannot be are refused, naming file and vertex") {
     with_first("nan");
     fails(3, "bad.txt: line 1: 'nan' is not finite", {"--radius-factor", "file:bad.txt"});
     fails(3, "none.png: no such file", {"--radius-factor", "map:none.png"});
-    fails(3, "g.txt: is no PNG, JPEG or WebP image", {"--density", "map:g.txt"});
+    fails(3, "g.txt: is no PNG, JPEG, WebP, TGA or BMP image", {"--density", "map:g.txt"});
     fails(3, "builtin:cube: has no texture coordinates", {"--radius-factor", "map:g.png"},
           "builtin:cube");
     folder.write("black.png", tools::png_bytes(1, 1, std::string_view("\0", 1)));

@@ -220,7 +220,7 @@ def test_colours_of_materials(roof, tmp_path):
     with pytest.raises(geodisk.MeshRejected, match="has no materials"):
         geodisk.sample("builtin:cube", min_distance=0.2, texture="auto")
     (tmp_path / "ramp.png").write_bytes(b"text")
-    with pytest.raises(geodisk.InvalidArgument, match="material 'paint'.*is no PNG, JPEG or WebP"):
+    with pytest.raises(geodisk.InvalidArgument, match="material 'paint'.*is no PNG, JPEG, WebP, TGA or BMP"):
         geodisk.sample(roof, min_distance=0.2, texture="auto")
     (tmp_path / "ramp.png").unlink()
     with pytest.raises(geodisk.MeshRejected, match="material 'paint'.*ramp.png is not there"):

@@ -90,9 +90,9 @@ TEST_CASE("what is no image is refused") {
         check_fails(ExitCode::bad_input, part, [&] { const GreyImage image(path); });
     };
     fails(folder / "none.png", "no such file");
-    fails(folder.write("empty.png", ""), "is no PNG, JPEG or WebP image");
-    fails(folder.write("text.png", "v 0 0 0\n"), "is no PNG, JPEG or WebP image");
-    fails(folder.write("a.pgm", "P5 1 1 255 a"), "is no PNG, JPEG or WebP image");
+    fails(folder.write("empty.png", ""), "is no PNG, JPEG, WebP, TGA or BMP image");
+    fails(folder.write("text.png", "v 0 0 0\n"), "is no PNG, JPEG, WebP, TGA or BMP image");
+    fails(folder.write("a.pgm", "P5 1 1 255 a"), "is no PNG, JPEG, WebP, TGA or BMP image");
     for (std::size_t size = 4; size < kImage.size(); ++size) {
         fails(folder.write("cut.png", std::string_view(kImage).substr(0, size)),
               "cannot be read as a PNG image: ");
@@ -117,14 +117,26 @@ TEST_CASE("JPEG images are read") {
     CHECK(image.at(0.75, 0.5) == doctest::Approx(0.75).epsilon(0.05));
 }
 
-TEST_CASE("JPEG images of inks and WebP images have the colours of others") {
+TEST_CASE("JPEG images of inks, WebP, TGA and BMP images have the colours of others") {
     const TemporaryFolder folder;
+    // Red and green above blue and yellow, as blue, green and red.
+    const std::string above("\0\0\xff\0\xff\0", 6), below("\xff\0\0\0\xff\xff", 6);
+    const std::string header("\0\0\2\0\0\0\0\0\0\0\0\0\2\0\2\0\x18\x20", 18);
+    const std::string tga = header + above + below;
+    std::string packed = header + "\1" + above + "\1" + below; // Runs of two pixels.
+    packed[2] = 10;
+    packed += std::string("\0\0\0\0\0\0\0\0TRUEVISION-XFILE.\0", 26);
+    const std::string bmp =
+        std::string("BM\x46\0\0\0\0\0\0\0\x36\0\0\0\x28\0\0\0\2\0\0\0\2\0\0\0\1\0\x18\0", 30) +
+        std::string(24, '\0') + below + std::string(2, '\0') + above + std::string(2, '\0');
     const std::string webp("RIFF\x36\0\0\0WEBPVP8L\x2a\0\0\0\x2f\x07\xc0\x01\0\x1f\x20\x10\x48"
                            "\xda\x1f\x7a\x8d\xf9\x17\x10\x14\xf9\x3f\xda\xfc\x07\x5f\x24\x40\x41"
                            "\xdb\x36\x4c\x49\x96\x64\x49\xbe\x0d\x44\x44\xff\xc3\xfc\xd0\x07",
                            62);
     for (const std::filesystem::path& path :
-         {folder.write("a.jpg", cmyk_jpeg_bytes()), folder.write("a.webp", webp)}) {
+         {folder.write("a.jpg", cmyk_jpeg_bytes()), folder.write("a.webp", webp),
+          folder.write("a.TGA", tga), folder.write("a.image", packed),
+          folder.write("a.bmp", bmp)}) {
         CAPTURE(path);
         const ColourImage image(path);
         const auto check = [&](double u, double v, const std::array<double, 3>& expected) {
@@ -143,6 +155,18 @@ TEST_CASE("JPEG images of inks and WebP images have the colours of others") {
         check_fails(ExitCode::bad_input, part, [&] { GreyImage{path}; });
     };
     fails(webp.substr(0, 40), "cannot be read as a WebP image");
+    for (std::size_t size = 2; size < bmp.size() - 2; ++size) {
+        CAPTURE(size);
+        fails(bmp.substr(0, size), "cannot be read as a TGA or BMP image: ");
+    }
+    for (const std::string& whole : {tga, packed.substr(0, 32)}) {
+        for (std::size_t size = 0; size < whole.size(); ++size) {
+            CAPTURE(size);
+            const std::filesystem::path path = folder.write("b.tga", whole.substr(0, size));
+            check_fails(ExitCode::bad_input,
+                        "cannot be read as a TGA or BMP image: ", [&] { GreyImage{path}; });
+        }
+    }
     fails("DDS |", "is a DDS image, which is not read; convert it to PNG, JPEG or WebP");
 }
 

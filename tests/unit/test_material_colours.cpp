@@ -568,7 +568,7 @@ TEST_CASE("glTF materials that cannot be read are refused") {
     changed.images = R"([{"uri": "data:;base64,iVBORw0KGgo="}])";
     fails(changed, "a.gltf: material 'paint': image 0: cannot be read as a PNG image");
     changed.images = R"([{"uri": "a.gltf"}])";
-    fails(changed, "image 0, a.gltf: is no PNG, JPEG or WebP image");
+    fails(changed, "image 0, a.gltf: is no PNG, JPEG, WebP, TGA or BMP image");
     changed.images = R"([{"bufferView": 99}])";
     fails(changed, "bufferView 99 is out of range");
     changed.images = R"([{}])";

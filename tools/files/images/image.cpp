@@ -16,10 +16,9 @@ namespace {
 constexpr double kWhite = 65535; ///< Value of a white component.
 
 /// How files of other images begin that meshes name.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 8> kOtherImages{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 7> kOtherImages{
     {{"\xabKTX", "KTX"},
      {"DDS ", "DDS"},
-     {"BM", "BMP"},
      {"GIF8", "GIF"},
      {std::string_view("II*\0", 4), "TIFF"},
      {std::string_view("MM\0*", 4), "TIFF"},
@@ -50,6 +49,12 @@ std::int64_t wrapped(double pixel, std::int64_t count, ImageWrap wrap) {
     return index < 0 ? index + count : index >= count ? index - count : index;
 }
 
+/// TGA files begin with nothing of their own. Many end with this.
+bool is_tga(const Path& path, std::string_view bytes) {
+    constexpr std::string_view kFooter("TRUEVISION-XFILE.\0", 18);
+    return bytes.ends_with(kFooter) || lower_case(path.extension().string()) == ".tga";
+}
+
 ImagePixels decode(const Path& path, const std::string& bytes, PixelKind kind) {
     if (bytes.starts_with("\x89PNG")) {
         return decode_png(path, bytes, kind);
@@ -60,13 +65,16 @@ ImagePixels decode(const Path& path, const std::string& bytes, PixelKind kind) {
     if (bytes.starts_with("RIFF") && bytes.substr(0, 12).ends_with("WEBP")) {
         return decode_webp(path, bytes, kind);
     }
+    if (bytes.starts_with("BM") || is_tga(path, bytes)) {
+        return decode_plain(path, bytes, kind);
+    }
     for (const auto& [start, name] : kOtherImages) {
         if (std::string_view(bytes).starts_with(start)) {
             fail_input(path, "is a " + std::string(name) +
                                  " image, which is not read; convert it to PNG, JPEG or WebP");
         }
     }
-    fail_input(path, "is no PNG, JPEG or WebP image");
+    fail_input(path, "is no PNG, JPEG, WebP, TGA or BMP image");
 }
 
 } // namespace

@@ -1,7 +1,9 @@
 // Decodes image files to pixels.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -30,10 +32,27 @@ inline double grey_of(double red, double green, double blue) {
     return (77 * red + 150 * green + 29 * blue) / 256;
 }
 
+/// Appends pixels of three bytes each.
+inline void add_pixels(std::span<const std::uint8_t> rgb, PixelKind kind, ImagePixels& pixels) {
+    for (std::size_t i = 0; i + 3 <= rgb.size(); i += 3) {
+        const std::uint32_t red = 257u * rgb[i], green = 257u * rgb[i + 1],
+                            blue = 257u * rgb[i + 2];
+        if (kind == PixelKind::grey) {
+            pixels.values.push_back(luminance(red, green, blue));
+        } else {
+            for (const std::uint32_t value : {red, green, blue}) {
+                pixels.values.push_back(static_cast<std::uint16_t>(value));
+            }
+        }
+    }
+}
+
 /// `bytes` are those of the file `path`, which errors name. Transparency is ignored. Throw
 /// UserError(bad_input) for what is damaged, cut short or has too many pixels.
 ImagePixels decode_png(const Path& path, const std::string& bytes, PixelKind kind);
 ImagePixels decode_jpeg(const Path& path, const std::string& bytes, PixelKind kind);
 ImagePixels decode_webp(const Path& path, const std::string& bytes, PixelKind kind);
+/// TGA and BMP.
+ImagePixels decode_plain(const Path& path, const std::string& bytes, PixelKind kind);
 
 } // namespace geodisk::tools

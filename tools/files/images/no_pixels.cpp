@@ -12,4 +12,8 @@ ImagePixels decode_jpeg(const Path& path, const std::string& /*bytes*/, PixelKin
     fail_input(path, "this geodisk was built without libjpeg, which JPEG images need");
 }
 
+ImagePixels decode_plain(const Path& path, const std::string& /*bytes*/, PixelKind /*kind*/) {
+    fail_input(path, "this geodisk was built without images");
+}
+
 } // namespace geodisk::tools

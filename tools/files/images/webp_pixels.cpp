@@ -27,17 +27,7 @@ ImagePixels decode_webp(const Path& path, const std::string& bytes, PixelKind ki
     if (count > kMaxPixels) {
         fail_input(path, "cannot be read as a WebP image: it has more than 2^26 pixels");
     }
-    for (std::size_t i = 0; i < 3 * count; i += 3) {
-        const std::uint32_t red = 257u * rgb.get()[i], green = 257u * rgb.get()[i + 1],
-                            blue = 257u * rgb.get()[i + 2];
-        if (kind == PixelKind::grey) {
-            pixels.values.push_back(luminance(red, green, blue));
-        } else {
-            for (const std::uint32_t value : {red, green, blue}) {
-                pixels.values.push_back(static_cast<std::uint16_t>(value));
-            }
-        }
-    }
+    add_pixels(std::span(rgb.get(), 3 * count), kind, pixels);
     return pixels;
 }
 

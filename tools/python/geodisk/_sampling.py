@@ -161,9 +161,9 @@ def sample(
     edge_lengths, weld, keep_seams, columns, attributes, mesh_format, allow_outside
         Parameters of :class:`Mesh`.
     texture : str or path-like, optional
-        PNG, JPEG or WebP image whose colours to add, as ``attributes["color"]``, at the texture
-        coordinates that the mesh file has. "auto" adds those of the materials of a glTF or OBJ
-        file and their images. Colours are from 0 to 1, as sRGB encodes them.
+        PNG, JPEG, WebP, TGA or BMP image whose colours to add, as ``attributes["color"]``, at
+        the texture coordinates that the mesh file has. "auto" adds those of the materials of a
+        glTF or OBJ file and their images. Colours are from 0 to 1, as sRGB encodes them.
     normals : {"face", "file", "smooth"}
         Normals of triangles, those of the mesh file, or interpolated means at vertices.
     frames : bool or str

@@ -50,8 +50,8 @@ def transfer(
     attributes : sequence of str, or "all"
         Names of attributes to add, which the file `to` has.
     texture : str or path-like, optional
-        PNG, JPEG or WebP image whose colours to add, as ``attributes["color"]``, at the texture
-        coordinates that the file `to` has. "auto" adds those of the materials of `to`.
+        PNG, JPEG, WebP, TGA or BMP image whose colours to add, as ``attributes["color"]``, at
+        the texture coordinates that the file `to` has. "auto" adds those of the materials of `to`.
     normals : {"face", "file", "smooth"}, optional
         Normals of triangles, those of the file `to`, or interpolated means at vertices. By default
         as the samples have them.
