@@ -396,7 +396,6 @@ TEST_SUITE("boxes") {
         }
     }
 
-    // The samples of the chunks before start each chunk, with slots and lists that are too few.
     TEST_CASE("samples of chunks before overwrite no candidates") {
         const BoxParams box = unit_box(2, 1000, true);
         RunnerOptions options;
@@ -405,6 +404,7 @@ TEST_SUITE("boxes") {
         CHECK(sample_box(box, options).points == sequential_set<float>(box));
     }
 
+    // The samples of the chunks before start each chunk, with slots and lists that are too few.
     TEST_CASE("lists and samples that overflow in later chunks are enlarged") {
         const BoxParams box = unit_box(3, 500, true);
         RunnerOptions tight;

@@ -437,8 +437,10 @@ def test_records_that_cannot_be(obj, roof, tmp_path):
             call(texture=tmp_path / "none.png")
         with pytest.raises(geodisk.InvalidArgument, match="normals is 'round'"):
             call(normals="round")
-        with pytest.raises(TypeError, match="frames is 1, neither True, False nor a text"):
-            call(frames=1)
+        with pytest.raises(TypeError, match="frames is .*, neither True, False, a number nor"):
+            call(frames=[1])
+        with pytest.raises(geodisk.InvalidArgument, match="nor a number from 0 to 1"):
+            call(frames=2)
         with pytest.raises(geodisk.InvalidArgument, match="frames: 'no' is neither x, y or z"):
             call(frames="no")
         with pytest.raises(geodisk.InvalidArgument, match="up is for frames"):
@@ -575,3 +577,26 @@ def test_densities_of_faces_corners_and_names(tmp_path):
         places(np.ones(7))
     with pytest.raises(geodisk.InvalidArgument, match="read with the attributes color; give"):
         places("heat")
+
+
+def test_a_density_by_the_name_of_an_attribute_is_read_with_the_file(tmp_path):
+    path = tmp_path / "a.ply"
+    path.write_text(
+        "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
+        "property float z\nproperty float quality\nelement face 2\n"
+        "property list uchar int vertex_indices\nend_header\n"
+        "0 0 0 0\n1 0 0 0\n1 1 0 1\n0 1 0 1\n3 0 1 2\n3 0 2 3\n"
+    )
+    mesh = geodisk.Mesh(path, attributes="quality")
+    expected = geodisk.sample(mesh, count=100, density="quality")
+    for made in (
+        geodisk.sample(path, count=100, density="quality"),
+        geodisk.sample(str(path), count=100, density="quality", attributes=["quality"]),
+        geodisk.sample_many([path], count=100, density=["quality"])[0],
+    ):
+        assert np.array_equal(made.points, expected.points)
+    turned = geodisk.sample(path, count=100, frames=0.3)
+    text = geodisk.sample(path, count=100, frames="0.3")
+    assert np.array_equal(turned.attributes["frames"], text.attributes["frames"])
+    with pytest.raises(geodisk.MeshRejected, match="has no attribute 'nope'; it has quality"):
+        geodisk.sample(path, count=100, density="nope")

@@ -299,7 +299,7 @@ TEST_CASE("images of a set are the tiles of texture coordinates") {
         folder.write("a.obj", obj_of({"usemtl m", kFace}) + more);
         return read_with_materials(folder / "a.obj");
     };
-    for (const char* const map : {"s.<UDIM>.png", "s.1001.png", "t_<UVTILE>.png"}) {
+    for (const char* const map : {"s.<UDIM>.png", "s.<udim>.png", "s.1001.png", "t_<UVTILE>.png"}) {
         CAPTURE(map);
         const MeshFile mesh = mesh_of_map(map, far);
         check_colours(mesh, 0, {kRed, kRed, kRed});

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <iterator>
+#include <numeric>
 #include <optional>
 #include <string>
 #include <utility>
@@ -317,8 +318,12 @@ DryRun try_sampling(const SampleJob& job, const MeshInput& mesh, RunDevice& devi
     request.is_exact = false;
     request.features = 0;
     request.order = SampleOrder::dart;
-    return dry_run_on_device(device, take(RequestRun::create(mesh.sampled(), request)), params.seed,
-                             progress);
+    DryRun run = dry_run_on_device(device, take(RequestRun::create(mesh.sampled(), request)),
+                                   params.seed, progress);
+    if (const auto& counts = job.method.class_counts; !counts.empty()) {
+        run.expected = std::min(run.expected, std::accumulate(counts.begin(), counts.end(), 0.0));
+    }
+    return run;
 }
 
 } // namespace geodisk::tools

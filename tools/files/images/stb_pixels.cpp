@@ -44,8 +44,10 @@ int read_some(void* user, char* data, int size) {
 
 void skip(void* user, int size) {
     Source& source = *static_cast<Source*>(user);
-    source.is_short = source.is_short || size < 0 || source.left.size() < static_cast<std::size_t>(size);
-    source.left.remove_prefix(std::min(source.left.size(), static_cast<std::size_t>(std::max(size, 0))));
+    source.is_short =
+        source.is_short || size < 0 || source.left.size() < static_cast<std::size_t>(size);
+    source.left.remove_prefix(
+        std::min(source.left.size(), static_cast<std::size_t>(std::max(size, 0))));
 }
 
 int is_at_end(void* user) {
@@ -64,14 +66,16 @@ ImagePixels decode_plain(const Path& path, const std::string& bytes, PixelKind k
     if (stbi_info_from_callbacks(&kCalls, &source, &width, &height, &components) == 0) {
         fail("it is damaged, or of a kind that is not read");
     }
-    const std::uint64_t count = static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
+    const std::uint64_t count =
+        static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
     if (count > kMaxPixels) {
         fail("it has more than 2^26 pixels");
     }
     source = {bytes};
     constexpr int kColours = 3;
     const std::unique_ptr<stbi_uc, void (*)(void*)> rgb(
-        stbi_load_from_callbacks(&kCalls, &source, &width, &height, &components, kColours), std::free);
+        stbi_load_from_callbacks(&kCalls, &source, &width, &height, &components, kColours),
+        std::free);
     if (rgb == nullptr || source.is_short) {
         fail("it is damaged or cut short");
     }

@@ -5,6 +5,7 @@
 #include <cctype>
 #include <string_view>
 
+#include "files/input_file.hpp"
 #include "files/name_text.hpp"
 #include "geometry/material_colours.hpp"
 #include "program/exact_text.hpp"
@@ -36,9 +37,10 @@ std::optional<std::uint32_t> tile_number(std::string_view text, bool has_places)
 } // namespace
 
 std::optional<TileName> tile_name(const std::string& name) {
-    constexpr std::array<std::string_view, 3> kMarks{"<UDIM>", "<UVTILE>", "1001"};
+    constexpr std::array<std::string_view, 3> kMarks{"<udim>", "<uvtile>", "1001"};
+    const std::string lower = lower_case(name);
     for (const std::string_view mark : kMarks) {
-        const std::size_t at = name.rfind(mark);
+        const std::size_t at = lower.rfind(mark);
         const std::size_t end = at + mark.size();
         if (at == std::string::npos || name.find_first_of("/\\", at) != std::string::npos) {
             continue;

@@ -18,8 +18,8 @@ struct TileName {
     bool has_places = false; ///< Tiles are called "u1_v1", not by numbers.
 };
 
-/// Returns the parts of a name with "<UDIM>", "<UVTILE>" or 1001 set apart by other signs than
-/// letters and digits.
+/// Returns the parts of a name with "<UDIM>" or "<UVTILE>", in any case, or with 1001 set apart by
+/// other signs than letters and digits.
 std::optional<TileName> tile_name(const std::string& name);
 
 /// Returns the names that `from` would call the tiles by that are in the folder, by number from

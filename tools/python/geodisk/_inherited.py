@@ -23,7 +23,7 @@ class Wanted:
 
     texture: str | os.PathLike[str] | None
     normals: str | None
-    frames: bool | str | None
+    frames: bool | float | str | None
     up: str | None
     attributes: str | Sequence[str] | None = None
     has_colours: bool = False  #: Whether what is made keeps the colours of a texture already.

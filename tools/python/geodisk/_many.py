@@ -14,7 +14,7 @@ from . import _errors as e
 from ._classes import ClassesLike
 from ._devices import DeviceLike
 from ._existing import AvoidLike, ExistingLike
-from ._mesh import Mesh, mesh_of
+from ._mesh import Mesh, attributes_with, mesh_of
 from ._protocols import MeshLike
 from ._record import Record, recorded
 from ._running import ProgressCallback, Runs
@@ -57,7 +57,7 @@ def sample_many(
     attributes: str | Sequence[str] = (),
     texture: str | os.PathLike[str] | None = None,
     normals: str = "face",
-    frames: bool | str = False,
+    frames: bool | float | str = False,
     up: str | None = None,
     mesh_format: str | None = None,
     allow_outside: bool = False,
@@ -139,7 +139,14 @@ def sample_many(
         own = {name: each[i] for name, each in (values | arrays).items()}
         return Wanted(
             lambda: _mesh_of(
-                given[i], weld, keep_seams, columns, mesh_format, attributes, record, allow_outside
+                given[i],
+                weld,
+                keep_seams,
+                columns,
+                mesh_format,
+                attributes_with(attributes, given[i], own["density"], own["radius_factor"]),
+                record,
+                allow_outside,
             ),
             exact=exact,
             pool_ratio=pool_ratio,

@@ -329,6 +329,17 @@ def mesh_of(
     return vertices
 
 
+def attributes_with(
+    attributes: str | Sequence[str], vertices: Any, *values: ArrayLike | None
+) -> str | Sequence[str]:
+    """Returns the attributes to read of a mesh, also those that name values if it is a file."""
+    named = [value for value in values if isinstance(value, str)]
+    if not named or attributes == "all" or not isinstance(vertices, (str, os.PathLike)):
+        return attributes
+    given = [attributes] if isinstance(attributes, str) else list(attributes)
+    return [*given, *(name for name in named if name not in given)]
+
+
 def mask_of(
     surface: Surface, face_mask: ArrayLike, name: str = "face_mask"
 ) -> NDArray[np.uint8]:

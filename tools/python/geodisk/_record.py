@@ -5,6 +5,7 @@ from __future__ import annotations
 import copy
 import dataclasses
 import json
+import numbers
 import os
 import reprlib
 from ctypes import byref
@@ -20,7 +21,7 @@ from ._background import interruptible
 from ._polygons import from_rows
 from ._source import split
 from ._surface import Surface
-from ._values import choice, path_of, text
+from ._values import choice, number, path_of, text
 
 if TYPE_CHECKING:
     from ._mesh import Mesh
@@ -48,7 +49,7 @@ class Record:
         self,
         texture: str | os.PathLike[str] | None,
         normals: str,
-        frames: bool | str,
+        frames: bool | float | str,
         up: str | None = None,
     ) -> None:
         self.texture = None if texture is None else path_of(texture, "texture")
@@ -97,12 +98,14 @@ class Record:
         return self.texture is None and self.normals == "face" and self.frames is None
 
 
-def _style_of(frames: bool | str) -> tuple[str | None, bool]:
+def _style_of(frames: bool | float | str) -> tuple[str | None, bool]:
     """Returns the style of frames, and whether they keep to an axis of the mesh."""
     if isinstance(frames, (bool, np.bool_)):
         return ("yes" if frames else None), False
+    if isinstance(frames, numbers.Real):
+        frames = repr(number(frames, "frames"))
     if not isinstance(frames, str):
-        raise TypeError(f"frames is {reprlib.repr(frames)}, neither True, False nor a text")
+        raise TypeError(f"frames is {reprlib.repr(frames)}, neither True, False, a number nor a text")
     if not frames:
         raise e.invalid("frames is '', which names no style")
     (style,) = c.run("frame_style", text=text(frames, "frames"))

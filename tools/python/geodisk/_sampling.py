@@ -17,7 +17,7 @@ from ._arrays import real
 from ._classes import ClassesLike
 from ._devices import DeviceLike
 from ._existing import AvoidLike, ExistingLike
-from ._mesh import Mesh, mesh_of
+from ._mesh import Mesh, attributes_with, mesh_of
 from ._oddities import oddities_of_set, warn
 from ._protocols import Faces, MeshLike
 from ._record import Record, recorded
@@ -65,7 +65,7 @@ def sample(
     attributes: str | Sequence[str] = (),
     texture: str | os.PathLike[str] | None = None,
     normals: str = "face",
-    frames: bool | str = False,
+    frames: bool | float | str = False,
     up: str | None = None,
     mesh_format: str | None = None,
     allow_outside: bool = False,
@@ -94,7 +94,7 @@ def sample(
         Density of samples at each vertex, in any unit; 0 for none. The distance applies where the
         density is largest. Values of faces or of their corners become means at the vertices; of
         faces, weighted by area. With as many faces as vertices, values are those of vertices. A
-        name is that of an attribute that the mesh was read with, or of a component, as "red".
+        name is that of an attribute of the mesh, or of a component, as "red"; of a file it is read.
     radius_factor : array_like of float, shape (v,), (f,) or (f, 3), or str, optional
         Factor of the radius at each vertex, 0.001 to 1, given as a density. The distance applies
         to two samples with factor 1.
@@ -166,10 +166,10 @@ def sample(
         glTF or OBJ file and their images. Colours are from 0 to 1, as sRGB encodes them.
     normals : {"face", "file", "smooth"}
         Normals of triangles, those of the mesh file, or interpolated means at vertices.
-    frames : bool or str
+    frames : bool, float or str
         Add ``attributes["frames"]``, shape (n, 4): quaternions (x, y, z, w) that turn z to the
         normal, after a random angle about z. "y" turns y, for models whose y points up. "upright"
-        keeps models upright, and "0.3" turns them 0.3 of the way from there to the normal. "y,0.3"
+        keeps models upright, and 0.3 turns them 0.3 of the way from there to the normal. "y,0.3"
         is both.
     up : {"x", "y", "z"}, optional
         Axis of the mesh that points up, for frames that are upright or turned a part of the way. By
@@ -223,9 +223,11 @@ def sample(
         raise TypeError(f"faces is {faces!r}; for about so many samples give count={faces!r}")
     record = Record(texture, normals, frames, up)
 
+    named = attributes_with(attributes, vertices, density, radius_factor)
+
     def read_mesh() -> Mesh:
         return mesh_of(
-            vertices, faces, edge_lengths, weld, keep_seams, columns, mesh_format, attributes,
+            vertices, faces, edge_lengths, weld, keep_seams, columns, mesh_format, named,
             record, allow_outside,
         )
 

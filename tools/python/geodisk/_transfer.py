@@ -30,7 +30,7 @@ def transfer(
     attributes: str | Sequence[str] = (),
     texture: str | os.PathLike[str] | None = None,
     normals: str | None = None,
-    frames: bool | str | None = None,
+    frames: bool | float | str | None = None,
     up: str | None = None,
     edge_lengths: ArrayLike | None = None,
     weld: bool | float = False,
@@ -55,7 +55,7 @@ def transfer(
     normals : {"face", "file", "smooth"}, optional
         Normals of triangles, those of the file `to`, or interpolated means at vertices. By default
         as the samples have them.
-    frames : bool or str, optional
+    frames : bool, float or str, optional
     up : {"x", "y", "z"}, optional
         Add ``attributes["frames"]``, as for :func:`sample`. By default as the samples have them.
     vertices, faces, edge_lengths, weld, keep_seams

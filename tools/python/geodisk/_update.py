@@ -50,7 +50,7 @@ def update(
     attributes: str | Sequence[str] | None = None,
     texture: str | os.PathLike[str] | None = None,
     normals: str | None = None,
-    frames: bool | str | None = None,
+    frames: bool | float | str | None = None,
     up: str | None = None,
     vertices: ArrayLike | MeshLike | None = None,
     faces: Faces | None = None,
