@@ -32,7 +32,7 @@ Result<std::vector<std::uint32_t>> divide_faces(const PreparedMesh& mesh,
     return guarded([&]() -> Result<std::vector<std::uint32_t>> {
         GEODISK_TRY(check_processes(mesh, processes));
         std::vector<std::uint32_t> parts = metis_parts(mesh, work, processes);
-        return all_have_faces(parts, processes) ? parts : grown_parts(mesh, work, processes);
+        return all_have_faces(parts, processes) ? parts : halved_parts(mesh, work, processes);
     });
 }
 

@@ -2,6 +2,8 @@
 // number of parts.
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <chrono>
 #include <memory>
 #include <numeric>
 #include <optional>
@@ -21,7 +23,7 @@ namespace {
 
 Result<std::vector<std::uint32_t>> grown(const PreparedMesh& mesh, const SampleParams& params,
                                          std::uint32_t processes) {
-    return grown_parts(mesh, work_of_faces(mesh, params), processes);
+    return halved_parts(mesh, work_of_faces(mesh, params), processes);
 }
 
 /// Every face is another part's than the one before.
@@ -106,6 +108,35 @@ std::string refusal(const PreparedMesh& mesh, const SampleParams& params, std::u
     REQUIRE_FALSE(result);
     CHECK(result.error().status == Status::invalid_argument);
     return result.error().message;
+}
+
+/// Less memory than a run on 125,000 triangles takes.
+constexpr std::uint64_t kLittleMemory = 24u << 20;
+
+Runner small_runner() {
+    static const auto sampler =
+        std::make_shared<const Sampler>(expect(Sampler::create(shared_context().device())));
+    RunnerOptions options;
+    options.device_bytes = kLittleMemory;
+    return expect(Runner::create(sampler, shared_context().queue(), options));
+}
+
+/// A surface that such a runner does not hold as a whole.
+const TestMesh& large_shape() {
+    static const TestMesh kShape = builtin("terrain", 250);
+    return kShape;
+}
+
+/// Checks that a runner with little memory divides a job, and gives the set of the whole.
+void check_divided(const PreparedMesh& mesh, const SampleParams& params) {
+    const SampleSet whole = sample(mesh, params);
+    CHECK(whole.report.starts == 1);
+    const SampleSet divided = expect(small_runner().sample_and_wait(mesh, params));
+    CHECK(points_of(divided) == points_of(whole));
+    CHECK(divided.existing == whole.existing);
+    CHECK(divided.report.candidates == whole.report.candidates);
+    CHECK(divided.report.starts > 1);
+    CHECK(divided.report.device_bytes <= kLittleMemory);
 }
 
 } // namespace
@@ -241,6 +272,74 @@ TEST_SUITE("parts") {
         const auto result = in_parts(knot, params_for(knot, 300), 3, grown, 0x1p26, &saving);
         REQUIRE_FALSE(result);
         CHECK(result.error().message == "the disk is full");
+    }
+
+    TEST_CASE("a runner divides by itself what the device cannot hold") {
+        const PreparedMesh terrain = prepared(large_shape());
+        SampleParams params = params_for(terrain, 3000);
+        check_divided(terrain, params);
+        const std::vector<Sample> given = sample(terrain, params_for(terrain, 30, 5)).samples;
+        const KeepOut avoided[] = {{given[3], params.min_distance * 2}};
+        const std::vector<std::uint8_t> mask = mask_above(large_shape(), 0);
+        params.existing = given;
+        params.avoid = avoided;
+        params.face_mask = mask;
+        check_divided(terrain, params);
+        params = params_for(terrain, 3000, 2);
+        params.darts = 15000;
+        params.stop_count = 2000;
+        check_divided(terrain, params);
+        const RadiusField waves = radius_field(terrain, wavy_factors(large_shape(), 0.4));
+        check_divided(terrain, params_for(terrain, 3000, 3, &waves));
+    }
+
+    TEST_CASE("a divided run is polled, told of and cancelled as any other") {
+        const PreparedMesh terrain = prepared(large_shape());
+        const SampleParams params = params_for(terrain, 3000);
+        const Domain domain = expect(Domain::surface(terrain, params));
+        Runner runner = small_runner();
+        std::uint32_t calls = 0, most = 0;
+        expect(runner.start(domain, [&](const Progress& now) {
+            ++calls;
+            most = std::max(most, now.accepted);
+            CHECK(now.decided <= now.candidates);
+            return true;
+        }));
+        std::optional<SampleSet> set;
+        while (!set) {
+            CHECK_FALSE(runner.start(domain));
+            set = expect(runner.poll(std::chrono::milliseconds(20)));
+        }
+        CHECK(points_of(*set) == points_of(sample(terrain, params)));
+        CHECK(calls > 3);
+        CHECK(most > 100);
+        CHECK_FALSE(runner.poll()); // Nothing is in progress.
+
+        std::uint32_t before = 5;
+        const auto stopped = runner.sample_and_wait(
+            domain, [&](const Progress&) { return before == 0 || --before > 0; });
+        REQUIRE_FALSE(stopped);
+        CHECK(stopped.error().status == Status::cancelled);
+        expect(runner.start(domain));
+        CHECK_FALSE(expect(runner.poll(std::chrono::milliseconds(5))));
+        runner.cancel();
+        runner.release_memory();
+        CHECK(points_of(expect(runner.sample_and_wait(domain))) == points_of(*set));
+    }
+
+    TEST_CASE("what cannot be divided ends with the error of the whole") {
+        const PreparedMesh terrain = prepared(large_shape());
+        SampleParams params = params_for(terrain, 3000);
+        const float factors[] = {1, 0.5f, 0.5f, 1};
+        params.class_factors = factors;
+        Runner runner = small_runner();
+        const auto classed = runner.sample_and_wait(terrain, params);
+        REQUIRE_FALSE(classed);
+        CHECK(classed.error().status == Status::out_of_device_memory);
+        // Of disks as large as the surface, each part has it all.
+        const auto wide = runner.sample_and_wait(terrain, params_for(terrain, 2));
+        REQUIRE_FALSE(wide);
+        CHECK(wide.error().status == Status::out_of_device_memory);
     }
 }
 

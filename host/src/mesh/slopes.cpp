@@ -51,12 +51,12 @@ class Slopes {
         raised_.emplace(value, mesh_.half_edges()[h].origin);
     }
 
-    /// Returns the smallest value at the apex over h with a gradient of at most `gradient`, if the
-    /// gradient along h allows it.
-    double min_at_apex(std::uint32_t h, double gradient) {
+    /// Returns the smallest value at the apex over h that leaves this part of what the gradient
+    /// across h may be, beside the gradient along h.
+    double min_at_apex(std::uint32_t h, double part) {
         const HalfEdge& edge = mesh_.half_edges()[h];
         const double along = edge.length > 0 ? (end(h) - start(h)) / length(h) : 0;
-        const double across = std::sqrt(std::max(0.0, gradient * gradient - along * along));
+        const double across = part * std::sqrt(std::max(0.0, 1 - along * along));
         return start(h) + along * (edge.apex_x / unit_) - across * (edge.apex_y / unit_);
     }
 

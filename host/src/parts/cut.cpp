@@ -1,6 +1,7 @@
 #include "parts/cut.hpp"
 
-#include <deque>
+#include <algorithm>
+#include <numeric>
 #include <string>
 
 #include "engine/domain/stages.hpp"
@@ -8,8 +9,6 @@
 
 namespace geodisk {
 namespace {
-
-constexpr std::uint32_t kNone = ~std::uint32_t{0};
 
 /// Calls `visit` for each face that shares an edge with this one.
 template <class Visit>
@@ -22,6 +21,68 @@ void for_faces_beside(const PreparedMesh& mesh, std::uint32_t face, const Visit&
             visit(other / 3);
         }
     }
+}
+
+/// Faces that are still to be cut into parts.
+struct Piece {
+    std::size_t begin, end;     ///< Of the faces.
+    std::uint32_t first, parts; ///< Number of the first part, and how many there are.
+};
+
+/// Puts the faces of a piece in order from one end to the other.
+class Halving {
+  public:
+    explicit Halving(const PreparedMesh& mesh)
+        : mesh_(mesh), piece_of_(mesh.face_count(), 0), next_(mesh.face_count()) {}
+
+    void put_far_ends_apart(std::span<std::uint32_t> faces) {
+        walk(faces, faces.front());
+        walk(faces, faces.back());
+    }
+
+  private:
+    /// Puts the faces in the order in which a walk from face to face across edges comes to them,
+    /// and then to those that no edges join to them.
+    void walk(std::span<std::uint32_t> faces, std::uint32_t from) {
+        ++walk_;
+        for (const std::uint32_t face : faces) {
+            piece_of_[face] = walk_;
+        }
+        std::size_t seen = 0, visited = 0;
+        const auto see = [&](std::uint32_t face) {
+            if (piece_of_[face] == walk_) {
+                piece_of_[face] = 0;
+                next_[seen++] = face;
+            }
+        };
+        see(from);
+        for (const std::uint32_t first : faces) {
+            see(first);
+            for (; visited < seen; ++visited) {
+                for_faces_beside(mesh_, next_[visited], see);
+            }
+        }
+        std::copy_n(next_.begin(), seen, faces.begin());
+    }
+
+    const PreparedMesh& mesh_;
+    std::vector<std::uint32_t> piece_of_; ///< Number of the walk that is still to come to a face.
+    std::vector<std::uint32_t> next_;
+    std::uint32_t walk_ = 0;
+};
+
+/// Returns how many of the faces of some parts, from the first on, are those of the first of them.
+std::size_t cut_at(std::span<const std::uint32_t> faces, std::span<const double> work,
+                   std::uint32_t first, std::uint32_t parts) {
+    double all = 0, done = 0;
+    for (const std::uint32_t face : faces) {
+        all += work[face];
+    }
+    std::size_t count = 0;
+    while (count < faces.size() && (count < first || done < all * first / parts)) {
+        done += work[faces[count++]];
+    }
+    return std::min(count, faces.size() - (parts - first));
 }
 
 } // namespace
@@ -45,48 +106,28 @@ Result<Done> check_processes(const PreparedMesh& mesh, std::uint32_t processes) 
     return Done{};
 }
 
-std::vector<std::uint32_t> grown_parts(const PreparedMesh& mesh, std::span<const double> work,
-                                       std::uint32_t parts) {
-    const std::uint32_t faces = mesh.face_count();
-    std::vector<std::uint32_t> part_of(faces, kNone);
-    std::vector<std::uint32_t> seen(faces, kNone); // By the last part that saw the face.
-    std::deque<std::uint32_t> next;
-    double done = 0;
-    std::uint32_t taken = 0, first_left = 0;
-    for (std::uint32_t part = 0; part < parts; ++part) {
-        // The next part goes on from the first face that this one leaves.
-        if (!next.empty()) {
-            next.resize(1);
-            seen[next.front()] = part;
-        }
-        const double end = static_cast<double>(part + 1) / parts;
-        const bool is_last = part + 1 == parts;
-        for (bool is_empty = true; is_empty || is_last || done < end; is_empty = false) {
-            if (faces - taken <= parts - part - 1) {
-                break; // One face for each part that follows.
+std::vector<std::uint32_t> halved_parts(const PreparedMesh& mesh, std::span<const double> work,
+                                        std::uint32_t parts) {
+    std::vector<std::uint32_t> part_of(mesh.face_count());
+    std::vector<std::uint32_t> faces(mesh.face_count());
+    std::iota(faces.begin(), faces.end(), 0u);
+    Halving halving(mesh);
+    std::vector<Piece> pieces{{0, faces.size(), 0, parts}};
+    while (!pieces.empty()) {
+        const Piece piece = pieces.back();
+        pieces.pop_back();
+        const auto own = std::span(faces).subspan(piece.begin, piece.end - piece.begin);
+        if (piece.parts == 1) {
+            for (const std::uint32_t face : own) {
+                part_of[face] = piece.first;
             }
-            if (next.empty()) {
-                while (first_left < faces && part_of[first_left] != kNone) {
-                    ++first_left;
-                }
-                if (first_left == faces) {
-                    break;
-                }
-                next.push_back(first_left);
-                seen[first_left] = part;
-            }
-            const std::uint32_t face = next.front();
-            next.pop_front();
-            part_of[face] = part;
-            done += work[face];
-            ++taken;
-            for_faces_beside(mesh, face, [&](std::uint32_t other) {
-                if (part_of[other] == kNone && seen[other] != part) {
-                    seen[other] = part;
-                    next.push_back(other);
-                }
-            });
+            continue;
         }
+        halving.put_far_ends_apart(own);
+        const std::uint32_t left = piece.parts / 2;
+        const std::size_t middle = piece.begin + cut_at(own, work, left, piece.parts);
+        pieces.push_back({middle, piece.end, piece.first + left, piece.parts - left});
+        pieces.push_back({piece.begin, middle, piece.first, left});
     }
     return part_of;
 }

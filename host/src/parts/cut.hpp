@@ -19,9 +19,10 @@ GEODISK_API Result<Done> check_processes(const PreparedMesh& mesh, std::uint32_t
 /// its memory. They sum to 1.
 GEODISK_API std::vector<double> work_of_faces(const PreparedMesh& mesh, const SampleParams& params);
 
-/// Returns the part of each face, where parts grow from face to face across edges until they have
-/// their share of the work. Each has a face; there must be as many faces as parts.
+/// Returns the part of each face. Parts are halved, between faces that are far apart by steps
+/// across edges, until each has its share of the work. Each has a face; there must be as many faces
+/// as parts.
 GEODISK_API std::vector<std::uint32_t>
-grown_parts(const PreparedMesh& mesh, std::span<const double> work, std::uint32_t parts);
+halved_parts(const PreparedMesh& mesh, std::span<const double> work, std::uint32_t parts);
 
 } // namespace geodisk

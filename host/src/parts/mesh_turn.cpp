@@ -18,7 +18,7 @@ MeshTurn::MeshTurn(Exchange& exchange, Part& part) : turn_(exchange.turn()), par
 }
 
 MeshTurn::~MeshTurn() {
-    if (turn_) {
+    if (turn_ && !part_.places.triangles.empty()) {
         part_.mesh = {};
         part_.radii.reset();
     }

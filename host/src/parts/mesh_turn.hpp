@@ -10,7 +10,8 @@
 namespace geodisk {
 
 /// Part::mesh and Part::radii are there while this lives, which must not wait for other parts. A
-/// process with one part keeps them from then on. Throws std::bad_alloc.
+/// process with one part keeps them from then on, and so does a part without places. Throws
+/// std::bad_alloc.
 class MeshTurn {
   public:
     MeshTurn(Exchange& exchange, Part& part);

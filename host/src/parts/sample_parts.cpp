@@ -92,7 +92,9 @@ SharedSamples put_together(const Exchange& exchange, const SampleParams& params,
         } else {
             const RunSeconds seconds = run.seconds;
             run.add(summary.run);
-            run.seconds = seconds;
+            if (exchange.process_of(rank) != 0) { // It worked at the same time.
+                run.seconds = seconds;
+            }
             run.starts += summary.run.starts;
         }
         add(result.processes[exchange.process_of(rank)], summary.process);

@@ -42,6 +42,13 @@ struct Sharing {
     friend bool operator==(const Sharing&, const Sharing&) = default;
 };
 
+/// A job of one surface that may be divided into parts: candidates are drawn in the frame of its
+/// mesh.
+struct WholeJob {
+    const PreparedMesh* mesh;
+    SampleParams params;
+};
+
 /// Members are computed once from the job. Each kind of domain has its own file.
 struct Domain::Impl {
     KernelVariant kernels;
@@ -62,6 +69,7 @@ struct Domain::Impl {
     /// Set if the samples of this domain, made with its parameters, are only the first ones of a
     /// maximal set.
     std::optional<MaximalJob> maximal;
+    std::optional<WholeJob> whole; ///< Set if the job may be divided.
     /// Number of units that candidates are drawn by: faces, or cells of a box.
     std::uint64_t units = 0;
     /// Device memory per candidate, approximately.

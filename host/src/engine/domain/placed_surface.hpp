@@ -17,8 +17,9 @@ struct PlacedSurface {
     JobFrame frame;      ///< Frame of the mesh, or of one that it is a part of.
     Stages stages;       ///< Stages of the surface in its frame.
     std::uint32_t first_face, first_vertex, first_corner;
-    double scale = 1;      ///< Length in the instance of a unit of the mesh.
-    std::uint32_t lag = 0; ///< Offset added to the orders of its candidates.
+    double scale = 1;        ///< Length in the instance of a unit of the mesh.
+    bool may_divide = false; ///< The frame is that of the mesh.
+    std::uint32_t lag = 0;   ///< Offset added to the orders of its candidates.
 };
 
 /// Places a surface that is sampled alone.

@@ -142,7 +142,9 @@ Result<Domain> Domain::surface(const PreparedMesh& mesh, const SampleParams& par
     return guarded([&]() -> Result<Domain> {
         const auto frame = frame_of(mesh, params);
         GEODISK_TRY(frame);
-        return wrapped(SurfaceDomain::make({placed(mesh, params, *frame)}));
+        PlacedSurface surface = placed(mesh, params, *frame);
+        surface.may_divide = params.class_factors.empty() && !params.maximal;
+        return wrapped(SurfaceDomain::make({surface}));
     });
 }
 
@@ -249,6 +251,9 @@ SurfaceDomain::SurfaceDomain(std::vector<PlacedSurface> surfaces, FaceCells cell
         maximal->params.maximal = false;
         maximal->params.existing = {};
         maximal->params.avoid = {};
+    }
+    if (surfaces_[0].may_divide) {
+        whole = WholeJob{surfaces_[0].mesh, params};
     }
     samples = samples_to_expect(full_, params.darts, params.stop_count);
     stop_count = params.stop_count;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "engine/domain/domain_impl.hpp"
+#include "engine/run/division.hpp"
 #include "engine/run/run.hpp"
 #include "engine/run/runner_impl.hpp"
 #include "support/guard.hpp"
@@ -22,6 +23,8 @@ constexpr double kSubmissionSeconds = 0.02;
 constexpr double kCpuSubmissionSeconds = 0.1;
 constexpr double kStallSeconds = 120;
 constexpr double kCpuStallSeconds = 600;
+// Between two calls of a progress callback of a run in parts, at most.
+constexpr std::chrono::milliseconds kLongestWait{100};
 // Part of the memory that a run may take, and of a binding, for records of disks.
 constexpr double kRecordsOfMemory = 0.2;
 constexpr double kRecordsOfBinding = 0.5;
@@ -85,13 +88,40 @@ std::chrono::duration<double> Runner::Impl::stall_limit() const {
                                                                    : kStallSeconds);
 }
 
+Runner::Impl::~Impl() {
+    cancel();
+    settle();
+}
+
+/// Begins a run in parts after an error of one of the whole, if that may help. Returns the error if
+/// not.
+Result<Done> Runner::Impl::divide(const Domain& whole, const ProgressCallback& callback,
+                                  const Error& error) {
+    release();
+    auto begun = guarded([&] { return Division::begin(*this, whole, callback, error); });
+    if (!begun || !*begun) {
+        return begun ? error : begun.error();
+    }
+    division = std::move(*begun);
+    return Done{};
+}
+
+Result<std::optional<SampleSet>>
+Runner::Impl::poll_division(std::chrono::milliseconds patience) noexcept {
+    auto polled = guarded([&] { return division->poll(patience); });
+    if (!polled || *polled) {
+        division.reset();
+    }
+    return polled;
+}
+
 Runner::Runner(std::unique_ptr<Impl> impl) noexcept : impl_(std::move(impl)) {}
 Runner::Runner(Runner&&) noexcept = default;
 Runner& Runner::operator=(Runner&&) noexcept = default;
 Runner::~Runner() = default;
 
 void Runner::release_memory() noexcept {
-    if (!impl_->work) {
+    if (!impl_->is_busy()) {
         impl_->release();
     }
 }
@@ -149,6 +179,7 @@ Result<Done> Runner::Impl::submit_timed(const std::function<void(VkCommandBuffer
 }
 
 void Runner::Impl::cancel() noexcept {
+    division.reset();
     if (work) {
         submitter->give_up();
         work.reset();
@@ -211,8 +242,19 @@ Result<Runner> Runner::create(std::shared_ptr<const Sampler> sampler, const Queu
 
 Result<SampleSet> Runner::sample_and_wait(const Domain& domain,
                                           const ProgressCallback& progress) noexcept {
-    return guarded([&] {
-        return impl_->complete(geodisk::run(*impl_, domain), candidates_of(domain), progress);
+    return guarded([&]() -> Result<SampleSet> {
+        auto set = impl_->complete(geodisk::run(*impl_, domain), candidates_of(domain), progress);
+        if (set || impl_->is_busy()) {
+            return set;
+        }
+        GEODISK_TRY(impl_->divide(domain, progress, set.error()));
+        for (;;) {
+            auto polled = impl_->poll_division(kLongestWait);
+            GEODISK_TRY(polled);
+            if (*polled) {
+                return std::move(**polled);
+            }
+        }
     });
 }
 
@@ -226,13 +268,25 @@ Result<SampleSet> Runner::sample_and_wait(const PreparedMesh& mesh, const Sample
 }
 
 Result<Done> Runner::start(const Domain& domain, const ProgressCallback& progress) noexcept {
-    return guarded([&] {
-        return impl_->begin(geodisk::run(*impl_, domain), candidates_of(domain), progress);
+    return guarded([&]() -> Result<Done> {
+        GEODISK_TRY(impl_->begin(geodisk::run(*impl_, domain), candidates_of(domain), progress));
+        impl_->domain = &domain;
+        return Done{};
     });
 }
 
 Result<std::optional<SampleSet>> Runner::poll(std::chrono::milliseconds patience) noexcept {
-    return impl_->poll<SampleSet>(patience);
+    if (impl_->division) {
+        return impl_->poll_division(patience);
+    }
+    const ProgressCallback callback = impl_->on_progress;
+    auto polled = impl_->poll<SampleSet>(patience);
+    if (polled || impl_->work || impl_->domain == nullptr) {
+        return polled;
+    }
+    const Domain& domain = *std::exchange(impl_->domain, nullptr);
+    const auto divided = impl_->divide(domain, callback, polled.error());
+    return divided ? Result<std::optional<SampleSet>>(std::nullopt) : divided.error();
 }
 
 void Runner::cancel() noexcept {
@@ -240,7 +294,7 @@ void Runner::cancel() noexcept {
 }
 
 Progress Runner::progress() const noexcept {
-    return impl_->progress;
+    return impl_->division ? impl_->division->progress() : impl_->progress;
 }
 
 VkFence Runner::fence() const noexcept {

@@ -43,6 +43,8 @@ struct WorkOn final : Work {
     Task<Result<T>> task;
 };
 
+class Division;
+
 struct Runner::Impl {
     std::shared_ptr<const Sampler> shared_sampler;
     const Sampler& sampler = *shared_sampler;
@@ -65,16 +67,15 @@ struct Runner::Impl {
     std::unique_ptr<Work> work; ///< The run in progress: one job, or several.
     Progress progress{};
     ProgressCallback on_progress;
-    WholeProgress as_whole; ///< Set by a run of several jobs.
+    WholeProgress as_whole;             ///< Set by a run of several jobs.
+    const Domain* domain = nullptr;     ///< Of the run in progress, if it is one of samples.
+    std::unique_ptr<Division> division; ///< The run goes on in parts.
 
     /// Clock in seconds; tests may replace it.
     std::function<double()> now;
 
     explicit Impl(std::shared_ptr<const Sampler> s);
-    ~Impl() {
-        cancel();
-        settle();
-    }
+    ~Impl();
 
     /// After a submission is given up, keeps everything that it may still use from being destroyed.
     /// The owner of the buffers keeps those.
@@ -119,6 +120,9 @@ struct Runner::Impl {
     template <class T>
     Result<T> complete(Task<Result<T>> task, std::uint32_t candidates,
                        const ProgressCallback& callback);
+    Result<Done> divide(const Domain& whole, const ProgressCallback& callback, const Error& error);
+    Result<std::optional<SampleSet>> poll_division(std::chrono::milliseconds patience) noexcept;
+    bool is_busy() const { return work != nullptr || division != nullptr; }
     /// Notes how far the job at hand is.
     void note(const Progress& of_job) { progress = as_whole ? as_whole(of_job) : of_job; }
     /// Ends the run in progress.
@@ -141,13 +145,14 @@ struct Runner::Impl {
 template <class T>
 Result<Done> Runner::Impl::begin(Task<Result<T>> task, std::uint32_t candidates,
                                  const ProgressCallback& callback) {
-    if (work) {
+    if (is_busy()) {
         return Error{Status::invalid_argument, "a run is in progress"};
     }
     progress = {};
     progress.candidates = candidates;
     on_progress = callback;
     as_whole = nullptr;
+    domain = nullptr;
     auto begun = std::make_unique<WorkOn<T>>(std::move(task));
     const Task<Result<T>>& own = begun->task;
     work = std::move(begun);

@@ -54,6 +54,7 @@ class Submitter {
     void give_up();
     /// Returns the fence that is signalled at the end of the submission.
     VkFence fence() const noexcept { return fence_; }
+    const QueueRef& queue() const noexcept { return queue_; }
 
     /// Returns `device_lost` after the device was lost or a submission given up. Nothing is
     /// submitted any more then.
