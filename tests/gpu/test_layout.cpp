@@ -157,7 +157,7 @@ TEST_SUITE("layout") {
                 }
             }
         }
-        CHECK(controls == 34);
+        CHECK(controls == 36);
     }
 
     TEST_CASE("no kernel binds more than seven storage buffers") {
