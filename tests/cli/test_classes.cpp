@@ -56,6 +56,16 @@ TEST_CASE("places of one class") {
     CHECK(others.status == 1);
     CHECK(contains(others.err, "that --class-mask left out"));
     CHECK(contains(others.err, "within the radius of a point or line to avoid"));
+    REQUIRE(run(folder, {"sample", "builtin:cube:2", "-o", "plain.csv", "-d", "20%"}).status == 0);
+    CHECK(contains(
+        run(folder, {"verify", "builtin:cube:2", "plain.csv", "--class-mask", "0:z<0"}).err,
+        "plain.csv: has no column class, so options of single classes check nothing"));
+    CHECK(contains(run(folder, {"verify", "builtin:cube:2", "a.csv", "--class-mask", "5:z<0"}).err,
+                   "a.csv: has 3 classes, numbered from 0, so there is no class 5"));
+    CHECK(contains(run(folder, {"sample", "builtin:cube:2", "-o", "b.csv", "-d", "9%", "--classes",
+                                "2", "--class-mask", "0:z>0", "--mask", "z<0"})
+                       .err,
+                   "warning: builtin:cube:2: class 0 has no sample"));
     // A line of a batch takes the place of what is given for all.
     std::ofstream(folder / "list.txt") << "builtin:cube:2 --class-mask 1:z<0 -o one\n";
     const Outcome batch =

@@ -136,6 +136,12 @@ def test_classes_have_places_of_their_own():
             geodisk.sample(mesh, min_distance=0.2, classes=3, **option)
     with pytest.raises(geodisk.InvalidArgument, match="class_masks is for classes, two or more"):
         geodisk.sample(mesh, min_distance=0.2, class_masks={0: mask})
+    with pytest.warns(geodisk.GeodiskWarning, match="class 0 has no sample"):
+        geodisk.sample(
+            mesh, min_distance=0.2, classes=2, class_masks={0: mask}, face_mask=~mask
+        )
+    assert same(geodisk.sample(mesh, min_distance=0.2, class_masks={}),
+                geodisk.sample(mesh, min_distance=0.2))
     with pytest.raises(TypeError, match="class_avoid is a dict"):
         geodisk.sample(mesh, min_distance=0.2, classes=3, class_avoid=[(point, 1.0)])
 

@@ -123,6 +123,9 @@ TEST_CASE("JPEG images of inks, WebP, TGA and BMP images have the colours of oth
     const std::string above("\0\0\xff\0\xff\0", 6), below("\xff\0\0\0\xff\xff", 6);
     const std::string header("\0\0\2\0\0\0\0\0\0\0\0\0\2\0\2\0\x18\x20", 18);
     const std::string tga = header + above + below;
+    const auto turned = [](const std::string& row) { return row.substr(3) + row.substr(0, 3); };
+    std::string mirrored = header + turned(above) + turned(below);
+    mirrored[17] = 0x30;                                       // From right to left.
     std::string packed = header + "\1" + above + "\1" + below; // Runs of two pixels.
     packed[2] = 10;
     packed += std::string("\0\0\0\0\0\0\0\0TRUEVISION-XFILE.\0", 26);
@@ -135,8 +138,8 @@ TEST_CASE("JPEG images of inks, WebP, TGA and BMP images have the colours of oth
                            62);
     for (const std::filesystem::path& path :
          {folder.write("a.jpg", cmyk_jpeg_bytes()), folder.write("a.webp", webp),
-          folder.write("a.TGA", tga), folder.write("a.image", packed),
-          folder.write("a.bmp", bmp)}) {
+          folder.write("a.TGA", tga), folder.write("a.image", packed), folder.write("a.bmp", bmp),
+          folder.write("b.tga", mirrored)}) {
         CAPTURE(path);
         const ColourImage image(path);
         const auto check = [&](double u, double v, const std::array<double, 3>& expected) {
@@ -159,6 +162,18 @@ TEST_CASE("JPEG images of inks, WebP, TGA and BMP images have the colours of oth
         CAPTURE(size);
         fails(bmp.substr(0, size), "cannot be read as a TGA or BMP image: ");
     }
+    std::string empty = bmp;
+    empty[18] = 0;
+    fails(empty, "it has no pixels");
+    std::string old = bmp;
+    old[14] = 12;
+    old[24] = 8;
+    fails(old, "its palette is that of OS/2");
+    std::string offset = tga;
+    offset[1] = 1;
+    offset[3] = 5;
+    check_fails(ExitCode::bad_input, "its colour map does not begin at 0",
+                [&] { GreyImage{folder.write("c.tga", offset)}; });
     for (const std::string& whole : {tga, packed.substr(0, 32)}) {
         for (std::size_t size = 0; size < whole.size(); ++size) {
             CAPTURE(size);

@@ -235,7 +235,9 @@ SampleResult sample_mesh(const SampleJob& job, const MeshInput& mesh, RunDevice&
     const SampleSet& set = found.set;
     params.min_distance = done.min_distance;
     if (set.samples.empty() && !given.avoided.empty()) {
-        fail_usage("--avoid: none of " + grouped(done.run.candidates) +
+        const bool has_all = !job.constraints.avoid.empty();
+        fail_usage(std::string(has_all ? "--avoid" : "--class-avoid") + ": none of " +
+                   grouped(done.run.candidates) +
                    " candidates lies outside the radii of the points; lower them");
     }
     job.method.check_count(set.samples.size(), params.min_distance * mesh.distance_part,

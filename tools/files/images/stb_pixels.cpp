@@ -1,7 +1,10 @@
 #include <algorithm>
+#include <cstdint>
 #include <cstdlib>
 #include <cstring>
 #include <memory>
+#include <span>
+#include <string>
 #include <string_view>
 
 #include "files/images/image_pixels.hpp"
@@ -54,20 +57,79 @@ int is_at_end(void* user) {
     return static_cast<Source*>(user)->left.empty() ? 1 : 0;
 }
 
+std::uint32_t number_at(const std::string& bytes, std::size_t at, std::size_t size) {
+    std::uint32_t number = 0;
+    for (std::size_t i = 0; i < size && at + i < bytes.size(); ++i) {
+        number |= std::uint32_t{static_cast<unsigned char>(bytes[at + i])} << (8 * i);
+    }
+    return number;
+}
+
+/// Returns what is wrong with a file, which stb would read all the same; "" for nothing.
+std::string fault_of_tga(const std::string& bytes) {
+    constexpr std::size_t kHeader = 18;
+    if (bytes.size() < kHeader) {
+        return "it is cut short";
+    }
+    const bool has_map = bytes[1] != 0;
+    if (has_map && number_at(bytes, 3, 2) != 0) {
+        return "its colour map does not begin at 0";
+    }
+    const std::uint64_t map =
+        has_map ? number_at(bytes, 5, 2) * ((number_at(bytes, 7, 1) + 7) / 8) : 0;
+    const std::uint64_t pixels = std::uint64_t{number_at(bytes, 12, 2)} * number_at(bytes, 14, 2);
+    const std::uint64_t begin = kHeader + number_at(bytes, 0, 1) + map;
+    const std::uint32_t kind = number_at(bytes, 2, 1);
+    const std::uint64_t needed =
+        kind < 8 ? begin + pixels * ((number_at(bytes, 16, 1) + 7) / 8) : begin;
+    return bytes.size() < needed ? "it is cut short" : "";
+}
+
+std::string fault_of_bmp(const std::string& bytes) {
+    constexpr std::uint32_t kOs2Header = 12;
+    const bool has_palette = number_at(bytes, 24, 2) < 16;
+    return number_at(bytes, 14, 4) == kOs2Header && has_palette ? "its palette is that of OS/2"
+                                                                : "";
+}
+
+/// Returns true for a TGA file whose rows go from right to left.
+bool is_mirrored(const std::string& bytes) {
+    constexpr unsigned char kRightToLeft = 0x10;
+    return (static_cast<unsigned char>(bytes[17]) & kRightToLeft) != 0;
+}
+
+/// Turns rows of pixels of three bytes around.
+void mirror(std::span<stbi_uc> rgb, std::size_t width) {
+    for (std::size_t row = 0; row < rgb.size(); row += 3 * width) {
+        for (std::size_t left = 0, right = width - 1; left < right; ++left, --right) {
+            std::swap_ranges(&rgb[row + 3 * left], &rgb[row + 3 * left] + 3, &rgb[row + 3 * right]);
+        }
+    }
+}
+
 } // namespace
 
 ImagePixels decode_plain(const Path& path, const std::string& bytes, PixelKind kind) {
     constexpr stbi_io_callbacks kCalls{read_some, skip, is_at_end};
-    const auto fail = [&](const char* why) {
-        fail_input(path, std::string("cannot be read as a TGA or BMP image: ") + why);
+    const auto fail = [&](const std::string& why) {
+        fail_input(path, "cannot be read as a TGA or BMP image: " + why);
     };
+    const bool is_bmp = bytes.starts_with("BM");
+    if (const std::string fault = is_bmp ? fault_of_bmp(bytes) : fault_of_tga(bytes);
+        !fault.empty()) {
+        fail(fault);
+    }
     Source source{bytes};
     int width = 0, height = 0, components = 0;
     if (stbi_info_from_callbacks(&kCalls, &source, &width, &height, &components) == 0) {
         fail("it is damaged, or of a kind that is not read");
     }
+    if (width <= 0 || height == 0) {
+        fail("it has no pixels");
+    }
+    // Rows of BMP from the top downwards have a negative height.
     const std::uint64_t count =
-        static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
+        static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(std::abs(height));
     if (count > kMaxPixels) {
         fail("it has more than 2^26 pixels");
     }
@@ -80,6 +142,9 @@ ImagePixels decode_plain(const Path& path, const std::string& bytes, PixelKind k
         fail("it is damaged or cut short");
     }
     ImagePixels pixels{static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height), {}};
+    if (!is_bmp && is_mirrored(bytes)) {
+        mirror(std::span(rgb.get(), kColours * count), static_cast<std::size_t>(width));
+    }
     add_pixels(std::span(rgb.get(), kColours * count), kind, pixels);
     return pixels;
 }

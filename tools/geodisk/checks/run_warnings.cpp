@@ -1,5 +1,8 @@
 #include "geodisk/checks/run_warnings.hpp"
 
+#include <algorithm>
+#include <string>
+
 #include "geodisk/outputs/outputs.hpp"
 #include "geometry/set_warnings.hpp"
 
@@ -18,6 +21,12 @@ std::vector<MeshWarning> run_warnings(const SampleJob& job, const MeshInput& mes
                       .has_darts = job.method.darts > 0,
                       .lacks_features = lacks_features ? *job.features : 0,
                       .bare = result.bare});
+    for (std::uint32_t number = 0; number < job.classes.count && result.count() > 0; ++number) {
+        if (std::ranges::find(result.classes, number) == result.classes.end()) {
+            warnings.push_back(
+                {"empty_class", 1, "", "class " + std::to_string(number) + " has no sample", ""});
+        }
+    }
     for (MeshWarning& warning : warnings) {
         warning.file = job.mesh.mesh;
     }

@@ -1,5 +1,6 @@
 #include "geodisk/checks/sample_classes.hpp"
 
+#include <algorithm>
 #include <cstddef>
 
 #include "files/samples/sample_columns.hpp"
@@ -32,6 +33,33 @@ void check_classes(const std::string& path, const SampleFile& samples, std::size
                                  std::to_string(values[i]) + ", but there are " +
                                  std::to_string(count) + ", numbered from 0");
         }
+    }
+}
+
+void check_class_options(const std::string& path, const SampleFile& samples,
+                         const MaskOptions& mask, const ConstraintOptions& constraints) {
+    std::size_t most = 0;
+    for (const ClassPlace& place : mask.class_places()) {
+        most = std::max(most, std::size_t{1} + place.number);
+    }
+    for (const AvoidOption& option : constraints.parsed_avoid()) {
+        if (option.only_class != kAllClasses) {
+            most = std::max(most, std::size_t{1} + option.only_class);
+        }
+    }
+    if (most == 0 || samples.rows.empty()) {
+        return;
+    }
+    const auto classes = samples.extra_values(kClassColumn);
+    if (classes.empty()) {
+        fail_input(path, "has no column class, so options of single classes check nothing");
+    }
+    const std::size_t told = classes_in_header(path, samples).count;
+    const std::size_t count = std::max<std::size_t>(told, 1 + *std::ranges::max_element(classes));
+    if (most > count) {
+        fail_input(path, "has " + std::to_string(count) +
+                             " classes, numbered from 0, so there is no class " +
+                             std::to_string(most - 1));
     }
 }
 

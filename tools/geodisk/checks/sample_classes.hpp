@@ -5,6 +5,8 @@
 
 #include "files/samples/sample_file.hpp"
 #include "geodisk/options/class_options.hpp"
+#include "geodisk/options/constraint_options.hpp"
+#include "geodisk/options/mask_options.hpp"
 
 namespace geodisk::tools {
 
@@ -14,5 +16,10 @@ ClassTable classes_in_header(const std::string& path, const SampleFile& samples)
 
 /// Throws UserError(bad_input) unless each sample has one of `count` classes.
 void check_classes(const std::string& path, const SampleFile& samples, std::size_t count);
+
+/// Throws UserError(bad_input) if options are for single classes, and a sample has none or the file
+/// does not have so many.
+void check_class_options(const std::string& path, const SampleFile& samples,
+                         const MaskOptions& mask, const ConstraintOptions& constraints);
 
 } // namespace geodisk::tools

@@ -10,6 +10,7 @@
 #include "analysis/surface_statistics.hpp"
 #include "files/samples/sample_file.hpp"
 #include "geodisk/checks/sample_checks.hpp"
+#include "geodisk/checks/sample_classes.hpp"
 #include "geodisk/checks/sample_input.hpp"
 #include "geodisk/commands/commands.hpp"
 #include "geodisk/commands/help_text.hpp"
@@ -111,6 +112,7 @@ SetAnalysis analyze_set(const AnalyzeOptions& options, const std::string& path,
     if (samples.rows.empty()) {
         fail_input(path, "has no samples to analyze");
     }
+    check_class_options(path, samples, options.mask, {});
     if (const auto masked = masked_samples(samples, mesh); !masked.empty()) {
         fail_input(path, counted(masked.size(), "sample is", "samples are") + " on faces that " +
                              options.mask.names() + " left out, first sample " +

@@ -11,6 +11,7 @@
 #include "geodisk/checks/intrusions.hpp"
 #include "geodisk/checks/level_checks.hpp"
 #include "geodisk/checks/sample_checks.hpp"
+#include "geodisk/checks/sample_classes.hpp"
 #include "geodisk/checks/sample_input.hpp"
 #include "geodisk/checks/spacing.hpp"
 #include "geodisk/checks/wanted_spacing.hpp"
@@ -144,6 +145,7 @@ void verify_samples(const VerifyOptions& options, const NotePairs& note) {
                                              options.tolerance, warnings, progress);
     warn_of_no_samples(options.samples, samples, warnings);
     warn_of_other_rows(options, samples, warnings);
+    check_class_options(options.samples, samples, options.mask, options.constraints);
     WantedSpacing spacing = wanted_spacing(options, samples, mesh);
     if (!spacing.is_known && !options.is_maximal) {
         warn_of_unknown_spacing(options, warnings);

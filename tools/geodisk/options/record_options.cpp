@@ -83,7 +83,7 @@ void add_attributes_option(Command command, RecordOptions& options, const std::s
 void add_record_options(Command command, RecordOptions& options, const std::string& name) {
     add_attributes_option(command, options, name);
     command.add_option("--texture", options.texture, "IMAGE",
-                       "Add the colour of an image (PNG, JPEG, WebP) at the texture\n"
+                       "Add the colour of an image (PNG, JPEG, WebP, TGA, BMP) at texture\n"
                        "coordinates of each sample; auto: that of the materials of a glTF\n"
                        "or OBJ file and their images");
     command

@@ -60,13 +60,18 @@ class ClassPlaces:
         self.avoid_classes = np.concatenate(of_class) if avoided else None
 
 
+def values_of(given: Any) -> list[Any]:
+    """Returns what is given for classes; nothing for what is no dict."""
+    return list(given.values()) if isinstance(given, Mapping) else []
+
+
 def _by_class(given: Mapping[int, Any] | None, name: str, count: int) -> dict[int, Any]:
     """Returns what is given for each class, with the numbers checked."""
     if given is None:
         return {}
     if not isinstance(given, Mapping):
         raise TypeError(f"{name} is a dict from the number of a class to what it gets")
-    if count < 2:
+    if given and count < 2:
         raise e.invalid(f"{name} is for classes, two or more")
     return {integer(number, f"the class of {name}", count - 1): one for number, one in given.items()}
 

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _errors as e
+from ._class_places import values_of
 from ._classes import ClassesLike
 from ._devices import DeviceLike
 from ._existing import AvoidLike, ExistingLike
@@ -144,7 +145,13 @@ def sample_many(
                 keep_seams,
                 columns,
                 mesh_format,
-                attributes_with(attributes, given[i], own["density"], own["radius_factor"]),
+                attributes_with(
+                    attributes,
+                    given[i],
+                    own["density"],
+                    own["radius_factor"],
+                    *values_of(own["class_densities"]),
+                ),
                 record,
                 allow_outside,
             ),

@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike
 from . import _errors as e
 from . import _structs as s
 from ._arrays import real
+from ._class_places import values_of
 from ._classes import ClassesLike
 from ._devices import DeviceLike
 from ._existing import AvoidLike, ExistingLike
@@ -223,7 +224,9 @@ def sample(
         raise TypeError(f"faces is {faces!r}; for about so many samples give count={faces!r}")
     record = Record(texture, normals, frames, up)
 
-    named = attributes_with(attributes, vertices, density, radius_factor)
+    named = attributes_with(
+        attributes, vertices, density, radius_factor, *values_of(class_densities)
+    )
 
     def read_mesh() -> Mesh:
         return mesh_of(

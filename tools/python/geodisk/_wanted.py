@@ -261,6 +261,11 @@ class Wanted:
             self._degrees if samples.report["lacks_features"] else 0,
         )
         warn([e.GeodiskWarning(f"{prefix}{one}", one.kind, one.count) for one in found])
+        if self._classes is not None and self._classes.count > 1 and len(samples) > 0:
+            made = np.bincount(samples.columns["class"], minlength=self._classes.count)
+            for number in np.flatnonzero(made == 0):
+                text = f"{prefix}class {number} has no sample"
+                warn([e.GeodiskWarning(text, "empty_class", 1)])
         if self._class_counts is not None:
             made = np.bincount(samples.columns["class"], minlength=len(self._class_counts))
             for number in np.flatnonzero(made < self._class_counts):

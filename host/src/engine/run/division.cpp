@@ -16,6 +16,9 @@ constexpr double kAllBuffers = 3;
 constexpr double kCandidateBytes = 8;
 // Candidates of a stage, beyond which the host would need too much memory.
 constexpr double kMostCandidates = 0x1p27;
+// Of the side of a part with its margins, at least. Of less, too much would be done again and
+// again.
+constexpr double kLeastSide = 0.4;
 constexpr std::uint32_t kMaxAttempts = 3;
 
 bool is_too_large(const Error& error) {
@@ -52,10 +55,9 @@ std::uint32_t first_parts(const Runner::Impl& runner, const Domain::Impl& of) {
     const double margins = 4 * reach / std::sqrt(job.mesh->statistics().area);
     const double part = held_part(runner, of);
     const double side = std::sqrt(part) - margins;
+    const bool is_worth_it = part < 1 && side > kLeastSide * std::sqrt(part);
     const double parts = std::max(2.0, std::ceil(1 / (side * side)));
-    return part < 1 && side > 0 && parts <= job.mesh->face_count()
-               ? static_cast<std::uint32_t>(parts)
-               : 0;
+    return is_worth_it && parts <= job.mesh->face_count() ? static_cast<std::uint32_t>(parts) : 0;
 }
 
 } // namespace
@@ -72,6 +74,7 @@ Result<std::unique_ptr<Division>> Division::begin(const Runner::Impl& runner, co
     GEODISK_TRY(own);
     std::unique_ptr<Division> division(
         new Division(std::move(*own), *of.whole, progress, runner.progress.candidates));
+    division->expected_ = static_cast<std::uint32_t>(of.samples);
     division->parts_ = parts;
     division->run_ = std::make_unique<DividedRun>(division->runner_, *division->job_.mesh,
                                                   division->job_.params, division->parts_);
@@ -103,6 +106,7 @@ Progress Division::progress() {
     Progress all = run_->progress();
     all.candidates = candidates_;
     all.decided = std::min(all.decided, candidates_);
+    all.accepted = std::min(all.accepted, expected_);
     return all;
 }
 

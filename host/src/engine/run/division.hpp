@@ -39,7 +39,7 @@ class Division {
     Runner runner_;
     const WholeJob& job_;
     ProgressCallback on_progress_;
-    std::uint32_t candidates_, parts_ = 2, attempts_ = 0;
+    std::uint32_t candidates_, expected_ = 0, parts_ = 2, attempts_ = 0;
     bool goes_on_ = true;
     std::unique_ptr<DividedRun> run_;
 };
