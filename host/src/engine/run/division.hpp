@@ -9,6 +9,7 @@
 #include <geodisk/runner.hpp>
 #include <geodisk/status.hpp>
 
+#include "engine/domain/domain_impl.hpp"
 #include "engine/run/runner_impl.hpp"
 #include "parts/divided_run.hpp"
 
