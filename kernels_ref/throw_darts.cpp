@@ -10,17 +10,17 @@ template <class Real>
 void keep_out(const Surface<Real>& surface, const Pool<Real>& pool, const Tolerances& tolerances,
               std::span<const AvoidedPoint<Real>> avoided, std::uint8_t* decided,
               RunResult& result) {
-    for (const auto& [center, radius, only_class] : avoided) {
-        const Real scale = scale_of(radius);
+    for (const AvoidedPoint<Real>& point : avoided) {
+        const Real scale = scale_of(point.radius);
         const Surface<Real> large = scaled(surface, scale);
         const Bins<Real> bins(large, pool.bins.points);
-        const Real limit = radius * scale + (tolerances.limit - Real{1});
+        const Real limit = point.radius * scale + (tolerances.limit - Real{1});
         Detector<Real, false> detector(large, bins, tolerances, limit);
         const DiskCount disk = detector.run(
-            center, [&](std::uint32_t q) { return !decided[bins.order[q]]; },
+            point.center, [&](std::uint32_t q) { return !decided[bins.order[q]]; },
             [&](std::uint32_t q, Real) {
                 const std::uint32_t place = bins.order[q];
-                if (only_class == kAllClasses || pool.class_at(place) == only_class) {
+                if (point.only_class == kAllClasses || pool.class_at(place) == point.only_class) {
                     decided[place] = 1;
                 }
             });

@@ -92,7 +92,9 @@ void check_rows(const std::string& samples_path, const SampleFile& samples,
     for (std::uint32_t i = 0; i < samples.rows.size(); ++i) {
         const SampleRow& row = samples.rows[i];
         if (const std::string fault = face_fault(row, mesh_path, mesh); !fault.empty()) {
-            fail_input(samples_path, noun + " " + std::to_string(i) + ": " + fault);
+            fail_input(
+                samples_path,
+                std::string(noun).append(" ").append(std::to_string(i)).append(": ").append(fault));
         }
         double sum = 0;
         double least = 1;

@@ -125,7 +125,7 @@ SampleCheck check_samples(const VerifyOptions& options, const MeshInput& mesh,
             avoided.points,
             avoided.length,
             std::move(intrusions),
-            std::move(gaps),
+            gaps,
             std::move(levels),
             wrong_features(options.samples, samples, mesh)};
 }

@@ -282,10 +282,8 @@ void save(RunningTask& run) {
     }
     check_dimension(target, samples.dimension);
     const std::vector<SampleField> fields = fields_of(run.task, run.options);
-    std::vector<std::string> names;
-    for (const SampleField& field : fields) {
-        names.push_back(field.name);
-    }
+    std::vector<std::string> names(fields.size());
+    std::ranges::transform(fields, names.begin(), &SampleField::name);
     check_columns(target, names);
     AtomicFile file(target.path);
     if (samples.has_faces) {

@@ -78,7 +78,7 @@ Result<Done> check_existing(const PreparedMesh& mesh, const SampleParams& params
         const KeepOut& avoided = params.avoid[i];
         const std::string name = "point to avoid " + std::to_string(i);
         if (const std::string fault = fault_of(avoided.center, mesh); !fault.empty()) {
-            return invalid(name + " " + fault);
+            return invalid(std::string(name).append(" ").append(fault));
         }
         if (!(avoided.radius > 0) || !std::isfinite(avoided.radius)) {
             return invalid(name + " has the radius " + number_text(avoided.radius) +
