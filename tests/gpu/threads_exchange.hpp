@@ -1,45 +1,30 @@
 // Threads of one process in place of processes, which sample a surface in parts.
 #pragma once
 
-#include <condition_variable>
 #include <cstdint>
-#include <deque>
 #include <functional>
-#include <map>
-#include <mutex>
-#include <utility>
 
-#include <geodisk/exchange.hpp>
+#include "parts/local_exchange.hpp"
 
 namespace geodisk::test {
 
-/// Messages on their way.
-class Mailbox {
-  public:
-    void post(std::uint32_t from, std::uint32_t to, Bytes message);
-    Bytes fetch(std::uint32_t from, std::uint32_t to);
-
-  private:
-    std::mutex mutex_;
-    std::condition_variable arrived_;
-    std::map<std::pair<std::uint32_t, std::uint32_t>, std::deque<Bytes>> messages_;
-};
-
-/// One of several threads.
+/// One of several threads, each of which stands for a process.
 class ThreadsExchange : public Exchange {
   public:
-    ThreadsExchange(Mailbox& mailbox, std::uint32_t rank, std::uint32_t size)
-        : mailbox_(mailbox), rank_(rank), size_(size) {}
+    explicit ThreadsExchange(LocalExchange& messages) : messages_(messages) {}
 
-    std::uint32_t rank() const override { return rank_; }
-    std::uint32_t size() const override { return size_; }
+    std::uint32_t rank() const override { return messages_.rank(); }
+    std::uint32_t size() const override { return messages_.size(); }
     Result<std::vector<Bytes>> swap(std::span<const std::uint32_t> others,
-                                    std::span<const Bytes> messages) override;
-    Result<std::vector<std::uint64_t>> sums(std::vector<std::uint64_t> values) override;
+                                    std::span<const Bytes> messages) override {
+        return messages_.swap(others, messages);
+    }
+    Result<std::vector<std::uint64_t>> sums(std::vector<std::uint64_t> values) override {
+        return messages_.sums(std::move(values));
+    }
 
   private:
-    Mailbox& mailbox_;
-    std::uint32_t rank_, size_;
+    LocalExchange& messages_;
 };
 
 /// Runs `work` on so many threads, each with its exchange, and waits for all.

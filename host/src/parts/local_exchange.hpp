@@ -36,7 +36,7 @@ class LocalExchange : public Exchange {
     void give_up(const Error& error);
 
   private:
-    /// What the parts share.
+    /// State that the parts share.
     struct Hall {
         std::mutex turns;
         std::mutex mutex; ///< Guards all below.
@@ -44,7 +44,7 @@ class LocalExchange : public Exchange {
         std::optional<Error> failure;
         /// Messages under way, by sender and receiver.
         std::map<std::pair<std::uint32_t, std::uint32_t>, std::deque<Bytes>> messages;
-        // Of the sums that parts add up to, one after another.
+        // The sums, one after another, to which all parts add.
         std::vector<std::uint64_t> added, summed;
         std::uint32_t parts_added = 0;
         std::uint64_t times = 0; ///< How often sums were complete.

@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 
+#include "files/byte_order.hpp"
 #include "files/images/image_pixels.hpp"
 #include "program/failure.hpp"
 
@@ -57,12 +58,12 @@ int is_at_end(void* user) {
     return static_cast<Source*>(user)->left.empty() ? 1 : 0;
 }
 
-std::uint32_t number_at(const std::string& bytes, std::size_t at, std::size_t size) {
-    std::uint32_t number = 0;
-    for (std::size_t i = 0; i < size && at + i < bytes.size(); ++i) {
-        number |= std::uint32_t{static_cast<unsigned char>(bytes[at + i])} << (8 * i);
-    }
-    return number;
+std::uint8_t byte_at(const std::string& bytes, std::size_t at) {
+    return static_cast<std::uint8_t>(bytes[at]);
+}
+
+std::uint16_t number_at(const std::string& bytes, std::size_t at) {
+    return value_of_bytes<std::uint16_t>(&bytes[at]);
 }
 
 /// Returns what is wrong with a file, which stb would read all the same; "" for nothing.
@@ -72,30 +73,30 @@ std::string fault_of_tga(const std::string& bytes) {
         return "it is cut short";
     }
     const bool has_map = bytes[1] != 0;
-    if (has_map && number_at(bytes, 3, 2) != 0) {
+    if (has_map && number_at(bytes, 3) != 0) {
         return "its colour map does not begin at 0";
     }
     const std::uint64_t map =
-        has_map ? number_at(bytes, 5, 2) * ((number_at(bytes, 7, 1) + 7) / 8) : 0;
-    const std::uint64_t pixels = std::uint64_t{number_at(bytes, 12, 2)} * number_at(bytes, 14, 2);
-    const std::uint64_t begin = kHeader + number_at(bytes, 0, 1) + map;
-    const std::uint32_t kind = number_at(bytes, 2, 1);
-    const std::uint64_t needed =
-        kind < 8 ? begin + pixels * ((number_at(bytes, 16, 1) + 7) / 8) : begin;
+        has_map ? std::uint64_t{number_at(bytes, 5)} * ((byte_at(bytes, 7) + 7u) / 8) : 0;
+    const std::uint64_t pixels = std::uint64_t{number_at(bytes, 12)} * number_at(bytes, 14);
+    const std::uint64_t begin = kHeader + byte_at(bytes, 0) + map;
+    const bool is_packed = byte_at(bytes, 2) >= 8;
+    const std::uint64_t needed = begin + (is_packed ? 0 : pixels * ((byte_at(bytes, 16) + 7u) / 8));
     return bytes.size() < needed ? "it is cut short" : "";
 }
 
 std::string fault_of_bmp(const std::string& bytes) {
+    constexpr std::size_t kHeader = 26;
     constexpr std::uint32_t kOs2Header = 12;
-    const bool has_palette = number_at(bytes, 24, 2) < 16;
-    return number_at(bytes, 14, 4) == kOs2Header && has_palette ? "its palette is that of OS/2"
-                                                                : "";
+    const bool is_old =
+        bytes.size() >= kHeader && value_of_bytes<std::uint32_t>(&bytes[14]) == kOs2Header;
+    return is_old && number_at(bytes, 24) < 16 ? "its palette is that of OS/2" : "";
 }
 
 /// Returns true for a TGA file whose rows go from right to left.
 bool is_mirrored(const std::string& bytes) {
     constexpr unsigned char kRightToLeft = 0x10;
-    return (static_cast<unsigned char>(bytes[17]) & kRightToLeft) != 0;
+    return (byte_at(bytes, 17) & kRightToLeft) != 0;
 }
 
 /// Turns rows of pixels of three bytes around.

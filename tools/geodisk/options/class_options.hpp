@@ -57,6 +57,9 @@ ClassTable parse_classes(const std::string& text);
 struct OfClass {
     std::uint8_t number;
     std::string text;
+
+    /// Returns it as the option takes it.
+    std::string joined() const { return std::to_string(number) + ":" + text; }
 };
 
 /// Reads CLASS:TEXT, as `option` takes it. Throws UserError(usage) for what is not.

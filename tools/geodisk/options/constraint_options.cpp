@@ -106,7 +106,7 @@ void ConstraintOptions::place_files(const std::function<std::string(const std::s
     for (std::string& text : class_avoid) {
         OfClass own = parse_of_class(kClassAvoid, text);
         place_points(kClassAvoid, own.text, place);
-        text = std::to_string(own.number) + ":" + own.text;
+        text = own.joined();
     }
 }
 

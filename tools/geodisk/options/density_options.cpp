@@ -152,14 +152,14 @@ std::optional<MeshWarning> DensityOptions::warning() const {
 
 void DensityOptions::add_files(std::vector<NamedFile>& read, const std::string& what) const {
     const auto of = source();
-    if (of && (of->kind == Kind::file || of->kind == Kind::map)) {
+    if (of && of->reads_file()) {
         read.push_back({what, of->name});
     }
 }
 
 void DensityOptions::place_files(const std::function<std::string(const std::string&)>& place) {
     const auto of = source();
-    if (!of || (of->kind != Kind::file && of->kind != Kind::map)) {
+    if (!of || !of->reads_file()) {
         return;
     }
     DensitySource placed = *of;

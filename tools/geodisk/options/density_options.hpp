@@ -24,6 +24,8 @@ struct DensitySource {
     std::string name;            ///< Property or file; empty for curvature.
     std::optional<double> floor; ///< Factors below it are raised to it.
 
+    /// Returns true if it names a file.
+    bool reads_file() const { return kind == Kind::file || kind == Kind::map; }
     /// As --density and --radius-factor take it.
     std::string text() const;
 };

@@ -117,10 +117,6 @@ void place_image(const std::string& option, std::string& text,
     }
 }
 
-bool reads_file(const DensitySource& source) {
-    return source.kind == DensitySource::Kind::file || source.kind == DensitySource::Kind::map;
-}
-
 } // namespace
 
 bool MaskRule::holds(double of) const {
@@ -219,7 +215,7 @@ void MaskOptions::add_files(std::vector<NamedFile>& read) const {
     add_images(mask_rules());
     for (const ClassPlace& place : class_places()) {
         add_images(place.rules);
-        if (place.density && reads_file(*place.density)) {
+        if (place.density && place.density->reads_file()) {
             read.push_back({"the density", place.density->name});
         }
     }
@@ -232,14 +228,15 @@ void MaskOptions::place_files(const std::function<std::string(const std::string&
     for (std::string& text : class_masks) {
         OfClass own = parse_of_class(kClassMask, text);
         place_image(kClassMask, own.text, place);
-        text = std::to_string(own.number) + ":" + own.text;
+        text = own.joined();
     }
     for (std::string& text : class_densities) {
-        const OfClass own = parse_of_class(kClassDensity, text);
+        OfClass own = parse_of_class(kClassDensity, text);
         DensitySource source = parse_source(kClassDensity, own.text);
-        if (reads_file(source)) {
+        if (source.reads_file()) {
             source.name = place(source.name);
-            text = std::to_string(own.number) + ":" + source.text();
+            own.text = source.text();
+            text = own.joined();
         }
     }
 }

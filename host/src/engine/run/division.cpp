@@ -10,14 +10,14 @@
 namespace geodisk {
 namespace {
 
-// What all buffers of a run take, of those of the mesh and the candidates.
+// Bytes of all buffers of a run, per byte of the mesh and the candidates.
 constexpr double kAllBuffers = 3;
 // The weights of a candidate.
 constexpr double kCandidateBytes = 8;
 // Candidates of a stage, beyond which the host would need too much memory.
 constexpr double kMostCandidates = 0x1p27;
-// Of the side of a part with its margins, at least. Of less, too much would be done again and
-// again.
+// Least side of a part, per side with its margins: with less, most work would be done twice or
+// more.
 constexpr double kLeastSide = 0.4;
 constexpr std::uint32_t kMaxAttempts = 3;
 

@@ -93,8 +93,6 @@ Runner::Impl::~Impl() {
     settle();
 }
 
-/// Begins a run in parts after an error of one of the whole, if that may help. Returns the error if
-/// not.
 Result<Done> Runner::Impl::divide(const Domain& whole, const ProgressCallback& callback,
                                   const Error& error) {
     release();

@@ -120,7 +120,10 @@ struct Runner::Impl {
     template <class T>
     Result<T> complete(Task<Result<T>> task, std::uint32_t candidates,
                        const ProgressCallback& callback);
+    /// Begins a run in parts after an error of one of the whole, if that may help. Returns the
+    /// error if not.
     Result<Done> divide(const Domain& whole, const ProgressCallback& callback, const Error& error);
+    /// Goes on with the run in parts, as poll().
     Result<std::optional<SampleSet>> poll_division(std::chrono::milliseconds patience) noexcept;
     bool is_busy() const { return work != nullptr || division != nullptr; }
     /// Notes how far the job at hand is.
