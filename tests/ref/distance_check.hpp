@@ -23,7 +23,7 @@ struct DistanceCase {
 
 /// Checks every pair three times: in double with tight tolerances against `exactness`, and in
 /// double and in float with the documented tolerances against the guard they promise. A group
-/// computes them as well, tight and in float.
+/// computes them as well, tight and in float, and the library in double.
 void check_distances(const DistanceCase& c, const Truth& truth);
 
 /// All distances against the straight line in space: for flat convex meshes.

@@ -16,6 +16,7 @@
 #include <geodisk/fields.hpp>
 #include <geodisk/frame_neighbours.hpp>
 #include <geodisk/frame_sampler.hpp>
+#include <geodisk/geodesics.hpp>
 #include <geodisk/job_frame.hpp>
 #include <geodisk/kernel_report.hpp>
 #include <geodisk/levels.hpp>

@@ -1,0 +1,135 @@
+#include <geodisk/geodesics.hpp>
+
+#include <atomic>
+#include <mutex>
+#include <string>
+
+#include "engine/neighbours/check_query.hpp"
+#include "geodesics/wavefront.hpp"
+#include "mesh/checks.hpp"
+#include "support/blocks.hpp"
+#include "support/guard.hpp"
+#include "support/invalid.hpp"
+#include "support/number_text.hpp"
+#include "support/try.hpp"
+
+namespace geodisk {
+namespace {
+
+using geodesics::Wavefront;
+
+Result<Done> check(const PreparedMesh& mesh, const DistanceQuery& query) {
+    if (query.sources.empty()) {
+        return invalid("there is no source");
+    }
+    if (!(query.within > 0)) {
+        return invalid("the limit of distances is " + number_text(query.within) +
+                       ", which is not positive");
+    }
+    GEODISK_TRY(check_joined(mesh, query.joined));
+    GEODISK_TRY(check_points(mesh, "source", query.sources));
+    return check_points(mesh, "target", query.targets);
+}
+
+/// What several wavefronts share: how far they are, told one call at a time, and the first error.
+class SharedRun {
+  public:
+    explicit SharedRun(const ProgressCallback& heard) : heard_(heard) {}
+
+    bool goes_on() const { return !is_over_; }
+
+    /// Returns false if the work is to stop.
+    bool tell(std::uint32_t done, std::uint32_t all) {
+        if (heard_ && goes_on()) {
+            const std::lock_guard lock(mutex_);
+            is_over_ = is_over_ || !heard_(Progress{done, all, 0, 0, 0});
+        }
+        return goes_on();
+    }
+
+    /// Ends the work with the error, if there is one.
+    bool check(const Result<Done>& result) {
+        if (result) {
+            return true;
+        }
+        const std::lock_guard lock(mutex_);
+        is_over_ = true;
+        if (result_) {
+            result_ = result;
+        }
+        return false;
+    }
+
+    const Result<Done>& result() const { return result_; }
+
+  private:
+    const ProgressCallback& heard_;
+    std::mutex mutex_;
+    std::atomic<bool> is_over_ = false;
+    Result<Done> result_ = Done{};
+};
+
+/// Writes the distance of each target or vertex to `row`, and its source, where that is asked for.
+void copy_paths(const Wavefront& front, std::span<const std::uint32_t> joined,
+                std::span<double> row, std::span<std::uint32_t> sources) {
+    const auto paths = front.targets().empty() ? front.vertices() : front.targets();
+    for (std::size_t i = 0; i < row.size(); ++i) {
+        const geodesics::Arrival& path = paths[joined.empty() ? i : joined[i]];
+        row[i] = path.distance;
+        if (!sources.empty()) {
+            sources[i] = path.source;
+        }
+    }
+}
+
+} // namespace
+
+Result<GeodesicDistances> geodesic_distances(const PreparedMesh& mesh, const DistanceQuery& query,
+                                             const ThreadOptions& threads,
+                                             const ProgressCallback& progress) noexcept {
+    return guarded([&]() -> Result<GeodesicDistances> {
+        GEODISK_TRY(check_threads(threads));
+        GEODISK_TRY(check(mesh, query));
+        std::span<const std::uint32_t> joined; // Of vertices.
+        if (query.targets.empty()) {
+            joined = query.joined.empty() ? mesh.joined_vertices() : query.joined;
+        }
+        const std::size_t width =
+            query.targets.empty() ? mesh.vertex_count() : query.targets.size();
+        const auto count = static_cast<std::uint32_t>(query.sources.size());
+        SharedRun run(progress);
+        GeodesicDistances result;
+        if (query.each) {
+            result.distances.resize(width * count);
+            std::atomic<std::uint32_t> done = 0;
+            for_parts(threads, count, [&](std::size_t row) {
+                if (!run.goes_on()) {
+                    return;
+                }
+                Wavefront front(mesh, query.within);
+                front.aim_at(query.targets);
+                front.add(query.sources[row], 0);
+                if (run.check(front.spread([&](std::uint32_t) { return run.tell(done, count); }))) {
+                    copy_paths(front, joined,
+                               std::span(result.distances).subspan(row * width, width), {});
+                    ++done;
+                }
+            });
+        } else {
+            result.distances.resize(width);
+            result.nearest.resize(width);
+            Wavefront front(mesh, query.within);
+            front.aim_at(query.targets);
+            for (std::uint32_t i = 0; i < count; ++i) {
+                front.add(query.sources[i], i);
+            }
+            run.check(front.spread(
+                [&](std::uint32_t reached) { return run.tell(reached, mesh.vertex_count()); }));
+            copy_paths(front, joined, result.distances, result.nearest);
+        }
+        GEODISK_TRY(run.result());
+        return result;
+    });
+}
+
+} // namespace geodisk
