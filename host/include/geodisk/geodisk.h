@@ -953,6 +953,79 @@ GEODISK_C_API geodisk_status geodisk_farthest_order(geodisk_sampler *sampler,
                                                     geodisk_farthest_info *info,
                                                     geodisk_error *error);
 
+/* ---- Geodesics --------------------------------------------------------------------------------- */
+
+/* Distances and paths along a surface, computed on the CPU in double precision, without a device.
+ * Lengths are in mesh units. */
+
+/* From where to measure, and to what. */
+typedef struct geodisk_distance_params {
+    size_t struct_size;
+    /* Sources: points, or vertices of the mesh. One of them. */
+    const geodisk_surface_point *sources;
+    const uint32_t *source_vertices;
+    size_t source_count;
+    const geodisk_surface_point *targets; /* Points to measure to; NULL for all vertices. */
+    size_t target_count;
+    int32_t each;         /* Not 0: measure from each source on its own, not from the nearest. */
+    uint32_t max_threads; /* Each computes a source; 0 for 16. */
+    double within;        /* What is farther away gets infinity; 0 for no limit. */
+    /* Lowest vertex that each vertex is joined with, if the caller has joined vertices; NULL for
+     * those that geodisk_mesh_create joined. */
+    const uint32_t *joined;
+} geodisk_distance_params;
+
+/* Source of targets that no path leads to. */
+#define GEODISK_NO_SOURCE UINT32_MAX
+
+/* Writes the exact distance of each target from the nearest source to `distances`, and the index of
+ * that source to `nearest`; with `each` all targets from the first source, then all from the second,
+ * and so on, and `nearest` is not written. Where no path leads, writes an infinite distance and
+ * GEODISK_NO_SOURCE. `nearest` may be NULL. `progress` may be NULL, and counts vertices, or with
+ * `each` sources, as candidates; it is called by any thread of this call, by one at a time.
+ * Experimental. */
+GEODISK_C_API geodisk_status geodisk_geodesic_distances(const geodisk_mesh *mesh,
+                                                        const geodisk_distance_params *params,
+                                                        geodisk_progress_fn progress, void *user,
+                                                        double *distances, uint32_t *nearest,
+                                                        geodisk_error *error);
+
+/* The ends of a path: points, or vertices where these are NULL. */
+typedef struct geodisk_path_params {
+    size_t struct_size;
+    const geodisk_surface_point *from;
+    const geodisk_surface_point *to;
+    uint32_t from_vertex;
+    uint32_t to_vertex;
+} geodisk_path_params;
+
+/* A point of a path, by the weights of its face's corners. */
+typedef struct geodisk_path_point {
+    uint32_t face;
+    double weights[3];
+} geodisk_path_point;
+
+/* A shortest path along a surface. */
+typedef struct geodisk_path geodisk_path;
+
+/* Finds a shortest path; of several, any. Fails with GEODISK_INVALID_ARGUMENT if none leads from one
+ * end to the other. Experimental. */
+GEODISK_C_API geodisk_status geodisk_geodesic_path(const geodisk_mesh *mesh,
+                                                   const geodisk_path_params *params,
+                                                   geodisk_path **path, geodisk_error *error);
+
+/* Returns the length of a path. Experimental. */
+GEODISK_C_API double geodisk_path_length(const geodisk_path *path);
+
+/* Returns the points of a path, `count` of them: its ends, and between them where it crosses an edge
+ * or bends at a vertex. It runs straight from each to the next. They live as long as the path.
+ * Experimental. */
+GEODISK_C_API const geodisk_path_point *geodisk_path_points(const geodisk_path *path,
+                                                            size_t *count);
+
+/* Releases the path. Experimental. */
+GEODISK_C_API void geodisk_path_release(geodisk_path *path);
+
 /* ---- Updates ----------------------------------------------------------------------------------- */
 
 /* The samples of a surface, kept up to date while it is edited. An update decides only what the

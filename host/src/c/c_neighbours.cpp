@@ -28,36 +28,6 @@ std::span<const std::uint32_t> joined_of(const Mesh& mesh, const geodisk_neighbo
                                     : std::span(params.joined, mesh.prepared.vertex_count());
 }
 
-Result<NeighbourSources> sources_of(const Mesh& mesh, const geodisk_neighbour_params& params) {
-    if (params.sources != nullptr && params.source_vertices != nullptr) {
-        return wrong("params->sources and params->source_vertices contradict each other");
-    }
-    if (params.sources != nullptr) {
-        return NeighbourSources{samples_of(params.sources, params.source_count), {}};
-    }
-    // Other sources at the place of a source would be its nearest.
-    const bool are_places =
-        params.kind == GEODISK_AMONG_SOURCES && params.source_vertices == nullptr;
-    auto all = vertex_points(mesh.prepared, are_places ? std::span<const std::uint32_t>()
-                                                       : joined_of(mesh, params));
-    GEODISK_TRY(all);
-    if (params.source_vertices == nullptr) {
-        return NeighbourSources{std::move(all->points), std::move(all->vertices)};
-    }
-    NeighbourSources sources;
-    for (std::size_t i = 0; i < params.source_count; ++i) {
-        const std::uint32_t vertex = params.source_vertices[i];
-        const auto at = std::ranges::lower_bound(all->vertices, vertex);
-        if (at == all->vertices.end() || *at != vertex) {
-            return wrong("source " + std::to_string(i) + " is vertex " + std::to_string(vertex) +
-                         ", which no face uses");
-        }
-        sources.points.push_back(all->points[static_cast<std::size_t>(at - all->vertices.begin())]);
-        sources.vertices.push_back(vertex);
-    }
-    return sources;
-}
-
 Result<NeighbourKind> kind_of(geodisk_neighbour_kind kind) {
     switch (kind) {
     case GEODISK_AMONG_VERTICES:
@@ -73,11 +43,44 @@ Result<NeighbourKind> kind_of(geodisk_neighbour_kind kind) {
 
 } // namespace
 
+Result<NeighbourSources> sources_of(const Mesh& mesh, const geodisk_surface_point* points,
+                                    const std::uint32_t* vertices, std::size_t count,
+                                    std::span<const std::uint32_t> joined) {
+    if (points != nullptr && vertices != nullptr) {
+        return wrong("params->sources and params->source_vertices contradict each other");
+    }
+    if (points != nullptr) {
+        return NeighbourSources{samples_of(points, count), {}};
+    }
+    auto all = vertex_points(mesh.prepared, joined);
+    GEODISK_TRY(all);
+    if (vertices == nullptr) {
+        return NeighbourSources{std::move(all->points), std::move(all->vertices)};
+    }
+    NeighbourSources sources;
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::uint32_t vertex = vertices[i];
+        const auto at = std::ranges::lower_bound(all->vertices, vertex);
+        if (at == all->vertices.end() || *at != vertex) {
+            return wrong("source " + std::to_string(i) + " is vertex " + std::to_string(vertex) +
+                         ", which no face uses");
+        }
+        sources.points.push_back(all->points[static_cast<std::size_t>(at - all->vertices.begin())]);
+        sources.vertices.push_back(vertex);
+    }
+    return sources;
+}
+
 Result<std::shared_ptr<NeighbourSearch>> search_for(const geodisk_mesh& mesh,
                                                     const geodisk_neighbour_params& params) {
     const auto kind = kind_of(params.kind);
     GEODISK_TRY(kind);
-    auto sources = sources_of(*mesh.shared, params);
+    // Other sources at the place of a source would be its nearest.
+    const bool are_places =
+        params.kind == GEODISK_AMONG_SOURCES && params.source_vertices == nullptr;
+    auto sources =
+        sources_of(*mesh.shared, params.sources, params.source_vertices, params.source_count,
+                   are_places ? std::span<const std::uint32_t>() : joined_of(*mesh.shared, params));
     GEODISK_TRY(sources);
     if (params.points == nullptr && params.point_count != 0) {
         return wrong("params->points is NULL");

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include <geodisk/geodisk.h>
@@ -17,6 +18,12 @@ struct NeighbourSources {
     std::vector<Sample> points;
     std::vector<std::uint32_t> vertices; ///< Empty if sources are points.
 };
+
+/// Returns sources given as points or as vertices, which `joined` may have joined. Errors name the
+/// parameter.
+Result<NeighbourSources> sources_of(const Mesh& mesh, const geodisk_surface_point* points,
+                                    const std::uint32_t* vertices, std::size_t count,
+                                    std::span<const std::uint32_t> joined);
 
 /// A query with all that it refers to, apart from the caller's arrays.
 struct NeighbourSearch {

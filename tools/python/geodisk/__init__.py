@@ -23,6 +23,7 @@ from ._errors import (
     OutOfMemory,
 )
 from ._farthest import FarthestOrder, farthest_order
+from ._geodesics import GeodesicPath, geodesic_distances, geodesic_path
 from ._library import version
 from ._many import sample_many
 from ._mesh import Mesh
@@ -44,6 +45,7 @@ __all__ = [
     "DeviceLost",
     "Error",
     "FarthestOrder",
+    "GeodesicPath",
     "GeodiskWarning",
     "InvalidArgument",
     "Mesh",
@@ -61,6 +63,8 @@ __all__ = [
     "cells",
     "devices",
     "farthest_order",
+    "geodesic_distances",
+    "geodesic_path",
     "neighbours",
     "read",
     "render",

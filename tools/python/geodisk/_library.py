@@ -9,6 +9,7 @@ import sys
 from ctypes import POINTER, byref, c_char_p, c_double, c_int32, c_size_t, c_uint32, c_void_p, pointer, sizeof
 from typing import Any, Mapping
 
+import numpy as np
 from numpy.typing import NDArray
 
 from . import _place
@@ -23,6 +24,7 @@ from ._structs import (
     CError,
     DeviceInfo,
     DeviceOptions,
+    DistanceParams,
     FarthestInfo,
     FarthestParams,
     MeshInfo,
@@ -30,6 +32,8 @@ from ._structs import (
     MeshRequest,
     NeighbourArrays,
     NeighbourParams,
+    PathParams,
+    PathPoint,
     Progress,
     RecordParams,
     Report,
@@ -83,6 +87,15 @@ _FALLIBLE: dict[str, list[Any]] = {
         c_void_p,
         POINTER(FarthestInfo),
     ],
+    "geodisk_geodesic_distances": [
+        c_void_p,
+        POINTER(DistanceParams),
+        PROGRESS_FN,
+        c_void_p,
+        c_void_p,
+        c_void_p,
+    ],
+    "geodisk_geodesic_path": [c_void_p, POINTER(PathParams), _HANDLE],
     "geodisk_updater_create_edited": [
         c_void_p,
         POINTER(SurfaceParams),
@@ -144,6 +157,7 @@ _RELEASES = [
     "neighbours",
     "cells",
     "nearest",
+    "path",
     "source",
     "updater",
 ]
@@ -188,6 +202,10 @@ _library.geodisk_radii_min_factor.argtypes = [c_void_p]
 _library.geodisk_radii_min_factor.restype = c_double
 _library.geodisk_nearest_error.argtypes = [c_void_p]
 _library.geodisk_nearest_error.restype = c_double
+_library.geodisk_path_length.argtypes = [c_void_p]
+_library.geodisk_path_length.restype = c_double
+_library.geodisk_path_points.argtypes = [c_void_p, POINTER(c_size_t)]
+_library.geodisk_path_points.restype = c_void_p
 _library.geodisk_samples_count.argtypes = [c_void_p]
 _library.geodisk_samples_count.restype = c_size_t
 _library.geodisk_skip_exit_handlers.argtypes = []
@@ -230,6 +248,18 @@ def cancel(sampler: c_void_p) -> None:
 
 def radii_min_factor(radii: c_void_p) -> float:
     return float(_library.geodisk_radii_min_factor(radii))
+
+
+def path_length(path: Handle) -> float:
+    return float(_library.geodisk_path_length(path.value))
+
+
+def path_points(path: Handle) -> NDArray[Any]:
+    """The points of a path, with fields face and weights."""
+    count = c_size_t()
+    address = _library.geodisk_path_points(path.value, byref(count))
+    data = ctypes.string_at(address, count.value * sizeof(PathPoint))
+    return np.frombuffer(data, np.dtype(PathPoint))
 
 
 def nearest_error(nearest: c_void_p) -> float:

@@ -153,7 +153,7 @@ def neighbours(
         kept.append(array)
         return int(array.ctypes.data)
 
-    count = _set_sources(params, mesh, sources, address)
+    count = set_sources(params, mesh, sources, address)
     _set_within(params, within, count, address)
     if isinstance(among, str):
         params.kind = s.AMONG[choice(among, "among", s.AMONG)]
@@ -169,10 +169,10 @@ def neighbours(
     return _arrays_of(found)
 
 
-def _set_sources(
-    params: s.NeighbourParams, mesh: Mesh, sources: Any, address: Any
+def set_sources(
+    params: s.NeighbourParams | s.DistanceParams, mesh: Mesh, sources: Any, address: Any
 ) -> int | None:
-    """Returns the number of sources, None if these are all vertices."""
+    """Sets sources of a search, at their `address`. Returns their number, None for all vertices."""
     if sources is None:
         return None
     is_pair = isinstance(sources, tuple) and len(sources) == 2 and np.ndim(sources[1]) == 2

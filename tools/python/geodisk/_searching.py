@@ -1,4 +1,4 @@
-"""Searches on a device, which are one call of the library and may be stopped."""
+"""Searches, which are one call of the library and may be stopped."""
 
 from __future__ import annotations
 
@@ -16,12 +16,8 @@ from ._running import STOPPED, Bar, ProgressCallback, listener_of, stops
 T = TypeVar("T")
 
 
-def searched(
-    device: str,
-    progress: bool | ProgressCallback,
-    call: Callable[[ctypes.c_void_p, Any], T],
-) -> T:
-    """Returns `call(sampler, callback)`, where the library calls the callback with its progress."""
+def listened(progress: bool | ProgressCallback, call: Callable[[Any], T]) -> T:
+    """Returns `call(callback)`, where the library calls the callback with its progress."""
     report = listener_of(progress)
     failure: list[BaseException] = []
 
@@ -36,8 +32,7 @@ def searched(
                 failure.append(raised)
                 return 1
 
-        with sampler_on(device) as sampler:
-            return call(sampler, s.PROGRESS_FN(hear))
+        return call(s.PROGRESS_FN(hear))
 
     try:
         return interruptible(work)
@@ -45,12 +40,27 @@ def searched(
         if failure:
             raise failure[0] from None
         raise e.Cancelled(STOPPED, "cancelled") from None
-    except e.DeviceLost:
-        forget(device)
-        raise
     finally:
         if isinstance(report, Bar):
             report.close()
+
+
+def searched(
+    device: str,
+    progress: bool | ProgressCallback,
+    call: Callable[[ctypes.c_void_p, Any], T],
+) -> T:
+    """Returns `call(sampler, callback)`, as listened() calls it."""
+
+    def with_sampler(hear: Any) -> T:
+        with sampler_on(device) as sampler:
+            return call(sampler, hear)
+
+    try:
+        return listened(progress, with_sampler)
+    except e.DeviceLost:
+        forget(device)
+        raise
 
 
 def search(

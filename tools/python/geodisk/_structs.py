@@ -298,6 +298,35 @@ class NeighbourArrays(_Sized):
     ]
 
 
+class DistanceParams(_Sized):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("sources", c_void_p),
+        ("source_vertices", c_void_p),
+        ("source_count", c_size_t),
+        ("targets", c_void_p),
+        ("target_count", c_size_t),
+        ("each", c_int32),
+        ("max_threads", c_uint32),
+        ("within", c_double),
+        ("joined", c_void_p),
+    ]
+
+
+class PathParams(_Sized):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("from", c_void_p),
+        ("to", c_void_p),
+        ("from_vertex", c_uint32),
+        ("to_vertex", c_uint32),
+    ]
+
+
+class PathPoint(Structure):
+    _fields_ = [("face", c_uint32), ("weights", c_double * 3)]
+
+
 class CellParams(_Sized):
     _fields_ = [
         ("struct_size", c_size_t),

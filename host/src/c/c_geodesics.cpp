@@ -1,0 +1,142 @@
+#include <algorithm>
+#include <iterator>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <geodisk/geodesics.hpp>
+
+#include "c/c_call.hpp"
+#include "c/c_mesh.hpp"
+#include "c/c_neighbours.hpp"
+#include "c/c_sampler.hpp"
+#include "support/try.hpp"
+
+/// Immutable.
+struct geodisk_path {
+    double length;
+    std::vector<geodisk_path_point> points;
+};
+
+namespace geodisk::c {
+namespace {
+
+/// Returns one end of a path: the point, or the vertex where it is NULL.
+Result<Sample> end_of(const Mesh& mesh, const geodisk_surface_point* point, std::uint32_t vertex) {
+    const auto places =
+        sources_of(mesh, point, point != nullptr ? nullptr : &vertex, 1, mesh.joined);
+    if (!places) {
+        return point == nullptr
+                   ? wrong("vertex " + std::to_string(vertex) + ", an end, is used by no face")
+                   : places.error();
+    }
+    return places->points.front();
+}
+
+Result<Done> find_distances(const Mesh& mesh, const geodisk_distance_params& params,
+                            const ProgressCallback& progress, double* distances,
+                            std::uint32_t* nearest) {
+    if (params.sources == nullptr && params.source_vertices == nullptr) {
+        return wrong("params->sources and params->source_vertices are NULL");
+    }
+    if (params.targets == nullptr && params.target_count != 0) {
+        return wrong("params->targets is NULL");
+    }
+    if (params.targets != nullptr && params.target_count == 0) {
+        return Done{};
+    }
+    const std::span<const std::uint32_t> joined =
+        params.joined == nullptr ? std::span<const std::uint32_t>(mesh.joined)
+                                 : std::span(params.joined, mesh.prepared.vertex_count());
+    const auto sources =
+        sources_of(mesh, params.sources, params.source_vertices, params.source_count, joined);
+    GEODISK_TRY(sources);
+    const std::vector<Sample> targets = samples_of(params.targets, params.target_count);
+    DistanceQuery query;
+    query.sources = sources->points;
+    query.targets = targets;
+    query.each = params.each != 0;
+    query.within = params.within != 0 ? params.within : query.within;
+    query.joined = joined;
+    ThreadOptions threads;
+    threads.max_threads = params.max_threads != 0 ? params.max_threads : threads.max_threads;
+    const auto found = geodesic_distances(mesh.prepared, query, threads, progress);
+    GEODISK_TRY(found);
+    std::ranges::copy(found->distances, distances);
+    if (nearest != nullptr) {
+        std::ranges::copy(found->nearest, nearest);
+    }
+    return Done{};
+}
+
+} // namespace
+} // namespace geodisk::c
+
+using namespace geodisk;
+using namespace geodisk::c;
+
+extern "C" {
+
+geodisk_status geodisk_geodesic_distances(const geodisk_mesh* mesh,
+                                          const geodisk_distance_params* params,
+                                          geodisk_progress_fn progress, void* user,
+                                          double* distances, uint32_t* nearest,
+                                          geodisk_error* error) {
+    return answer(error, [&]() -> Result<Done> {
+        if (mesh == nullptr || distances == nullptr) {
+            return wrong("mesh or distances is NULL");
+        }
+        const auto wanted = taken(params, "params");
+        GEODISK_TRY(wanted);
+        ProgressCallback heard;
+        if (progress != nullptr) {
+            heard = [&](const Progress& state) {
+                const geodisk_progress told = progress_of(state);
+                return progress(user, &told) == 0;
+            };
+        }
+        return find_distances(*mesh->shared, *wanted, heard, distances, nearest);
+    });
+}
+
+geodisk_status geodisk_geodesic_path(const geodisk_mesh* mesh, const geodisk_path_params* params,
+                                     geodisk_path** path, geodisk_error* error) {
+    return answer(error, [&]() -> Result<Done> {
+        if (mesh == nullptr || path == nullptr) {
+            return wrong("mesh or path is NULL");
+        }
+        const auto wanted = taken(params, "params");
+        GEODISK_TRY(wanted);
+        const auto from = end_of(*mesh->shared, wanted->from, wanted->from_vertex);
+        GEODISK_TRY(from);
+        const auto to = end_of(*mesh->shared, wanted->to, wanted->to_vertex);
+        GEODISK_TRY(to);
+        const auto found = geodesic_path(mesh->shared->prepared, *from, *to);
+        GEODISK_TRY(found);
+        auto made = std::make_unique<geodisk_path>(geodisk_path{found->length, {}});
+        std::ranges::transform(
+            found->points, std::back_inserter(made->points), [](const PathPoint& p) {
+                return geodisk_path_point{p.face, {p.weights[0], p.weights[1], p.weights[2]}};
+            });
+        *path = made.release();
+        return Done{};
+    });
+}
+
+double geodisk_path_length(const geodisk_path* path) {
+    return path != nullptr ? path->length : 0;
+}
+
+const geodisk_path_point* geodisk_path_points(const geodisk_path* path, size_t* count) {
+    if (count != nullptr) {
+        *count = path != nullptr ? path->points.size() : 0;
+    }
+    return path != nullptr ? path->points.data() : nullptr;
+}
+
+void geodisk_path_release(geodisk_path* path) {
+    delete path;
+}
+
+} // extern "C"

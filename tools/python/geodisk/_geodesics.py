@@ -1,0 +1,314 @@
+"""Exact distances and shortest paths along the surface, on the CPU."""
+
+from __future__ import annotations
+
+from ctypes import byref
+from dataclasses import dataclass
+from typing import Any, Literal, Tuple, Union, overload
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _errors as e
+from . import _library as c
+from . import _structs as s
+from ._background import interruptible
+from ._existing import ExistingLike, points_of
+from ._mesh import Mesh, mesh_of
+from ._neighbours import SourcesLike, set_sources
+from ._protocols import Faces, MeshLike
+from ._running import ProgressCallback
+from ._sample import Sample
+from ._searching import listened
+from ._values import flag, integer, number
+
+#: A vertex by its index, coordinates, one sample, or a triangle and weights.
+EndLike = Union[int, ArrayLike, Sample, Tuple[int, ArrayLike]]
+
+
+@dataclass(frozen=True, eq=False)
+class GeodesicPath:
+    """A shortest path along a surface.
+
+    Attributes
+    ----------
+    points : ndarray of float64, shape (n, d), or None
+        Its two ends, and between them where it crosses an edge or bends at a vertex. It runs
+        straight from each to the next. None for a surface of edge lengths alone.
+    length : float
+    face_index : ndarray of uint32, shape (n,)
+    barycentric : ndarray of float64, shape (n, 3)
+        Where the points are on the mesh's triangles.
+    """
+
+    points: NDArray[np.float64] | None
+    length: float
+    face_index: NDArray[np.uint32]
+    barycentric: NDArray[np.float64]
+
+    def __len__(self) -> int:
+        return len(self.face_index)
+
+    def __repr__(self) -> str:
+        return f"<geodisk.GeodesicPath of {len(self)} points, length {self.length:.6g}>"
+
+
+@overload
+def geodesic_distances(
+    vertices: ArrayLike | MeshLike,
+    faces: Faces | None = None,
+    sources: SourcesLike | None = None,
+    *,
+    targets: ExistingLike | None = None,
+    each: bool = False,
+    return_nearest: Literal[False] = False,
+    within: float | None = None,
+    edge_lengths: ArrayLike | None = None,
+    weld: bool | float = False,
+    keep_seams: bool = False,
+    mesh_format: str | None = None,
+    allow_outside: bool = False,
+    progress: bool | ProgressCallback = False,
+) -> NDArray[np.float64]: ...
+
+
+@overload
+def geodesic_distances(
+    vertices: ArrayLike | MeshLike,
+    faces: Faces | None = None,
+    sources: SourcesLike | None = None,
+    *,
+    targets: ExistingLike | None = None,
+    each: bool = False,
+    return_nearest: Literal[True],
+    within: float | None = None,
+    edge_lengths: ArrayLike | None = None,
+    weld: bool | float = False,
+    keep_seams: bool = False,
+    mesh_format: str | None = None,
+    allow_outside: bool = False,
+    progress: bool | ProgressCallback = False,
+) -> tuple[NDArray[np.float64], NDArray[np.int64]]: ...
+
+
+def geodesic_distances(
+    vertices: ArrayLike | MeshLike,
+    faces: Faces | None = None,
+    sources: SourcesLike | None = None,
+    *,
+    targets: ExistingLike | None = None,
+    each: bool = False,
+    return_nearest: bool = False,
+    within: float | None = None,
+    edge_lengths: ArrayLike | None = None,
+    weld: bool | float = False,
+    keep_seams: bool = False,
+    mesh_format: str | None = None,
+    allow_outside: bool = False,
+    progress: bool | ProgressCallback = False,
+) -> NDArray[np.float64] | tuple[NDArray[np.float64], NDArray[np.int64]]:
+    """Returns the distances of all vertices from sources, along the surface.
+
+    They are exact up to the rounding of double precision, and computed on the CPU, each source by
+    one thread. No device is needed.
+
+    Parameters
+    ----------
+    vertices, faces, edge_lengths, weld, keep_seams, mesh_format, allow_outside
+        The mesh, as for :class:`Mesh`. After a :class:`Mesh` or a file, sources may come second:
+        ``geodesic_distances(mesh, 0)``.
+    sources : int, array_like of int or bool, Samples, coordinates, or faces and weights
+        Vertices or points, as for :func:`neighbours`; or one vertex.
+    targets : Samples, coordinates, or faces and weights, optional
+        Points to measure to, instead of all vertices.
+    each : bool
+        Return a row of distances for each source, instead of those from the nearest one.
+    return_nearest : bool
+        Also return the index of the nearest source of each target, -1 where there is none. Not
+        with `each`.
+    within : float, optional
+        Farther targets get infinity, which saves time.
+    progress : bool or callable
+        As for :func:`sample`. A callback is called on other threads.
+
+    Returns
+    -------
+    distances : ndarray of float64, shape (v,), with `each` (n, v)
+        Infinity where no path leads.
+    nearest : ndarray of int64, shape (v,)
+        Only with `return_nearest`.
+
+    Raises
+    ------
+    InvalidArgument, TypeError
+        For values out of range, and arrays of a wrong type or shape.
+    MeshRejected
+        For a mesh with so many edges of more than two faces that the search would not end.
+    Cancelled
+        If `progress` returned False.
+
+    Examples
+    --------
+    >>> import geodisk
+    >>> square = geodisk.Mesh([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], [[0, 1, 2, 3]])
+    >>> geodisk.geodesic_distances(square, 0).round(4).tolist()
+    [0.0, 1.0, 1.4142, 1.0]
+    """
+    mesh, first, sources = _mesh_and_two(
+        vertices, faces, sources, edge_lengths, weld, keep_seams, mesh_format, allow_outside
+    )
+    sources = first if sources is None else sources
+    if sources is None:
+        raise e.invalid("give sources: from where to measure")
+    if flag(each, "each") and flag(return_nearest, "return_nearest"):
+        raise e.invalid("each and return_nearest exclude each other: each source has a row")
+    kept: list[NDArray[Any]] = []  # What the library reads.
+
+    def address(array: NDArray[Any]) -> int:
+        kept.append(array)
+        return int(array.ctypes.data)
+
+    params = s.DistanceParams(each=int(each))
+    if isinstance(sources, (int, np.integer)) and not isinstance(sources, bool):
+        sources = [integer(sources, "sources", 2**32 - 1)]
+    count = set_sources(params, mesh, sources, address)
+    assert count is not None
+    if within is not None:
+        params.within = number(within, "within")
+        if not params.within > 0:
+            raise e.invalid(f"within is {within}, which is not positive")
+    width = mesh._surface.vertex_count()
+    if targets is not None:
+        points = points_of(mesh._handle, targets, "targets")
+        params.targets, params.target_count = address(points), len(points)
+        width = len(points)
+    if mesh._surface.joined is not None:
+        params.joined = address(np.ascontiguousarray(mesh._surface.joined, np.uint32))
+    distances = np.empty((count, width) if each else width, np.float64)
+    nearest = np.empty(width, np.uint32)
+    listened(
+        progress,
+        lambda hear: c.call(
+            "geodisk_geodesic_distances",
+            mesh._handle.value,
+            byref(params),
+            hear,
+            None,
+            distances.ctypes.data,
+            None if each else nearest.ctypes.data,
+        ),
+    )
+    if not return_nearest:
+        return distances
+    return distances, np.where(nearest == 2**32 - 1, -1, nearest.astype(np.int64))
+
+
+def geodesic_path(
+    vertices: ArrayLike | MeshLike,
+    faces: Faces | EndLike | None = None,
+    start: EndLike | None = None,
+    end: EndLike | None = None,
+    *,
+    edge_lengths: ArrayLike | None = None,
+    weld: bool | float = False,
+    keep_seams: bool = False,
+    mesh_format: str | None = None,
+    allow_outside: bool = False,
+) -> GeodesicPath:
+    """Returns a shortest path along the surface from one point to another.
+
+    Parameters
+    ----------
+    vertices, faces, edge_lengths, weld, keep_seams, mesh_format, allow_outside
+        The mesh, as for :class:`Mesh`. After a :class:`Mesh` or a file, the ends may come second
+        and third: ``geodesic_path(mesh, 0, 5)``.
+    start, end : int, coordinates, Sample, or a pair of face and weights
+        A vertex by its index, or a point: its coordinates, one sample, or a triangle's index and
+        the weights of its corners.
+
+    Returns
+    -------
+    GeodesicPath
+
+    Raises
+    ------
+    InvalidArgument, TypeError
+        For an end that is not on the mesh, and if no path leads from one to the other.
+    MeshRejected
+        As for :func:`geodesic_distances`.
+
+    Examples
+    --------
+    >>> import geodisk
+    >>> square = geodisk.Mesh([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], [[0, 1, 2, 3]])
+    >>> path = geodisk.geodesic_path(square, 1, 3)
+    >>> round(path.length, 4), path.points.round(4).tolist()
+    (1.4142, [[1.0, 0.0, 0.0], [0.5, 0.5, 0.0], [0.0, 1.0, 0.0]])
+    """
+    mesh, second, first = _mesh_and_two(
+        vertices, faces, start, edge_lengths, weld, keep_seams, mesh_format, allow_outside
+    )
+    if second is not None:  # As in (mesh, start, end).
+        first, second = second, first
+        if end is not None:
+            raise TypeError("a mesh and two ends are given, and a third one")
+        end = second
+    if first is None or end is None:
+        raise e.invalid("give start and end: the two ends of the path")
+    params = s.PathParams()
+    kept = [_set_end(params, mesh, first, "start", "from"), _set_end(params, mesh, end, "end", "to")]
+    path = interruptible(
+        lambda stop: c.Handle("path", "geodisk_geodesic_path", mesh._handle.value, byref(params))
+    )
+    del kept  # Which the library has read.
+    points = c.path_points(path)
+    faces_of, weights = points["face"].copy(), points["weights"].copy()
+    place = None
+    if not isinstance(mesh.vertices, int):
+        corners = mesh.vertices[mesh.triangles[faces_of]].astype(np.float64)
+        place = np.einsum("nk,nkd->nd", weights, corners)
+    return GeodesicPath(place, c.path_length(path), faces_of, weights)
+
+
+def _mesh_and_two(
+    vertices: Any,
+    faces: Any,
+    given: Any,
+    edge_lengths: Any,
+    weld: Any,
+    keep_seams: Any,
+    mesh_format: Any,
+    allow_outside: Any,
+) -> tuple[Mesh, Any, Any]:
+    """Returns the mesh, what came in the place of faces after a whole mesh, and `given`."""
+    after = None
+    is_whole = not isinstance(vertices, (np.ndarray, list, tuple)) and not np.isscalar(vertices)
+    if (is_whole or isinstance(vertices, str)) and faces is not None:
+        after, faces = faces, None
+    mesh = mesh_of(
+        vertices, faces, edge_lengths, weld, keep_seams,
+        mesh_format=mesh_format, allow_outside=allow_outside,
+    )
+    return mesh, after, given
+
+
+def _set_end(params: s.PathParams, mesh: Mesh, end: Any, name: str, field: str) -> Any:
+    """Sets an end of a path. Returns what it refers to."""
+    if isinstance(end, (int, np.integer)) and not isinstance(end, bool):
+        vertex, joined = integer(end, name, 2**32 - 1), mesh._surface.joined
+        if joined is not None and vertex < len(joined):
+            vertex = int(joined[vertex])
+        setattr(params, f"{field}_vertex", vertex)
+        return None
+    if isinstance(end, Sample):
+        end = (end.face_index, end.barycentric)
+    if isinstance(end, tuple) and len(end) == 2 and np.ndim(end[0]) == 0 and np.ndim(end[1]) == 1:
+        point = points_of(mesh._handle, ([end[0]], [end[1]]), name)
+    elif np.ndim(end) == 1:
+        point = points_of(mesh._handle, np.asarray([end]), name)
+    else:
+        raise TypeError(
+            f"{name} is neither a vertex, coordinates, one sample, nor a pair of face and weights"
+        )
+    setattr(params, field, point.ctypes.data)
+    return point
