@@ -102,7 +102,7 @@ def read_file(
     encoded = (ctypes.c_char_p * len(attributes))(*(one.encode() for one in attributes))
     params = s.SourceParams(
         path=os.fsencode(name),
-        attributes=encoded,
+        attributes=ctypes.addressof(encoded),
         attribute_count=len(attributes),
         columns=joined.encode(),
         mesh_format=None if mesh_format is None else mesh_format.encode(),
@@ -142,7 +142,7 @@ def _read(
     keep_seams: bool,
     columns: Sequence[str] = (),
 ) -> Source:
-    params.stop = ctypes.pointer(stop)
+    params.stop = ctypes.addressof(stop)
     params.keep_seams = keep_seams
     if weld is not False:
         params.weld = 1
@@ -156,12 +156,12 @@ def _read(
     )
     named = {}
     for index, name in enumerate(columns):
-        values = ctypes.POINTER(ctypes.c_uint32)()
+        values = ctypes.c_void_p()
         c.call("geodisk_source_column", handle.value, index, ctypes.byref(values))
-        named[name] = view_of(values, (arrays.triangle_count,), handle)
+        named[name] = view_of(values.value, (arrays.triangle_count,), handle)
 
     return Source(
-        vertices=view_of(arrays.positions, (arrays.vertex_count, arrays.dimension), handle),
+        vertices=view_of(arrays.positions, (arrays.vertex_count, arrays.dimension), handle, np.float64),
         triangles=view_of(arrays.triangles, (arrays.triangle_count, 3), handle),
         polygons=polygons,
         attributes=dict(
@@ -185,7 +185,7 @@ def _attribute(
     c.call("geodisk_source_get_attribute", handle.value, index, ctypes.byref(found))
     shape = (found.value_count,) if found.components == 1 else (found.value_count, found.components)
     return found.name.decode("utf-8", "replace"), Attribute(
-        values=view_of(found.values, shape, handle),
+        values=view_of(found.values, shape, handle, np.float64),
         corners=view_of(found.corners, (triangles, 3), handle) if found.corners else None,
         of_vertices=bool(found.of_vertices),
         is_whole=bool(found.is_whole),
@@ -194,13 +194,15 @@ def _attribute(
     )
 
 
-def view_of(pointer: Any, shape: tuple[int, ...], handle: c.Handle) -> NDArray[Any]:
+def view_of(
+    address: int | None, shape: tuple[int, ...], handle: c.Handle, dtype: Any = np.uint32
+) -> NDArray[Any]:
     """Returns the memory as an array that cannot be written, and keeps `handle`."""
-    count = int(np.prod(shape))
-    memory: Any = (pointer._type_ * count).from_address(
-        ctypes.addressof(pointer.contents) if pointer else 0
-    )
+    size = int(np.prod(shape)) * np.dtype(dtype).itemsize
+    if address is None or size == 0:
+        return np.empty(shape, dtype)
+    memory: Any = (ctypes.c_char * size).from_address(address)
     memory.handle = handle
-    array = np.frombuffer(memory, pointer._type_).reshape(shape)
+    array = np.frombuffer(memory, dtype).reshape(shape)
     array.flags.writeable = False
     return array

@@ -164,6 +164,9 @@ typedef void (*geodisk_take_fn)(const void *bytes, size_t size);
 GEODISK_C_API geodisk_status geodisk_run_command(const char *name, const geodisk_task *task,
                                                  geodisk_take_fn take, geodisk_error *error);
 
+/* Returns geodisk.h and this header, from which Python has the types of structs and functions. */
+GEODISK_C_API const char *geodisk_python_headers(void);
+
 /* For a child of fork() whose parent has used a driver: the threads of the driver are not there, and
  * its exit handler would wait for them forever. Lets exit() end the process without the handlers that
  * were registered before, once standard streams are flushed. Does nothing where the system has no
