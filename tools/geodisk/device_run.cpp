@@ -259,6 +259,16 @@ DeviceResult RunDevice::run(RequestRun request, ProgressLine& progress) {
     return {std::move(found), std::move(done)};
 }
 
+DeviceRun RunDevice::begin_search(ProgressLine& progress) {
+    const Stopwatch watch;
+    open(progress);
+    DeviceRun done;
+    done.open_seconds = watch.seconds();
+    done.device = context().report();
+    done.tuning = opened_->runner.sampler().tuning();
+    return done;
+}
+
 void RunDevice::check(const Error& error) {
     if (error.status == Status::device_lost) {
         close();

@@ -107,6 +107,9 @@ class RunDevice {
     /// its steps. Throws UserError, DeviceLost among them.
     DeviceResult run(RequestRun request, ProgressLine& progress);
 
+    /// Opens the device where need be, for a search. Returns the account of it without the run.
+    DeviceRun begin_search(ProgressLine& progress);
+
     /// Throws UserError for an error of a run on this device, DeviceLost among them; after that,
     /// the device has to be opened again.
     void check(const Error& error);

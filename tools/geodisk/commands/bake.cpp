@@ -3,7 +3,6 @@
 #include <string_view>
 #include <vector>
 
-#include "geodisk/checks/run_warnings.hpp"
 #include "geodisk/checks/sample_input.hpp"
 #include "geodisk/commands/commands.hpp"
 #include "geodisk/commands/help_text.hpp"
@@ -80,21 +79,18 @@ void run_bake(BakeOptions options) {
     ProgressLine progress(options.out.quiet);
     const MeshInput mesh = load_mesh(options.mesh, progress);
     std::vector<MeshWarning> warnings;
-    const HeaderEntries additions = options.mesh.additions();
     const SampleFile file =
-        read_samples_silently_on(options.samples, options.mesh.mesh, mesh, &additions,
-                                 options.tolerance, warnings, progress);
+        read_samples_silently_on(options.samples, mesh, options.tolerance, warnings, progress);
     if (file.rows.empty()) {
         fail_input(options.samples, "has no samples");
     }
     print_warnings(warnings);
     warnings.insert(warnings.begin(), mesh.warnings.begin(), mesh.warnings.end());
     RunDevice device(options.run.device, runner);
-    MapResult result = run_map(file.rows, size, options.mesh.mesh, mesh, target.has_cells(), device,
-                               runner.device_bytes, progress);
+    MapResult result =
+        run_map(file.rows, size, mesh, target.has_cells(), device, runner.device_bytes, progress);
     check_validation(device.context());
-    const MapReport report{options.mesh,      mesh, warnings, result, file.rows.size(),
-                           options.out.output};
+    const MapReport report{mesh, warnings, result, file.rows.size(), options.out.output};
     write_outputs(options.out, "the map", progress, report, [&](AtomicFile& map) {
         write_map(map, target, result.map, file.rows.size(), result.touching);
     });

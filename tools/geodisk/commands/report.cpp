@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "files/input_file.hpp"
-#include "geodisk/checks/run_warnings.hpp"
 #include "geodisk/checks/sample_checks.hpp"
 #include "geodisk/commands/commands.hpp"
 #include "geodisk/commands/help_text.hpp"
@@ -39,16 +38,14 @@ void check_page_path(const Path& path) {
     check_writable(path);
 }
 
-SpectrumRun spectrum_of(const SampleJob& job, const MeshInput& mesh,
-                        std::span<const SurfaceDisk> disks, const std::string& harmonics,
-                        ProgressLine& progress) {
+SpectrumRun spectrum_of(const MeshInput& mesh, std::span<const SurfaceDisk> disks,
+                        const std::string& harmonics, ProgressLine& progress) {
     analysis::PlacedSamples places;
     for (const SurfaceDisk& disk : disks) {
         places.push_back({disk.face, disk.weight1, disk.weight2});
     }
     std::vector<MeshWarning> warnings; // Printed; the page tells of the mesh itself.
-    return compute_spectrum_on(job.mesh.mesh, mesh, std::span(&places, 1), harmonics, warnings,
-                               progress);
+    return compute_spectrum_on(mesh, std::span(&places, 1), harmonics, warnings, progress);
 }
 
 void run_report(const ReportOptions& options) {
@@ -79,7 +76,7 @@ void run_report(const ReportOptions& options) {
     page.set = analyze_disks(mesh, samples, options.probes, 0, progress);
     page.measure_seconds = watch.seconds();
     if (!options.harmonics.empty()) {
-        page.spectrum = spectrum_of(job, mesh, samples.disks, options.harmonics, progress);
+        page.spectrum = spectrum_of(mesh, samples.disks, options.harmonics, progress);
     }
     watch = Stopwatch();
     page.content = make_page_content(mesh, samples, page.set.found.neighbors, up, progress);

@@ -76,9 +76,6 @@ struct SampleJob {
     std::string update;  ///< Its samples, or "".
 
     bool is_geodesic() const { return !metric; }
-
-    /// Returns what shapes the surface and its radii besides the mesh file, as the header names it.
-    HeaderEntries additions() const;
 };
 
 /// Returns the fields of a request that the options set.

@@ -44,10 +44,6 @@ void check_class_options(const VerifyOptions& options) {
 
 } // namespace
 
-HeaderEntries VerifyOptions::additions() const {
-    return with_entries(density.added_to(mesh.additions()), mask);
-}
-
 std::vector<NamedFile> VerifyOptions::files_read() const {
     std::vector<NamedFile> read{{"the samples", samples}};
     mesh.add_files(read, "the mesh");

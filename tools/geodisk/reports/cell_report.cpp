@@ -72,7 +72,7 @@ std::string CellReport::json(double write_seconds) const {
     const SurfaceCells& cells = result.cells;
     const auto [least, largest] = std::ranges::minmax(cells.areas);
     Json document{{"version", GEODISK_VERSION_STRING},
-                  {"mesh", mesh_json(options.mesh, options.additions(), mesh)},
+                  {"mesh", mesh_json(mesh)},
                   {"warnings", warnings_json(warnings)},
                   {"samples", cells.areas.size()},
                   {"areas",
@@ -96,9 +96,9 @@ std::string CellReport::summary(double write_seconds) const {
     const SurfaceCells& cells = result.cells;
     const auto [least, largest] = std::ranges::minmax(cells.areas);
     std::ostringstream out;
-    out << mesh_lines("mesh", options.mesh, options.additions(), mesh) << "cells         "
-        << grouped(cells.areas.size()) << ", with areas from " << rounded(least, 4) << " to "
-        << rounded(largest, 4) << ", exact to " << rounded(cells.area_error, 2) << '\n';
+    out << mesh_lines("mesh", mesh) << "cells         " << grouped(cells.areas.size())
+        << ", with areas from " << rounded(least, 4) << " to " << rounded(largest, 4)
+        << ", exact to " << rounded(cells.area_error, 2) << '\n';
     if (cells.unreached > 0) {
         out << "no sample     in parts of the mesh with an area of " << rounded(cells.unreached, 4)
             << '\n';

@@ -22,7 +22,7 @@ SecondsByStage seconds_of(const MapReport& report, double write_seconds) {
 
 std::string MapReport::json(double write_seconds) const {
     Json document{{"version", GEODISK_VERSION_STRING},
-                  {"mesh", mesh_json(options.mesh, options.additions(), mesh)},
+                  {"mesh", mesh_json(mesh)},
                   {"warnings", warnings_json(warnings)},
                   {"samples", samples},
                   {"size", {result.map.width, result.map.height}},
@@ -45,9 +45,8 @@ std::string MapReport::json(double write_seconds) const {
 
 std::string MapReport::summary(double write_seconds) const {
     std::ostringstream out;
-    out << mesh_lines("mesh", options.mesh, options.additions(), mesh) << "texels        "
-        << grouped(result.covered) << " of " << grouped(result.map.width) << " x "
-        << grouped(result.map.height) << " have a face\n"
+    out << mesh_lines("mesh", mesh) << "texels        " << grouped(result.covered) << " of "
+        << grouped(result.map.width) << " x " << grouped(result.map.height) << " have a face\n"
         << "samples       " << grouped(samples) << ", at most "
         << rounded(result.largest_distance, 6) << " away, exact to " << rounded(result.error, 2)
         << '\n';

@@ -11,7 +11,6 @@ namespace geodisk::tools {
 
 /// A map that is made, for write_outputs().
 struct MapReport {
-    const MeshOptions& options;
     const MeshInput& mesh;
     const std::vector<MeshWarning>& warnings; ///< Warnings about mesh and samples.
     const MapResult& result;

@@ -58,7 +58,7 @@ std::string NeighbourReport::json(double write_seconds) const {
     const RowSizes sizes = sizes_of(result.table);
     Json document{
         {"version", GEODISK_VERSION_STRING},
-        {"mesh", mesh_json(options.mesh, options.additions(), mesh)},
+        {"mesh", mesh_json(mesh)},
         {"warnings", warnings_json(warnings)},
         {"sources",
          {{"kind", has_points ? "points" : "vertices"}, {"count", result.table.sources.size()}}},
@@ -80,7 +80,7 @@ std::string NeighbourReport::json(double write_seconds) const {
 std::string NeighbourReport::summary(double write_seconds) const {
     const RowSizes sizes = sizes_of(result.table);
     std::ostringstream out;
-    out << mesh_lines("mesh", options.mesh, options.additions(), mesh) << "sources       "
+    out << mesh_lines("mesh", mesh) << "sources       "
         << (has_points ? counted(result.table.sources.size(), "point", "points")
                        : counted(result.table.sources.size(), "vertex", "vertices"))
         << '\n'

@@ -79,7 +79,9 @@ MeshInput mesh_input(const geodisk_mesh& given) {
     }
     std::ranges::transform(mesh.prepared.half_edges(), std::back_inserter(file.triangles),
                            &HalfEdge::origin);
-    return {std::move(file), mesh.prepared, {}, {}, 1, {}};
+    MeshInput input{std::move(file), mesh.prepared, {}, {}, 1, {}};
+    input.path = kMeshName;
+    return input;
 }
 
 /// Returns samples as a reader of files does. Throws UserError.
@@ -118,7 +120,7 @@ SampleInput samples_on(const MeshInput& mesh, RunningTask& run) {
     check_tolerance(tolerance);
     SampleInput input{sample_file(run.task, run.options), {}};
     std::vector<MeshWarning> warnings; // Python has its own.
-    put_on_mesh(kSamplesName, kMeshName, mesh, nullptr, tolerance, input, warnings, run.progress);
+    put_on_mesh(kSamplesName, mesh, tolerance, input, warnings, run.progress);
     return input;
 }
 
@@ -153,7 +155,7 @@ void verify(RunningTask& run) {
         places.rows.emplace_back().face = task.avoid[i].face;
         std::ranges::copy(task.avoid[i].weights, places.rows.back().bary);
     }
-    check_rows("avoid", places, kMeshName, mesh, "point");
+    check_rows("avoid", places, mesh, "point");
     auto [samples, strays] = samples_on(mesh, run);
     run.hand_over(report_json(check_samples(options, mesh, samples, std::move(strays),
                                             wanted_spacing(options, samples, mesh), avoided, {},
@@ -163,7 +165,7 @@ void verify(RunningTask& run) {
 /// Returns the samples on their mesh, after handing over where that is.
 SampleFile place(RunningTask& run) {
     const MeshInput mesh = mesh_input(*run.task.mesh);
-    SampleFile samples = without_strays(kSamplesName, kMeshName, samples_on(mesh, run));
+    SampleFile samples = without_strays(kSamplesName, mesh, samples_on(mesh, run));
     std::vector<std::uint32_t> faces;
     std::vector<float> weights;
     for (const SampleRow& row : samples.rows) {
@@ -247,7 +249,7 @@ void render(RunningTask& run) {
         drawn = draw_box(options, kSamplesName, box, samples, open, run.progress);
     } else {
         const MeshInput mesh = mesh_input(*run.task.mesh);
-        const SampleFile samples = without_strays(kSamplesName, kMeshName, samples_on(mesh, run));
+        const SampleFile samples = without_strays(kSamplesName, mesh, samples_on(mesh, run));
         std::vector<MeshWarning> warnings;
         drawn = draw_samples(options, mesh, samples, warnings, open, run.progress);
     }
