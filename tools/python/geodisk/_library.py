@@ -98,7 +98,7 @@ class Handle:
 
 def run(
     command: str,
-    arrays: Mapping[str, Handle | NDArray[Any] | None] = {},
+    arrays: Mapping[str, Handle | NDArray[Any] | bytes | None] = {},
     stop: c_int32 | None = None,
     **options: Any,
 ) -> list[bytes]:
@@ -107,8 +107,10 @@ def run(
         options=json.dumps(options).encode(), stop=None if stop is None else addressof(stop)
     )
     for name, one in arrays.items():
-        if one is not None:
-            setattr(task, name, one.value if isinstance(one, Handle) else one.ctypes.data)
+        if isinstance(one, (Handle, bytes)):
+            setattr(task, name, one.value if isinstance(one, Handle) else one)
+        elif one is not None:
+            setattr(task, name, one.ctypes.data)
     made: list[bytes] = []
     take = s.TAKE_FN(lambda data, size: made.append(ctypes.string_at(data, size)))
     call("geodisk_run_command", command.encode(), byref(task), take)

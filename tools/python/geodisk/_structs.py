@@ -34,8 +34,6 @@ AMONG_POINTS = 1
 NO_ELEMENT = 2**64 - 1
 #: Orders that geodisk_request.order takes.
 ORDERS = {"dart": 0, "progressive": 1}
-#: Kinds of normals by name.
-NORMALS = {"face": 0, "file": 1, "smooth": 2}
 
 #: Types of C; those of the headers are added.
 _TYPES: dict[str, Any] = {

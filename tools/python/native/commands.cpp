@@ -16,10 +16,14 @@
 #include "c/c_call.hpp"
 #include "c/c_cells.hpp"
 #include "c/c_mesh.hpp"
+#include "files/images/textures.hpp"
+#include "files/meshes/mesh_fields.hpp"
 #include "files/output/output_file.hpp"
 #include "files/samples/frame_style.hpp"
+#include "files/samples/sample_fields.hpp"
 #include "files/samples/sample_file.hpp"
 #include "files/samples/sample_format.hpp"
+#include "files/samples/sample_records.hpp"
 #include "files/samples/sample_rows.hpp"
 #include "files/vulkan_environment.hpp"
 #include "geodisk/checks/sample_checks.hpp"
@@ -46,6 +50,10 @@ namespace {
 
 /// Names of samples and their mesh in messages.
 constexpr const char *kSamplesName = "samples", *kMeshName = "mesh";
+
+float to_float(double value) {
+    return static_cast<float>(value);
+}
 
 /// A task while it runs.
 struct RunningTask {
@@ -220,6 +228,50 @@ void save_map(RunningTask& run) {
     file.commit();
 }
 
+/// Returns samples of a mesh, by weights and normals.
+std::vector<SampleRow> recorded_rows(const RunningTask& run, const MeshFile& mesh) {
+    std::vector<SampleRow> rows(run.options.at("count"));
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        rows[i].face = run.task.faces[i];
+        const double* const numbers = run.task.samples + 6 * i;
+        std::ranges::transform(numbers, numbers + 3, rows[i].bary, to_float);
+        std::ranges::transform(numbers + 3, numbers + 6, rows[i].normal, to_float);
+        if (rows[i].face >= mesh.triangle_count() || mesh.dimension != 3) {
+            fail_usage("samples are not of this mesh, or it is not in space");
+        }
+    }
+    return rows;
+}
+
+void record(RunningTask& run) {
+    const MeshFile& mesh = run.task.source->mesh;
+    std::vector<SampleRow> rows = recorded_rows(run, mesh);
+    if (const std::string kind = run.options.at("normals"); kind != "face") {
+        if (kind == "file" && !mesh.normals) {
+            fail_usage("the normals of the file were not read");
+        }
+        kind == "file" ? set_file_normals(mesh, rows) : set_smooth_normals(mesh, rows);
+        std::vector<float> normals;
+        for (const SampleRow& row : rows) {
+            normals.insert(normals.end(), row.normal, row.normal + 3);
+        }
+        run.hand_over(normals);
+    }
+    if (run.task.path != nullptr) {
+        const bool is_auto = std::string_view(run.task.path) == kAutoTexture;
+        if (is_auto ? !mesh.materials : !mesh.texture_uvs || mesh.materials) {
+            fail_usage("a texture needs texture coordinates or materials");
+        }
+        const Textures textures = is_auto ? Textures(mesh) : Textures(mesh, Path(run.task.path));
+        run.hand_over(texture_colours(mesh, textures, rows).values);
+    }
+    if (const std::string frames = run.options.at("frames"); !frames.empty()) {
+        FrameStyle style = parse_frame_style("frames", frames);
+        style.world = find_up(run.options.at("up").get<std::string>()).value_or(style.world);
+        run.hand_over(sample_frames(rows, run.options.at("seed"), style).values);
+    }
+}
+
 /// Opens a device that draws. Python warns of missing drivers.
 Context drawing_context(const std::string& device) {
     ContextOptions wanted;
@@ -309,6 +361,7 @@ void run_named(std::string_view name, RunningTask& run) {
         {"transfer", &transfer},
         {"bake", &bake},
         {"save_map", &save_map},
+        {"record", &record},
         {"render", &render},
         {"save", &save},
         {"frame_style", &read_frame_style},

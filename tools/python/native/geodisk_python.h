@@ -35,7 +35,7 @@ typedef struct geodisk_source_params {
     int32_t keep_seams;        /* As in geodisk_mesh_params. */
     const char *mesh_format;   /* "obj" and so on, or NULL for that of the extension. */
     const char *columns;       /* Columns of triangles to read: "mesh,primitive". May be NULL. */
-    int32_t has_normals;       /* Not 0 to read the file's normals, for geodisk_source_record(). */
+    int32_t has_normals;       /* Not 0 to read the file's normals, for the command `record`. */
     int32_t has_uvs;           /* Not 0 to read texture coordinates, for a texture. */
     int32_t has_materials;     /* Not 0 to read materials, for the texture "auto". */
     int32_t allow_outside;     /* As --allow-outside of the program. */
@@ -87,34 +87,6 @@ GEODISK_C_API geodisk_status geodisk_source_get_attribute(const geodisk_source *
 GEODISK_C_API geodisk_status geodisk_source_column(const geodisk_source *source, size_t index,
                                                    const uint32_t **values, geodisk_error *error);
 
-/* Normals of triangles, those of the file, or interpolated means at vertices. */
-typedef int32_t geodisk_normal_kind;
-#define GEODISK_FACE_NORMALS 0
-#define GEODISK_FILE_NORMALS 1
-#define GEODISK_SMOOTH_NORMALS 2
-
-/* Samples on a source, and what they get of it besides attributes. */
-typedef struct geodisk_record_params {
-    size_t struct_size;
-    const uint32_t *faces;
-    const double *weights; /* Three for each sample. */
-    size_t count;
-    geodisk_normal_kind normal_kind;
-    const char *texture;   /* Image whose colours to look up, "auto" for materials, or NULL. */
-    uint64_t seed;         /* Of the angles of frames. */
-    double *normals;       /* In: those of the triangles, three for each sample. Out: those asked for. */
-    double *colours;       /* Out: red, green and blue of the texture. */
-    double *frames;        /* Out: quaternions x y z w, or NULL. */
-    const char *frame_style; /* As headers of files spell it. */
-    const char *up;        /* Axis of the mesh to keep frames to: "x", "y", "z", or "" for none. */
-} geodisk_record_params;
-
-/* Fails with GEODISK_INVALID_ARGUMENT for a damaged image, and for normals, texture coordinates or
- * materials that were not read. */
-GEODISK_C_API geodisk_status geodisk_source_record(const geodisk_source *source,
-                                                   const geodisk_record_params *params,
-                                                   geodisk_error *error);
-
 GEODISK_C_API void geodisk_source_release(geodisk_source *source);
 
 /* Meshes, samples and arrays in memory for a command. NULL where it needs none. */
@@ -138,6 +110,7 @@ typedef struct geodisk_task {
     const int32_t *map_samples; /* What `bake` handed over, for each texel. */
     const float *map_distances;
     const uint32_t *map_faces;
+    const char *path;           /* File to read, as the system spells it. */
 } geodisk_task;
 
 /* Takes an array that a command made. */
@@ -151,6 +124,10 @@ typedef void (*geodisk_take_fn)(const void *bytes, size_t size);
  *   bake      the nearest sample of each texel of `source` as int32_t, its distance as float, the
  *             face as int32_t, and how many texels several faces cover as uint64_t
  *   save_map  nothing; writes a map of `bake` to a file
+ *   record    of samples on `source`, each six numbers, weights and normals: normals as three float
+ *             unless those of triangles will do, then red, green and blue as double of the texture
+ *             `path`, "auto" for materials, and the quaternions x y z w of frames as double, each
+ *             if asked for
  *   render    a PNG file
  *   frame_style  the style of frames that the option `text` names, as JSON: `text` as headers of
  *             files spell it, and `has_up`, true if they keep to an axis of the mesh
