@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "geodisk/search_progress.hpp"
 #include "program/failure.hpp"
 #include "program/interrupt.hpp"
 

@@ -7,7 +7,6 @@
 
 #include "files/samples/sample_columns.hpp"
 #include "geodisk/opened_device.hpp"
-#include "geodisk/search_progress.hpp"
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
 #include "program/interrupt.hpp"

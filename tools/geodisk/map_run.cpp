@@ -13,7 +13,6 @@
 
 #include "files/samples/map_padding.hpp"
 #include "geodisk/cell_run.hpp"
-#include "geodisk/search_progress.hpp"
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
 #include "program/interrupt.hpp"

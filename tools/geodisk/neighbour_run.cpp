@@ -4,7 +4,6 @@
 #include <numeric>
 #include <utility>
 
-#include "geodisk/search_progress.hpp"
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
 #include "program/interrupt.hpp"

@@ -5,7 +5,7 @@
 
 #include "files/meshes/line_file.hpp"
 #include "files/samples/sample_columns.hpp"
-#include "geodisk/options/tolerance_option.hpp"
+#include "geodisk/options/distance_options.hpp"
 #include "geodisk/outputs/outputs.hpp"
 #include "geometry/nearest_face.hpp"
 #include "program/failure.hpp"

@@ -18,7 +18,6 @@
 #include "geodisk/options/distance_options.hpp"
 #include "geodisk/options/mask_options.hpp"
 #include "geodisk/options/run_options.hpp"
-#include "geodisk/options/tolerance_option.hpp"
 #include "geodisk/outputs/outputs.hpp"
 #include "geodisk/reports/analysis_report.hpp"
 #include "geodisk/set_analysis.hpp"

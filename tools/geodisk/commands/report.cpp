@@ -8,7 +8,8 @@
 #include "geodisk/commands/commands.hpp"
 #include "geodisk/commands/help_text.hpp"
 #include "geodisk/inputs/mesh_input.hpp"
-#include "geodisk/options/report_options.hpp"
+#include "geodisk/options/sample_options.hpp"
+#include "geodisk/options/up_option.hpp"
 #include "geodisk/outputs/outputs.hpp"
 #include "geodisk/page_content.hpp"
 #include "geodisk/reports/page_report.hpp"
@@ -16,6 +17,7 @@
 #include "geodisk/sample_run.hpp"
 #include "geodisk/set_analysis.hpp"
 #include "geodisk/spectrum_run.hpp"
+#include "picture/view.hpp"
 #include "program/command.hpp"
 #include "program/failure.hpp"
 #include "program/program.hpp"
@@ -29,6 +31,42 @@ constexpr const char* kReportExamples[] = {
     "geodisk report bunny.obj -o bunny.html --count 1000",
     "geodisk report bunny.obj -o bunny.html --min-distance 2% --view front",
 };
+
+/// As given on the command line.
+struct ReportOptions {
+    SampleOptions sample; ///< Its output is the page.
+    std::string probes, view = "auto";
+    UpOption up;
+    std::string harmonics; ///< Harmonics of the spectrum; "" for none.
+
+    /// The views to choose the first one from. Throws UserError(usage).
+    std::vector<picture::View> first_views() const {
+        const auto given = picture::parse_view("--view", view);
+        return given ? std::vector{*given} : picture::views_to_try();
+    }
+};
+
+/// Adds all options of the command; `options` must outlive the parsing.
+void add_report_options(Command command, ReportOptions& options) {
+    add_mesh_argument(command, options.sample.mesh, "Mesh to sample");
+    add_output_argument(command, options.sample.out, "Page to write: *.html");
+    command
+        .add_option("--view", options.view, "VIEW",
+                    "First direction of view: front, back, left, right, top,\n"
+                    "bottom, AZIMUTH,ELEVATION in degrees, or auto for the one\n"
+                    "that shows most")
+        .offers(picture::named_views())
+        .shows_default();
+    add_up_option(command, options.up);
+    add_probes_option(command, options.probes);
+    command.add_option("--harmonics", options.harmonics, "K",
+                       "Show the power spectrum from K waves of the surface (default\n"
+                       "no spectrum); blue noise needs about five per sample");
+    add_job_options(command, options.sample);
+    add_json_option(command, options.sample.out);
+    add_quiet_option(command, options.sample.out);
+    add_verbose_option(command, options.sample.run.device);
+}
 
 void check_page_path(const Path& path) {
     const std::string extension = lower_extension(path);

@@ -21,10 +21,10 @@
 #include "geodisk/commands/help_text.hpp"
 #include "geodisk/farthest_run.hpp"
 #include "geodisk/inputs/mesh_input.hpp"
+#include "geodisk/options/distance_options.hpp"
 #include "geodisk/options/mesh_options.hpp"
 #include "geodisk/options/method_options.hpp"
 #include "geodisk/options/run_options.hpp"
-#include "geodisk/options/tolerance_option.hpp"
 #include "geodisk/outputs/outputs.hpp"
 #include "geodisk/outputs/progress.hpp"
 #include "geodisk/outputs/scene_frame.hpp"
@@ -193,9 +193,7 @@ FarthestRun put_farthest_first(const TransferOptions& options, const RunnerOptio
 }
 
 FarthestParams parse_order(const TransferOptions& options) {
-    if (options.order != "file" && !options.is_farthest()) {
-        fail_choice("--order", options.order, std::vector<std::string>{"file", "farthest"});
-    }
+    check_choice("--order", options.order, std::vector<std::string>{"file", "farthest"});
     if (!options.start.empty() && !options.first.empty()) {
         fail_usage(
             "--start and --first exclude each other: the first samples of a file come first");

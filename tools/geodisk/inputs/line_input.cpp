@@ -9,7 +9,7 @@
 
 #include <geodisk/features.hpp>
 
-#include "geodisk/options/tolerance_option.hpp"
+#include "geodisk/options/distance_options.hpp"
 #include "geometry/nearest_face.hpp"
 #include "program/failure.hpp"
 #include "program/human_text.hpp"

@@ -11,7 +11,6 @@
 #include "geodisk/options/class_options.hpp"
 #include "geodisk/options/constraint_options.hpp"
 #include "geodisk/options/density_options.hpp"
-#include "geodisk/options/given_fields.hpp"
 #include "geodisk/options/mask_options.hpp"
 #include "geodisk/options/mesh_options.hpp"
 #include "geodisk/options/method_options.hpp"

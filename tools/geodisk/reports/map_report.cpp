@@ -10,16 +10,6 @@
 #include "program/human_text.hpp"
 
 namespace geodisk::tools {
-namespace {
-
-SecondsByStage seconds_of(const MapReport& report, double write_seconds) {
-    return stage_seconds(
-        {{"load", report.mesh.load_seconds}, {"prepare", report.mesh.prepare_seconds}},
-        report.result.done, {{"write", write_seconds}});
-}
-
-} // namespace
-
 std::string MapReport::json(double write_seconds) const {
     Json document{{"version", GEODISK_VERSION_STRING},
                   {"mesh", mesh_json(mesh)},
@@ -37,10 +27,7 @@ std::string MapReport::json(double write_seconds) const {
                   {"disks", result.done.run.disks},
                   {"windows", result.done.run.windows},
                   {"output", output}};
-    Json run = run_json(result.done, seconds_of(*this, write_seconds));
-    run.erase("guard"); // Of samples.
-    document.update(run);
-    return text_of(document);
+    return search_json(std::move(document), mesh, result.done, write_seconds);
 }
 
 std::string MapReport::summary(double write_seconds) const {
@@ -65,7 +52,7 @@ std::string MapReport::summary(double write_seconds) const {
         out << "no sample     in the parts of the mesh of "
             << counted(result.unreached, "texel", "texels") << '\n';
     }
-    out << run_text(result.done, seconds_of(*this, write_seconds), output, "finding samples");
+    out << search_text(mesh, result.done, write_seconds, output, "finding samples");
     return out.str();
 }
 

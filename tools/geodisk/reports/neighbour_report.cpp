@@ -14,12 +14,6 @@
 namespace geodisk::tools {
 namespace {
 
-SecondsByStage seconds_of(const NeighbourReport& report, double write_seconds) {
-    return stage_seconds(
-        {{"load", report.mesh.load_seconds}, {"prepare", report.mesh.prepare_seconds}},
-        report.result.done, {{"write", write_seconds}});
-}
-
 struct RowSizes {
     std::uint64_t least, most;
     double mean;
@@ -71,10 +65,7 @@ std::string NeighbourReport::json(double write_seconds) const {
         {"disks", result.done.run.disks},
         {"windows", result.done.run.windows},
         {"output", output}};
-    Json run = run_json(result.done, seconds_of(*this, write_seconds));
-    run.erase("guard"); // Of samples.
-    document.update(run);
-    return text_of(document);
+    return search_json(std::move(document), mesh, result.done, write_seconds);
 }
 
 std::string NeighbourReport::summary(double write_seconds) const {
@@ -88,7 +79,7 @@ std::string NeighbourReport::summary(double write_seconds) const {
         << grouped(sizes.least) << " to " << grouped(sizes.most) << " each, "
         << rounded(sizes.mean, 4) << " on average, among " << targets << '\n'
         << "within        " << within_text(job) << ", exact to " << rounded(result.error, 2) << '\n'
-        << run_text(result.done, seconds_of(*this, write_seconds), output, "searching");
+        << search_text(mesh, result.done, write_seconds, output, "searching");
     return out.str();
 }
 

@@ -1,9 +1,12 @@
 #include "geodisk/reports/sample_report.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <sstream>
+#include <string_view>
 #include <vector>
 
+#include <geodisk/fields.hpp>
 #include <geodisk/version.hpp>
 
 #include "files/meshes/part_columns.hpp"
@@ -13,12 +16,43 @@
 #include "geodisk/reports/farthest_report.hpp"
 #include "geodisk/reports/json.hpp"
 #include "geodisk/reports/mesh_report.hpp"
-#include "geodisk/reports/number_entries.hpp"
 #include "program/exact_text.hpp"
 #include "program/human_text.hpp"
 
 namespace geodisk::tools {
 namespace {
+
+constexpr std::string_view kToldElsewhere[] = {"min_distance", "seed", "darts", "stop_count",
+                                               "maximal"};
+
+/// Returns the numbers of a job that differ from their defaults, for a header. The distance, the
+/// seed, and what ends a run have entries of their own.
+HeaderEntries number_entries(const SampleParams& params) {
+    const SampleParams plain;
+    HeaderEntries defaults, entries;
+    const auto write_to = [](HeaderEntries& list) {
+        return [&list](const char* name, auto value) {
+            if (std::ranges::find(kToldElsewhere, name) == std::end(kToldElsewhere)) {
+                list.emplace_back(name, exact_text(+value)); // No bool.
+            }
+        };
+    };
+    for_each_number(plain, write_to(defaults));
+    for_each_number(params, write_to(entries));
+    std::erase_if(entries, [&](const auto& entry) {
+        return std::ranges::find(defaults, entry) != defaults.end();
+    });
+    return entries;
+}
+
+/// Adds those that a report does not tell yet.
+void add_numbers(Json& report, const SampleParams& params) {
+    for_each_number(params, [&](const char* name, auto value) {
+        if (!report.contains(name)) {
+            report[name] = value;
+        }
+    });
+}
 
 /// Says what is not exact.
 std::string metric_text(const SampleJob& job) {

@@ -32,7 +32,7 @@
 #include "geodisk/commands/verify.hpp"
 #include "geodisk/inputs/mesh_input.hpp"
 #include "geodisk/map_run.hpp"
-#include "geodisk/options/tolerance_option.hpp"
+#include "geodisk/options/distance_options.hpp"
 #include "geodisk/outputs/map_output.hpp"
 #include "geodisk/outputs/progress.hpp"
 #include "geodisk/picture_run.hpp"
