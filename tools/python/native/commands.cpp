@@ -132,6 +132,49 @@ SampleInput samples_on(const MeshInput& mesh, RunningTask& run) {
     return input;
 }
 
+template <class Value>
+std::uintptr_t address_of(const std::vector<Value>& values) {
+    return values.empty() ? 0 : reinterpret_cast<std::uintptr_t>(values.data());
+}
+
+Json attribute_json(const MeshFile& mesh, const MeshField& field) {
+    const bool of_vertices = field.of == MeshField::Of::vertices;
+    const bool of_corners = field.of == MeshField::Of::corners;
+    return {{"name", field.name},
+            {"values", address_of(field.values)},
+            {"components", field.components.size()},
+            {"count", field.values.size() / field.components.size()},
+            {"corners", of_vertices  ? address_of(mesh.corners_in_file())
+                        : of_corners ? address_of(field.corners)
+                                     : 0},
+            {"of_vertices", of_vertices},
+            {"is_whole", field.is_whole},
+            {"is_light", field.is_light}};
+}
+
+void describe(RunningTask& run) {
+    const MeshFile& mesh = run.task.source->mesh;
+    Json attributes = Json::array(), columns = Json::array();
+    for (const MeshField& field : mesh.fields) {
+        attributes.push_back(attribute_json(mesh, field));
+    }
+    for (const std::vector<std::uint32_t>& column : run.task.source->columns) {
+        columns.push_back(address_of(column));
+    }
+    run.hand_over(text_of(Json{{"positions", address_of(mesh.positions)},
+                               {"dimension", mesh.dimension},
+                               {"vertex_count", mesh.positions.size() / mesh.dimension},
+                               {"triangles", address_of(mesh.triangles)},
+                               {"triangle_count", mesh.triangle_count()},
+                               {"polygons", address_of(mesh.polygons)},
+                               {"joined", address_of(mesh.joined)},
+                               {"joined_edges", mesh.weld ? mesh.weld->joined_edges : 0},
+                               {"corners", address_of(mesh.corners_in_file())},
+                               {"attributes", attributes},
+                               {"columns", columns},
+                               {"is_y_up", run.task.source->is_y_up}}));
+}
+
 void verify(RunningTask& run) {
     VerifyOptions options;
     options.mesh.mesh = kMeshName;
@@ -356,6 +399,7 @@ void read_frame_style(RunningTask& run) {
 
 void run_named(std::string_view name, RunningTask& run) {
     constexpr std::pair<std::string_view, void (*)(RunningTask&)> kCommands[] = {
+        {"describe", &describe},
         {"verify", &verify},
         {"place", [](RunningTask& one) { static_cast<void>(place(one)); }},
         {"transfer", &transfer},

@@ -45,48 +45,6 @@ typedef struct geodisk_source_params {
 GEODISK_C_API geodisk_status geodisk_source_read(const geodisk_source_params *params,
                                                  geodisk_source **source, geodisk_error *error);
 
-/* The arrays of a source. They live as long as it does. */
-typedef struct geodisk_source_arrays {
-    size_t struct_size;
-    const double *positions;
-    uint32_t dimension;
-    size_t vertex_count;
-    const uint32_t *triangles; /* Three vertices each. */
-    size_t triangle_count;
-    const uint32_t *polygons;  /* The file's face of each triangle; NULL where the numbers agree. */
-    size_t polygon_count;      /* Faces of the file. */
-    const uint32_t *joined;    /* Lowest vertex that each is joined with; NULL where none are. */
-    uint64_t joined_edges;     /* Border edges joined to others along seams. */
-    const uint32_t *corners;   /* Vertices of triangles before any were joined, as `triangles`. */
-    size_t attribute_count;
-    int32_t is_y_up;           /* Not 0 for a file of a format in which y points up. */
-} geodisk_source_arrays;
-
-GEODISK_C_API geodisk_status geodisk_source_describe(const geodisk_source *source,
-                                                     geodisk_source_arrays *arrays,
-                                                     geodisk_error *error);
-
-/* One attribute of a source. The arrays live as long as it does. */
-typedef struct geodisk_source_attribute {
-    size_t struct_size;
-    const char *name;
-    const double *values;    /* `components` numbers each. */
-    size_t value_count;
-    size_t components;
-    const uint32_t *corners; /* The value of each triangle's corner; NULL for values of faces. */
-    int32_t of_vertices;     /* Not 0 if there is a value for each vertex. */
-    int32_t is_whole;        /* Not 0 for integers, which are not interpolated. */
-    int32_t is_light;        /* Not 0 for colours that are amounts of light. */
-} geodisk_source_attribute;
-
-GEODISK_C_API geodisk_status geodisk_source_get_attribute(const geodisk_source *source, size_t index,
-                                                          geodisk_source_attribute *attribute,
-                                                          geodisk_error *error);
-
-/* Writes to `values` where those of a column are, one for each triangle. */
-GEODISK_C_API geodisk_status geodisk_source_column(const geodisk_source *source, size_t index,
-                                                   const uint32_t **values, geodisk_error *error);
-
 GEODISK_C_API void geodisk_source_release(geodisk_source *source);
 
 /* Meshes, samples and arrays in memory for a command. NULL where it needs none. */
@@ -117,6 +75,7 @@ typedef struct geodisk_task {
 typedef void (*geodisk_take_fn)(const void *bytes, size_t size);
 
 /* Runs a command of the program or of this list, and hands over what it makes:
+ *   describe  `source` as JSON, with addresses of arrays that live as long as it does, 0 for none
  *   verify    the report of the program, as JSON
  *   place     faces and weights of samples on their mesh, as uint32_t and three float for each
  *   transfer  the same, then their points as double with at least three coordinates and normals as
