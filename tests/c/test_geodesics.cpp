@@ -11,6 +11,7 @@
 #include <geodisk/neighbours.hpp>
 
 #include "c/api.hpp"
+#include "device_run.hpp"
 
 namespace geodisk::test {
 namespace {

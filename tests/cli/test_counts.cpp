@@ -100,24 +100,16 @@ TEST_CASE("exact counts that cannot be are refused without a file") {
         {{"-n", "1e8", "--dense"}, "lower --count or the pool ratio"},
     };
     for (const Case& wrong : cases) {
-        Arguments arguments{"sample", kCountsMesh, "-o", "a.ply"};
-        arguments.insert(arguments.end(), wrong.options.begin(), wrong.options.end());
-        const Outcome outcome = run(folder, arguments);
-        CAPTURE(outcome.err);
-        CHECK(outcome.status == 2);
-        CHECK(contains(outcome.err, wrong.message));
+        check_fails(folder, 2, wrong.message,
+                    joined({"sample", kCountsMesh, "-o", "a.ply"}, wrong.options));
     }
     // Nothing fits beside a point to avoid that reaches everywhere.
     sample(folder, "one.csv", {"--count", "1"});
-    const Outcome full = run(folder, {"sample", kCountsMesh, "-o", "a.ply", "-n", "5", "--exact",
-                                      "--avoid", "one.csv:1000"});
-    CHECK(full.status == 2);
-    CHECK(contains(full.err, "--avoid: the points leave no room for samples; lower their radii"));
-    const Outcome none =
-        run(folder, {"sample", kCountsMesh, "-o", "a.ply", "-n", "50", "--avoid", "one.csv:1000"});
-    CHECK(none.status == 2);
-    CHECK(contains(none.err, "--avoid: the points leave no room for samples; lower their radii"));
-    CHECK(!std::filesystem::exists(folder / "a.ply"));
+    const Arguments avoid{"sample", kCountsMesh, "-o", "a.ply", "--avoid", "one.csv:1000"};
+    for (const Arguments& count : {Arguments{"-n", "5", "--exact"}, {"-n", "50"}}) {
+        check_fails(folder, 2, "--avoid: the points leave no room for samples; lower their radii",
+                    joined(avoid, count));
+    }
 }
 
 TEST_CASE("a progressive order has levels that are spaced, each by its distance") {
@@ -229,17 +221,11 @@ TEST_CASE("orders that cannot be are refused without a file") {
         {{"--order", "progressive", "--dry-run"}, "--dry-run tries one run"},
     };
     for (const Case& wrong : cases) {
-        Arguments arguments{"sample", kCountsMesh, "-d", "0.5"};
-        if (wrong.options.back() != "--dry-run") {
-            arguments.insert(arguments.end(), {"-o", "a.ply"});
-        }
-        arguments.insert(arguments.end(), wrong.options.begin(), wrong.options.end());
-        const Outcome outcome = run(folder, arguments);
-        CAPTURE(outcome.err);
-        CHECK(outcome.status == 2);
-        CHECK(contains(outcome.err, wrong.message));
+        const bool is_dry = wrong.options.back() == "--dry-run";
+        check_fails(folder, 2, wrong.message,
+                    joined({"sample", kCountsMesh, "-d", "0.5"},
+                           joined(wrong.options, is_dry ? Arguments{} : Arguments{"-o", "a.ply"})));
     }
-    CHECK(!std::filesystem::exists(folder / "a.ply"));
 }
 
 } // namespace geodisk::test

@@ -87,11 +87,9 @@ TEST_CASE("the first samples of the order are kept, and are as far apart as thei
     CHECK(verify(0.9999 * cover.back()) == 0);
     CHECK(verify(1.0001 * cover.back()) == 1);
     CHECK(run(folder, {"verify", kFarthestMesh, "few.ply"}).status == 0);
-    const Outcome many = run(folder, {"sample", kFarthestMesh, "-n", "50", "-o", "b.ply", "--order",
-                                      "farthest", "--keep", "5000"});
-    CHECK(many.status == 2);
-    CHECK(contains(many.err, "--keep: there are only "));
-    CHECK(!std::filesystem::exists(folder / "b.ply"));
+    check_fails(folder, 2, "--keep: there are only ",
+                {"sample", kFarthestMesh, "-n", "50", "-o", "b.ply", "--order", "farthest",
+                 "--keep", "5000"});
 }
 
 TEST_CASE("transfer puts samples of a file in the same order") {
@@ -183,23 +181,15 @@ TEST_CASE("what farthest-point order does not go with is refused") {
         {{"--order", "farthest", "--dry-run"}, "it takes no --order farthest"},
     };
     for (const Case& wrong : cases) {
-        Arguments arguments{"sample", kFarthestMesh, "-d", "0.5"};
-        if (wrong.options.back() != "--dry-run") {
-            arguments.insert(arguments.end(), {"-o", "b.ply"});
-        }
-        arguments.insert(arguments.end(), wrong.options.begin(), wrong.options.end());
-        const Outcome outcome = run(folder, arguments);
-        CAPTURE(outcome.err);
-        CHECK(outcome.status == 2);
-        CHECK(contains(outcome.err, wrong.message));
+        const bool is_dry = wrong.options.back() == "--dry-run";
+        check_fails(folder, 2, wrong.message,
+                    joined({"sample", kFarthestMesh, "-d", "0.5"},
+                           joined(wrong.options, is_dry ? Arguments{} : Arguments{"-o", "b.ply"})));
     }
     const auto refuses = [&](const Arguments& options, const char* message) {
-        Arguments arguments{"transfer", "a.csv", kFarthestMesh, kFarthestMesh, "-o", "b.ply"};
-        arguments.insert(arguments.end(), options.begin(), options.end());
-        const Outcome outcome = run(folder, arguments);
-        CAPTURE(outcome.err);
-        CHECK(outcome.status == 2);
-        CHECK(contains(outcome.err, message));
+        check_fails(
+            folder, 2, message,
+            joined({"transfer", "a.csv", kFarthestMesh, kFarthestMesh, "-o", "b.ply"}, options));
     };
     refuses({"--start", "3"}, "--start is for --order farthest");
     refuses({"--first", "3"}, "--first is for --order farthest");
@@ -210,11 +200,7 @@ TEST_CASE("what farthest-point order does not go with is refused") {
             "--keep: 9 samples come first as they are, more than 8");
     refuses({"--order", "farthest", "--first", "9", "--start", "8"},
             "--start and --first exclude each other");
-    const Outcome order = run(folder, {"transfer", "a.csv", kFarthestMesh, kFarthestMesh, "-o",
-                                       "b.ply", "--order", "dart"});
-    CHECK(order.status == 2);
-    CHECK(contains(order.err, "--order: 'dart' is neither file nor farthest"));
-    CHECK(!std::filesystem::exists(folder / "b.ply"));
+    refuses({"--order", "dart"}, "--order: 'dart' is neither file nor farthest");
 }
 
 } // namespace geodisk::test

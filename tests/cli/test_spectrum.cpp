@@ -11,6 +11,20 @@
 
 namespace geodisk::test {
 
+namespace {
+
+void check_blue_noise(const nlohmann::json& report, double anisotropy_db, double tolerance) {
+    CHECK(report["low_power"].get<double>() < 0.2);
+    CHECK(report["peak"]["power"].get<double>() > 1.2);
+    CHECK(report["peak"]["frequency"].get<double>() == doctest::Approx(1.1).epsilon(0.2));
+    CHECK(report["mean_anisotropy_db"].get<double>() ==
+          doctest::Approx(report["expected_anisotropy_db"].get<double>()).epsilon(tolerance));
+    CHECK(report["expected_anisotropy_db"].get<double>() ==
+          doctest::Approx(anisotropy_db).epsilon(0.01));
+}
+
+} // namespace
+
 TEST_CASE("samples in the plane are blue noise without a direction") {
     const TemporaryFolder folder;
     Arguments files;
@@ -26,12 +40,7 @@ TEST_CASE("samples in the plane are blue noise without a direction") {
     REQUIRE(outcome.status == 0);
     const auto report = nlohmann::json::parse(outcome.out);
     CHECK(report["sets"] == 5);
-    CHECK(report["low_power"].get<double>() < 0.2);
-    CHECK(report["peak"]["power"].get<double>() > 1.2);
-    CHECK(report["peak"]["frequency"].get<double>() == doctest::Approx(1.1).epsilon(0.2));
-    CHECK(report["mean_anisotropy_db"].get<double>() ==
-          doctest::Approx(report["expected_anisotropy_db"].get<double>()).epsilon(0.1));
-    CHECK(report["expected_anisotropy_db"].get<double>() == doctest::Approx(-6.99).epsilon(0.01));
+    check_blue_noise(report, -6.99, 0.1);
     CHECK(report["rings"]["power"].size() == report["rings"]["frequency"].size());
     const PngImage image = read_png(folder / "s.png");
     CHECK(image.width == 2 * 133 + 1);
@@ -81,12 +90,7 @@ TEST_CASE("samples of a surface are blue noise without a direction") {
           doctest::Approx(0.4 * std::sqrt(500 / 3.1416 / 12.54)).epsilon(0.12)); // It is coarse.
     CHECK(report["harmonics"]["expected_bytes"].get<double>() > 1e6);
     CHECK(report["warnings"].back()["kind"] == "coarse_mesh");
-    CHECK(report["low_power"].get<double>() < 0.2);
-    CHECK(report["peak"]["power"].get<double>() > 1.2);
-    CHECK(report["peak"]["frequency"].get<double>() == doctest::Approx(1.1).epsilon(0.2));
-    CHECK(report["mean_anisotropy_db"].get<double>() ==
-          doctest::Approx(report["expected_anisotropy_db"].get<double>()).epsilon(0.15));
-    CHECK(report["expected_anisotropy_db"].get<double>() == doctest::Approx(-3.98).epsilon(0.01));
+    check_blue_noise(report, -3.98, 0.15);
     CHECK(report["rings"]["power"].size() == report["rings"]["count"].size());
     CHECK(bytes_of(folder / "s.csv").starts_with("frequency,frequencies,power,anisotropy_db\n"));
 

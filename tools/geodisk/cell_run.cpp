@@ -3,10 +3,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "geodisk/search_progress.hpp"
 #include "program/failure.hpp"
 #include "program/interrupt.hpp"
-#include "program/stopwatch.hpp"
 
 namespace geodisk::tools {
 namespace {
@@ -30,22 +28,17 @@ void check_cells(const Error& error, std::uint64_t bytes) {
 
 CellResult run_cells(std::span<const SampleRow> rows, bool has_dual, const MeshInput& mesh,
                      RunDevice& device, std::uint64_t bytes, ProgressLine& progress) {
-    const Stopwatch watch;
-    device.open(progress);
-    const double open_seconds = watch.seconds();
-    progress.begin_stage("finding cells");
     CellResult result;
-    std::vector<Sample> samples;
-    samples.reserve(rows.size());
+    result.done = device.begin_search(progress);
+    progress.begin_stage("finding cells");
     for (const SampleRow& row : rows) {
-        samples.push_back(sample_of(row));
         result.points.insert(result.points.end(), row.position, row.position + mesh.dimension());
     }
     CellParams params;
     params.has_dual = has_dual;
     params.max_records = max_records(bytes);
     params.face_mask = mesh.face_mask;
-    auto found = find_cells(device.runner(), mesh.prepared, samples, params,
+    auto found = find_cells(device.runner(), mesh.prepared, samples_of(rows), params,
                             search_progress(progress, "samples"));
     progress.clear();
     check_interrupted();
@@ -56,10 +49,7 @@ CellResult run_cells(std::span<const SampleRow> rows, bool has_dual, const MeshI
     if (mesh.dimension() > 0) {
         result.angles = triangle_angles(result.points, mesh.dimension(), result.cells.triangles);
     }
-    result.done.device = device.context().report();
-    result.done.tuning = device.runner().sampler().tuning();
     result.done.run = result.cells.report;
-    result.done.open_seconds = open_seconds;
     return result;
 }
 

@@ -23,6 +23,9 @@ constexpr std::uint64_t kManyWindows = 10000;
 /// Fewer disks say little of how long the others take.
 constexpr double kFewDisks = 4;
 
+/// Less of a search says little of how long the rest takes.
+constexpr double kEarly = 0.02;
+
 /// Draws how far a run is that should give about `expected` samples, after the disks of `avoided`
 /// points, which say nothing of how long others take. Says once if it takes long, and stops it on a
 /// signal.
@@ -97,6 +100,20 @@ std::shared_ptr<OpenDevice> make_device(Context context, RunnerOptions options) 
 }
 
 } // namespace
+
+ProgressCallback search_progress(ProgressLine& progress, const std::string& found) {
+    return [&progress, found, watch = Stopwatch(),
+            time = TimeEstimate(kEarly)](const Progress& state) mutable {
+        const double part = static_cast<double>(state.decided) / state.candidates;
+        time.note(watch.seconds(), part);
+        if (const auto seconds = time.long_run()) {
+            progress.clear();
+            print_warning("searching takes about " + seconds_text(*seconds) + " on this device");
+        }
+        progress.update(part, grouped(state.accepted) + ' ' + found + time.left_text());
+        return !is_interrupted();
+    };
+}
 
 double part_done(const Progress& state, double expected) {
     // Work is in the disks of accepted candidates, but only the darts are sure to reach the end.
@@ -257,6 +274,16 @@ DeviceResult RunDevice::run(RequestRun request, ProgressLine& progress) {
         done.processes = sampler_->processes();
     }
     return {std::move(found), std::move(done)};
+}
+
+DeviceRun RunDevice::begin_search(ProgressLine& progress) {
+    const Stopwatch watch;
+    open(progress);
+    DeviceRun done;
+    done.open_seconds = watch.seconds();
+    done.device = context().report();
+    done.tuning = opened_->runner.sampler().tuning();
+    return done;
 }
 
 void RunDevice::check(const Error& error) {

@@ -56,6 +56,10 @@ class SurfaceSampler {
 /// Returns the part of a run that is done, up to 1. The run should give about `expected` samples.
 double part_done(const Progress& state, double expected);
 
+/// Shows how far a search is, and what is accepted so far, called `found` ("pairs"). Warns once if
+/// it takes long, and stops it on a signal. `progress` must outlive it.
+ProgressCallback search_progress(ProgressLine& progress, const std::string& found);
+
 /// The device was lost in a run, or has not answered.
 class DeviceLost : public UserError {
   public:
@@ -106,6 +110,9 @@ class RunDevice {
     /// Opens the device where need be, compiles there what the request needs, and samples all of
     /// its steps. Throws UserError, DeviceLost among them.
     DeviceResult run(RequestRun request, ProgressLine& progress);
+
+    /// Opens the device where need be, for a search. Returns the account of it without the run.
+    DeviceRun begin_search(ProgressLine& progress);
 
     /// Throws UserError for an error of a run on this device, DeviceLost among them; after that,
     /// the device has to be opened again.

@@ -7,7 +7,6 @@
 
 #include "files/samples/sample_columns.hpp"
 #include "geodisk/opened_device.hpp"
-#include "geodisk/search_progress.hpp"
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
 #include "program/interrupt.hpp"
@@ -64,15 +63,10 @@ FarthestRun order_farthest(const MeshInput& mesh, std::span<const SampleRow> row
     if (rows.empty()) {
         return run;
     }
-    std::vector<Sample> samples;
-    samples.reserve(rows.size());
-    for (const SampleRow& row : rows) {
-        samples.push_back(sample_of(row));
-    }
     device.open(progress);
     progress.begin_stage("putting samples in order");
     const Stopwatch watch;
-    auto found = farthest_order(device.runner(), mesh.prepared, samples, params,
+    auto found = farthest_order(device.runner(), mesh.prepared, samples_of(rows), params,
                                 by_area(search_progress(progress, "in order")));
     progress.clear();
     check_interrupted();

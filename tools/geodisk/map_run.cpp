@@ -13,7 +13,6 @@
 
 #include "files/samples/map_padding.hpp"
 #include "geodisk/cell_run.hpp"
-#include "geodisk/search_progress.hpp"
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
 #include "program/interrupt.hpp"
@@ -118,20 +117,13 @@ MapResult look_up_map(const MeshFile& mesh, MapSize size, const std::string& pat
                        progress);
 }
 
-MapResult run_map(std::span<const SampleRow> rows, MapSize size, const std::string& path,
-                  const MeshInput& mesh, bool has_touching, RunDevice& device, std::uint64_t bytes,
+MapResult run_map(std::span<const SampleRow> rows, MapSize size, const MeshInput& mesh,
+                  bool has_touching, RunDevice& device, std::uint64_t bytes,
                   ProgressLine& progress) {
-    Texels texels = texels_of(mesh.file, size.texture, path, progress);
-    Stopwatch watch;
-    device.open(progress);
-    const double open_seconds = watch.seconds();
-    std::vector<Sample> samples;
-    samples.reserve(rows.size());
-    for (const SampleRow& row : rows) {
-        samples.push_back(sample_of(row));
-    }
+    Texels texels = texels_of(mesh.file, size.texture, mesh.path, progress);
+    DeviceRun done = device.begin_search(progress);
     progress.begin_stage("finding cells");
-    auto nearest = NearestSamples::create(device.runner(), mesh.prepared, samples,
+    auto nearest = NearestSamples::create(device.runner(), mesh.prepared, samples_of(rows),
                                           max_records(bytes), search_progress(progress, "samples"));
     progress.clear();
     check_interrupted();
@@ -143,12 +135,10 @@ MapResult run_map(std::span<const SampleRow> rows, MapSize size, const std::stri
     if (has_touching) {
         touching = find_touching(disks, progress);
     }
-    watch = Stopwatch();
+    const Stopwatch watch;
     MapResult result = look_up_all(std::move(texels), size.padding, disks, progress);
     result.touching = std::move(touching);
-    result.done.open_seconds = open_seconds;
-    result.done.device = device.context().report();
-    result.done.tuning = device.runner().sampler().tuning();
+    result.done = std::move(done);
     result.done.run = disks.report();
     result.done.run.seconds.sample += watch.seconds();
     return result;

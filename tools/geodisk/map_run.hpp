@@ -45,8 +45,8 @@ MapResult look_up_map(const MeshFile& mesh, MapSize size, const std::string& pat
 
 /// Opens the device where need be and finds the nearest of the samples in `rows`, for texels as
 /// look_up_map(). Finds the pairs that touch if `has_touching`. Throws UserError.
-MapResult run_map(std::span<const SampleRow> rows, MapSize size, const std::string& path,
-                  const MeshInput& mesh, bool has_touching, RunDevice& device, std::uint64_t bytes,
+MapResult run_map(std::span<const SampleRow> rows, MapSize size, const MeshInput& mesh,
+                  bool has_touching, RunDevice& device, std::uint64_t bytes,
                   ProgressLine& progress);
 
 } // namespace geodisk::tools

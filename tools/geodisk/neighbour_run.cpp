@@ -4,11 +4,9 @@
 #include <numeric>
 #include <utility>
 
-#include "geodisk/search_progress.hpp"
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
 #include "program/interrupt.hpp"
-#include "program/stopwatch.hpp"
 
 namespace geodisk::tools {
 NumberedPoints places_of(const MeshInput& mesh) {
@@ -62,9 +60,7 @@ void keep_masked(const MeshInput& mesh, NumberedPoints& vertices) {
 
 NeighbourResult search_neighbours(const NeighbourJob& job, const MeshInput& mesh, RunDevice& device,
                                   bool is_bounded, ProgressLine& progress) {
-    const Stopwatch watch;
-    device.open(progress);
-    const double open_seconds = watch.seconds();
+    DeviceRun done = device.begin_search(progress);
     progress.begin_stage("finding neighbours");
     NeighbourQuery query;
     query.sources = job.sources.points;
@@ -86,11 +82,8 @@ NeighbourResult search_neighbours(const NeighbourJob& job, const MeshInput& mesh
     NeighbourResult result{{job.sources.numbers, std::move(neighbours.offsets),
                             std::move(neighbours.indices), std::move(neighbours.distances)},
                            neighbours.error,
-                           {}};
-    result.done.device = device.context().report();
-    result.done.tuning = device.runner().sampler().tuning();
+                           std::move(done)};
     result.done.run = neighbours.report;
-    result.done.open_seconds = open_seconds;
     NeighbourTable& table = result.table;
     if (table.sources.empty()) {
         table.sources.resize(job.sources.points.size());

@@ -114,9 +114,9 @@ void check_picture_path(const Path& path) {
     check_writable(path);
 }
 
-void check_visible(const std::string& path, const MeshInput& mesh) {
+void check_visible(const MeshInput& mesh) {
     if (mesh.dimension() == 0) {
-        fail_input(path, "has edge lengths but no coordinates, so it cannot be drawn");
+        fail_input(mesh.path, "has edge lengths but no coordinates, so it cannot be drawn");
     }
 }
 

@@ -36,8 +36,8 @@ struct PictureSubject;
 /// Throws UserError(usage) for what is no *.png, UserError(bad_output) for what cannot be written.
 void check_picture_path(const Path& path);
 
-/// Throws UserError(bad_input) for a mesh of edge lengths alone, read from `path`.
-void check_visible(const std::string& path, const MeshInput& mesh);
+/// Throws UserError(bad_input) for a mesh of edge lengths alone.
+void check_visible(const MeshInput& mesh);
 
 /// Returns what is drawn of the surface of `mesh`, read by `options`.
 picture::Scene make_scene(const MeshOptions& options, const MeshInput& mesh);

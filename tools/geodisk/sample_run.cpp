@@ -14,12 +14,12 @@
 #include "files/meshes/part_columns.hpp"
 #include "files/output/block_writer.hpp"
 #include "files/samples/sample_columns.hpp"
-#include "geodisk/checks/run_warnings.hpp"
 #include "geodisk/checks/spacing.hpp"
 #include "geodisk/inputs/existing_input.hpp"
 #include "geodisk/outputs/outputs.hpp"
 #include "geodisk/records.hpp"
 #include "geodisk/update_run.hpp"
+#include "geometry/set_warnings.hpp"
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
 
@@ -47,6 +47,23 @@ void check_space(const SampleJob& job, const MeshInput& mesh) {
     if (job.features && mesh.dimension() == 0) {
         fail_usage("--features needs the coordinates of the mesh, and it has edge lengths alone");
     }
+}
+
+void check_on(const MeshInput& mesh, const SampleJob& job, const RunDevice& device) {
+    check_space(job, mesh);
+    check_split(job, mesh, device);
+    check_record(job.out.record, mesh);
+    check_parts(mesh.path, mesh.file, job.columns);
+}
+
+/// Returns the parameters of a job with existing samples and points to avoid.
+SampleParams params_with(const ExistingInput& given, const MeshInput& mesh, const SampleJob& job) {
+    SampleParams params = params_on(mesh, job);
+    params.existing = given.samples;
+    params.existing_classes = given.classes;
+    params.avoid = given.avoided;
+    params.avoid_classes = given.avoid_classes;
+    return params;
 }
 
 /// Returns what the job asks for on a mesh, in the frame of another unless it is null. The view
@@ -168,6 +185,31 @@ void put_farthest_first(const SampleJob& job, const MeshInput& mesh, RunDevice& 
 
 } // namespace
 
+std::vector<MeshWarning> run_warnings(const SampleJob& job, const MeshInput& mesh,
+                                      const SampleResult& result, bool lacks_features) {
+    std::vector<MeshWarning> warnings =
+        set_warnings({.samples = result.count(),
+                      .existing = result.existing,
+                      .avoids = result.avoided > 0 || result.avoided_length > 0,
+                      .min_distance = result.params.min_distance * mesh.distance_part,
+                      .wanted_count = job.wanted_count.samples,
+                      .cut = result.done.cut,
+                      .stop_count = job.method.stop_count,
+                      .has_darts = job.method.darts > 0,
+                      .lacks_features = lacks_features ? *job.features : 0,
+                      .bare = result.bare});
+    for (std::uint32_t number = 0; number < job.classes.count && result.count() > 0; ++number) {
+        if (std::ranges::find(result.classes, number) == result.classes.end()) {
+            warnings.push_back(
+                {"empty_class", 1, "", "class " + std::to_string(number) + " has no sample", ""});
+        }
+    }
+    for (MeshWarning& warning : warnings) {
+        warning.file = job.mesh.mesh;
+    }
+    return warnings;
+}
+
 SampleParams params_on(const MeshInput& mesh, const SampleJob& job) {
     SampleParams params = mesh.with_fields(job.params);
     params.class_factors = job.class_factors;
@@ -206,16 +248,9 @@ RunDevice device_for(const SampleJob& job) {
 
 SampleResult sample_mesh(const SampleJob& job, const MeshInput& mesh, RunDevice& device,
                          ProgressLine& progress) {
-    check_space(job, mesh);
-    check_split(job, mesh, device);
-    check_record(job.out.record, mesh);
-    check_parts(job.mesh.mesh, mesh.file, job.columns);
+    check_on(mesh, job, device);
     ExistingInput given = load_existing(job, mesh, progress);
-    SampleParams params = params_on(mesh, job);
-    params.existing = given.samples;
-    params.existing_classes = given.classes;
-    params.avoid = given.avoided;
-    params.avoid_classes = given.avoid_classes;
+    SampleParams params = params_with(given, mesh, job);
     std::optional<UpdateRun> update;
     if (!job.from.empty()) {
         update.emplace(job, mesh, progress);
@@ -304,16 +339,9 @@ void write_sample_file(AtomicFile& file, const SampleJob& job, const MeshInput& 
 
 DryRun try_sampling(const SampleJob& job, const MeshInput& mesh, RunDevice& device,
                     ProgressLine& progress) {
-    check_space(job, mesh);
-    check_split(job, mesh, device);
-    check_record(job.out.record, mesh);
-    check_parts(job.mesh.mesh, mesh.file, job.columns);
+    check_on(mesh, job, device);
     const ExistingInput given = load_existing(job, mesh, progress);
-    SampleParams params = params_on(mesh, job);
-    params.existing = given.samples;
-    params.existing_classes = given.classes;
-    params.avoid = given.avoided;
-    params.avoid_classes = given.avoid_classes;
+    SampleParams params = params_with(given, mesh, job);
     const MeshView view = mesh.sampled_view();
     SampleRequest request = request_of(job, mesh, params, view);
     request.count = 0; // Just the first distance is tried, and the faces at once.

@@ -26,6 +26,10 @@ SampleParams params_on(const MeshInput& mesh, const SampleJob& job);
 /// The device that the job asks for, which can draw where there is to be a picture.
 RunDevice device_for(const SampleJob& job);
 
+/// Returns the warnings of set_warnings() about the samples of a job.
+std::vector<MeshWarning> run_warnings(const SampleJob& job, const MeshInput& mesh,
+                                      const SampleResult& result, bool lacks_features = false);
+
 /// Samples `mesh`, which must outlive the result, as the job asks for. Throws UserError, DeviceLost
 /// among them.
 SampleResult sample_mesh(const SampleJob& job, const MeshInput& mesh, RunDevice& device,

@@ -63,7 +63,7 @@ std::size_t parse_harmonics(const std::string& text) {
     return text.empty() ? kHarmonics : static_cast<std::size_t>(parse_count("--harmonics", text));
 }
 
-SpectrumRun compute_spectrum_on(const std::string& mesh_path, const MeshInput& mesh,
+SpectrumRun compute_spectrum_on(const MeshInput& mesh,
                                 std::span<const analysis::PlacedSamples> sets,
                                 const std::string& harmonics, std::vector<MeshWarning>& warnings,
                                 ProgressLine& progress) {
@@ -73,7 +73,7 @@ SpectrumRun compute_spectrum_on(const std::string& mesh_path, const MeshInput& m
     check_on_surface(sets, laplacian);
     const ManifoldHarmonics all(laplacian);
     progress.clear();
-    const std::size_t count = count_for(harmonics, mesh_path, laplacian, all, warnings);
+    const std::size_t count = count_for(harmonics, mesh.path, laplacian, all, warnings);
     const auto [seconds, bytes] = all.cost(count);
     const std::string detail =
         "about " + seconds_text(seconds) + " and " + size_text(static_cast<std::uint64_t>(bytes));

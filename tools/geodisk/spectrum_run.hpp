@@ -22,10 +22,10 @@ struct SpectrumRun {
 /// "" for what is usual. Throws UserError(usage).
 std::size_t parse_harmonics(const std::string& text);
 
-/// Returns the spectrum of sets on the mesh that is called `mesh_path`, by as many harmonics as
+/// Returns the spectrum of sets on the mesh, by as many harmonics as
 /// --harmonics says. If that is "" and there are fewer than usual, uses all. Warns if the mesh is
 /// coarse for them. Throws UserError.
-SpectrumRun compute_spectrum_on(const std::string& mesh_path, const MeshInput& mesh,
+SpectrumRun compute_spectrum_on(const MeshInput& mesh,
                                 std::span<const analysis::PlacedSamples> sets,
                                 const std::string& harmonics, std::vector<MeshWarning>& warnings,
                                 ProgressLine& progress);

@@ -145,7 +145,8 @@ bool tells(const std::string& text, Number number) {
 }
 
 /// Checks that the samples before are of this job, as far as their header tells.
-void check_job(const SampleFile& file, const SampleJob& job, double min_distance) {
+void check_job(const SampleFile& file, const SampleJob& job, const MeshInput& mesh,
+               double min_distance) {
     if (file.header.find("min_distance") == nullptr || file.header.find("seed") == nullptr) {
         fail_input(job.update,
                    "does not say its seed and minimum distance, so it may not be whole; "
@@ -156,12 +157,11 @@ void check_job(const SampleFile& file, const SampleJob& job, double min_distance
         fail_input(job.update, "has as its " + std::string(key) + " " + told(is) + ", not " +
                                    told(should) + "; give the options it was made with");
     };
-    const HeaderEntries wanted = job.additions();
     for (const char* const key :
          {"coordinates", "edge_lengths", "lift", "weld", "keep_seams", "density", "radius_factor",
           "radius_factor_floor", "mask", "only"}) {
         const std::string is = values_of(key, file.header.entries);
-        const std::string should = values_of(key, wanted);
+        const std::string should = values_of(key, mesh.additions);
         if (is != should) {
             fail(key, is, should);
         }
@@ -216,19 +216,15 @@ UpdateRun::UpdateRun(const SampleJob& job, const MeshInput& mesh, ProgressLine& 
         fail_usage("--update: the minimum distance exceeds " + job.from +
                    ", so an edit may change all samples; leave it out");
     }
-    const HeaderEntries additions = job.additions();
     std::vector<MeshWarning> warnings;
-    const SampleFile file =
-        read_samples_silently_on(job.update, job.from, before_, &additions, "", warnings, progress);
+    const SampleFile file = read_samples_silently_on(job.update, before_, "", warnings, progress);
     if (!file.has_faces) {
         fail_input(job.update, "has no faces and weights, so its samples cannot be updated; give "
                                "a file of geodisk with them");
     }
     check_kind(file, job.update);
-    check_job(file, job, distance_on_mesh(*job.min_distance, before_.prepared.statistics()));
-    for (const MeshWarning& warning : warnings) {
-        print_warning(job.update + ": " + warning.message);
-    }
+    check_job(file, job, mesh_, distance_on_mesh(*job.min_distance, before_.prepared.statistics()));
+    print_warnings(warnings);
     if (!decide_alike(frame_of_samples(file, job.update, before_, params_), plain)) {
         decide_all(job.update + " was decided with other tolerances than a run over " + job.from +
                    " has");

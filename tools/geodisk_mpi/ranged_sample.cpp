@@ -12,7 +12,6 @@
 #include "files/input_file.hpp"
 #include "files/samples/row_format.hpp"
 #include "files/samples/sample_format.hpp"
-#include "geodisk/checks/run_warnings.hpp"
 #include "geodisk/inputs/mesh_input.hpp"
 #include "geodisk/outputs/outputs.hpp"
 #include "geodisk/reports/sample_report.hpp"
@@ -67,6 +66,8 @@ MeshInput outline_of(const SharedSurface& surface, const SampleJob& job, double 
         mesh.distance_part = job.density.is_density() ? radii->min_factor() : 1;
     }
     mesh.file.positions.assign(3, 0); // There are coordinates.
+    mesh.path = job.mesh.mesh;
+    mesh.additions = with_entries(job.density.added_to(job.mesh.additions()), job.mask);
     const auto warn = [&](const char* kind, std::uint64_t count, const char* one,
                           const char* many) {
         add_warning(mesh.warnings, kind, count, "", one, many);
@@ -88,7 +89,7 @@ MeshInput outline_of(const SharedSurface& surface, const SampleJob& job, double 
              "components: no path leads from one to another");
     }
     for (MeshWarning& warning : mesh.warnings) {
-        warning.file = job.mesh.mesh;
+        warning.file = mesh.path;
     }
     if (auto warning = job.density.warning()) {
         mesh.warnings.push_back(std::move(*warning));

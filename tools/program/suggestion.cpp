@@ -72,6 +72,13 @@ void fail_choice(const std::string& option, std::string_view word,
                did_you_mean(word, known));
 }
 
+void check_choice(const std::string& option, std::string_view word,
+                  std::span<const std::string> known) {
+    if (std::ranges::find(known, word) == known.end()) {
+        fail_choice(option, word, known);
+    }
+}
+
 std::string listed(std::span<const std::string> words, std::string_view last) {
     std::string text;
     for (std::size_t i = 0; i < words.size(); ++i) {

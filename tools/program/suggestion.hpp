@@ -15,6 +15,10 @@ std::string did_you_mean(std::string_view word, std::span<const std::string> kno
 [[noreturn]] void fail_choice(const std::string& option, std::string_view word,
                               std::span<const std::string> known);
 
+/// Throws this unless `word` is one of `known`.
+void check_choice(const std::string& option, std::string_view word,
+                  std::span<const std::string> known);
+
 /// Returns "a, b and c", or what else is before the last word.
 std::string listed(std::span<const std::string> words, std::string_view last = " and ");
 

@@ -109,16 +109,6 @@ void write_ply_dual(AtomicFile& file, const DualMesh& mesh) {
                });
 }
 
-void add_field(ZipWriter& zip, const SampleField& field) {
-    const std::size_t size = field.components.size();
-    if (field.is_whole) {
-        const std::vector<std::int32_t> values(field.values.begin(), field.values.end());
-        add_array<std::int32_t>(zip, field.name, "<i4", values, size);
-    } else {
-        add_array<double>(zip, field.name, "<f8", field.values, size);
-    }
-}
-
 constexpr const char *kPoints = "points", *kEdges = "edges", *kTriangles = "triangles";
 
 void write_npz_dual(AtomicFile& file, const DualMesh& mesh) {

@@ -38,22 +38,6 @@ class Arrays {
             [&](std::size_t i, std::size_t k) { return static_cast<double>(value_of(i, k)); });
     }
 
-    /// Adds a column, or a table if the attribute has several components.
-    void add_field(const SampleField& field) {
-        const std::size_t size = field.components.size();
-        const std::string shape = size == 1 ? column_shape(rows_) : table_shape(rows_, size);
-        const auto value_of = [&](std::size_t i, std::size_t k) {
-            return field.values[i * size + k];
-        };
-        if (field.is_whole) {
-            add(field.name, "<i4", shape, size, [&](std::size_t i, std::size_t k) {
-                return static_cast<std::int32_t>(value_of(i, k));
-            });
-        } else {
-            add(field.name, "<f8", shape, size, value_of);
-        }
-    }
-
   private:
     template <class ValueOf>
     void add(const std::string& name, const std::string& type, const std::string& shape,
@@ -92,7 +76,7 @@ void add_text(ZipWriter& zip, const std::string& name, std::string_view text) {
     zip.add(name + ".npy", bytes);
 }
 
-void add_surface_arrays(Arrays& arrays, std::span<const SampleRow> rows,
+void add_surface_arrays(ZipWriter& zip, Arrays& arrays, std::span<const SampleRow> rows,
                         const SampleLayout& layout) {
     if (layout.has_normals()) {
         arrays.add_table("normals", 3,
@@ -112,11 +96,21 @@ void add_surface_arrays(Arrays& arrays, std::span<const SampleRow> rows,
                    [&](std::size_t i) { return rows[i].polygon.value_or(0); });
     }
     for (const SampleField& field : layout.further.fields) {
-        arrays.add_field(field);
+        add_field(zip, field);
     }
 }
 
 } // namespace
+
+void add_field(ZipWriter& zip, const SampleField& field) {
+    const std::size_t size = field.components.size();
+    if (field.is_whole) {
+        const std::vector<std::int32_t> values(field.values.begin(), field.values.end());
+        add_array<std::int32_t>(zip, field.name, "<i4", values, size);
+    } else {
+        add_array<double>(zip, field.name, "<f8", field.values, size);
+    }
+}
 
 void write_npz(AtomicFile& file, const SampleHeader& header, std::span<const SampleRow> rows,
                const SampleTarget& /*target*/, const SampleLayout& layout) {
@@ -127,7 +121,7 @@ void write_npz(AtomicFile& file, const SampleHeader& header, std::span<const Sam
                          [&](std::size_t i, std::size_t k) { return rows[i].position[k]; });
     }
     if (layout.is_on_surface) {
-        add_surface_arrays(arrays, rows, layout);
+        add_surface_arrays(zip, arrays, rows, layout);
     }
     if (const std::string* const text = header.find("min_distance")) {
         if (const auto distance = parse_real(*text)) {

@@ -32,6 +32,10 @@ void write_pcd(AtomicFile& file, const SampleHeader& header, std::span<const Sam
 void write_usd(AtomicFile& file, const SampleHeader& header, std::span<const SampleRow> rows,
                const SampleTarget& target, const SampleLayout& layout);
 
+class ZipWriter;
+/// Adds an attribute to an archive of numpy.
+void add_field(ZipWriter& zip, const SampleField& field);
+
 void write_npz(AtomicFile& file, const SampleHeader& header, std::span<const SampleRow> rows,
                const SampleTarget& target, const SampleLayout& layout);
 

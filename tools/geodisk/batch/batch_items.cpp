@@ -16,15 +16,50 @@
 #include "files/samples/sample_format.hpp"
 #include "files/samples/told_samples.hpp"
 #include "geodisk/inputs/manifest.hpp"
-#include "geodisk/inputs/mesh_folder.hpp"
 #include "geodisk/options/sample_command.hpp"
 #include "geodisk/outputs/outputs.hpp"
 #include "geodisk/sample_run.hpp"
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
+#include "program/interrupt.hpp"
 
 namespace geodisk::tools {
 namespace {
+
+bool is_hidden(const std::filesystem::path& path) {
+    return path.filename().string().starts_with('.');
+}
+
+/// Returns true if the extension is that of a mesh format.
+bool is_mesh_file(const std::filesystem::path& path) {
+    constexpr std::string_view kExtensions[] = {".gltf", ".glb", ".obj", ".off", ".ply", ".stl"};
+    return std::ranges::find(kExtensions, lower_extension(path)) != std::ranges::end(kExtensions);
+}
+
+/// Relative paths of all files in `folder`, and in folders in it, whose extension is that of a mesh
+/// format, in the order of their names. What begins with a dot is passed over, and so is the folder
+/// `without`, where results may be. Throws UserError(bad_input) for a folder that cannot be read.
+std::vector<std::filesystem::path> mesh_files_in(const Path& folder, const Path& without) {
+    std::vector<std::filesystem::path> files;
+    std::error_code error, ignored;
+    std::filesystem::recursive_directory_iterator at(folder, error);
+    for (; !error && at != std::filesystem::recursive_directory_iterator(); at.increment(error)) {
+        check_interrupted();
+        if (at->is_directory(ignored)) {
+            if (is_hidden(at->path()) ||
+                std::filesystem::equivalent(at->path(), without, ignored)) {
+                at.disable_recursion_pending();
+            }
+        } else if (!is_hidden(at->path()) && is_mesh_file(at->path())) {
+            files.push_back(at->path().lexically_relative(folder));
+        }
+    }
+    if (error) {
+        fail_input(folder, "cannot read the folder: " + error.message());
+    }
+    std::ranges::sort(files, {}, [](const auto& path) { return path.generic_string(); });
+    return files;
+}
 
 /// Returns true if `path` stays in the folder that it is relative to, and names something there.
 bool stays_inside(const std::filesystem::path& path) {

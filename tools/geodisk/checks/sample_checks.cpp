@@ -10,9 +10,9 @@
 
 #include "files/samples/fingerprint.hpp"
 #include "files/samples/sample_columns.hpp"
-#include "geodisk/checks/run_warnings.hpp"
 #include "geodisk/checks/sample_classes.hpp"
 #include "geodisk/checks/spacing.hpp"
+#include "geodisk/outputs/outputs.hpp"
 #include "program/exact_text.hpp"
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
@@ -25,20 +25,20 @@ std::string coordinates_text(std::uint32_t dimension) {
 }
 
 /// Why there is no sample on the row's face, or "".
-std::string face_fault(const SampleRow& row, const std::string& mesh_path, const MeshInput& mesh) {
+std::string face_fault(const SampleRow& row, const MeshInput& mesh) {
     const std::string face = "face " + std::to_string(row.face);
     if (row.face >= mesh.prepared.face_count()) {
-        return face + " is out of range, " + mesh_path + " has " +
+        return face + " is out of range, " + mesh.path + " has " +
                counted(mesh.prepared.face_count(), "triangle", "triangles") +
                "; is it of another mesh?";
     }
     if (!mesh.file.takes_part(row.face)) {
-        return face + " repeats a vertex or is a copy in " + mesh_path + ", which holds no samples";
+        return face + " repeats a vertex or is a copy in " + mesh.path + ", which holds no samples";
     }
     const auto polygon = mesh.polygon(row.face);
     if (row.polygon && polygon && *row.polygon != *polygon) {
         return "polygon_index is " + std::to_string(*row.polygon) + ", but " + face + " is of " +
-               "face " + std::to_string(*polygon) + " in " + mesh_path;
+               "face " + std::to_string(*polygon) + " in " + mesh.path;
     }
     return {};
 }
@@ -78,20 +78,20 @@ double header_distance(const std::string& samples_path, const SampleHeader& head
 }
 
 void check_dimensions(const std::string& samples_path, const SampleFile& samples,
-                      const std::string& mesh_path, const MeshInput& mesh) {
+                      const MeshInput& mesh) {
     if (samples.dimension != mesh.dimension()) {
         fail_input(samples_path, "its samples have " + coordinates_text(samples.dimension) +
-                                     ", the vertices of " + mesh_path + " have " +
+                                     ", the vertices of " + mesh.path + " have " +
                                      coordinates_text(mesh.dimension()));
     }
 }
 
-void check_rows(const std::string& samples_path, const SampleFile& samples,
-                const std::string& mesh_path, const MeshInput& mesh, const std::string& noun) {
+void check_rows(const std::string& samples_path, const SampleFile& samples, const MeshInput& mesh,
+                const std::string& noun) {
     constexpr double kTolerance = 1e-5; // Of weights that other programs rounded.
     for (std::uint32_t i = 0; i < samples.rows.size(); ++i) {
         const SampleRow& row = samples.rows[i];
-        if (const std::string fault = face_fault(row, mesh_path, mesh); !fault.empty()) {
+        if (const std::string fault = face_fault(row, mesh); !fault.empty()) {
             fail_input(
                 samples_path,
                 std::string(noun).append(" ").append(std::to_string(i)).append(": ").append(fault));
@@ -187,7 +187,7 @@ std::string other_sampling_text(const SampleHeader& header) {
 }
 
 void warn_of_other_surface(const std::string& samples_path, const SampleFile& samples,
-                           const HeaderEntries& additions, std::vector<MeshWarning>& warnings) {
+                           const MeshInput& mesh, std::vector<MeshWarning>& warnings) {
     const auto options_of = [](const auto& entries) {
         std::string text;
         for (const auto& [key, value] : entries) {
@@ -200,7 +200,7 @@ void warn_of_other_surface(const std::string& samples_path, const SampleFile& sa
         return text.empty() ? " no --lift, --weld and --keep-seams" : text;
     };
     const std::string used = options_of(samples.header.entries);
-    if (used == options_of(additions)) {
+    if (used == options_of(mesh.additions)) {
         return;
     }
     warnings.push_back(

@@ -24,15 +24,14 @@ struct StrayRow {
 /// The minimum distance that the header tells. Throws UserError if it tells none, or nonsense.
 double header_distance(const std::string& samples_path, const SampleHeader& header);
 
-/// Throws UserError(bad_input) if the samples have not as many coordinates as the mesh; the paths
-/// are those of the files.
+/// Throws UserError(bad_input) if the samples have not as many coordinates as the mesh.
 void check_dimensions(const std::string& samples_path, const SampleFile& samples,
-                      const std::string& mesh_path, const MeshInput& mesh);
+                      const MeshInput& mesh);
 
 /// The rows must at least name points of the mesh. Throws UserError(bad_input) naming the first
 /// that does not, a `noun`.
-void check_rows(const std::string& samples_path, const SampleFile& samples,
-                const std::string& mesh_path, const MeshInput& mesh, const std::string& noun);
+void check_rows(const std::string& samples_path, const SampleFile& samples, const MeshInput& mesh,
+                const std::string& noun);
 
 /// The samples whose positions differ from those of their faces and weights by more than a sample
 /// file rounds. The rows must have passed check_rows(); without coordinates there are none.
@@ -46,10 +45,9 @@ std::vector<std::uint32_t> masked_samples(const SampleFile& samples, const MeshI
 std::string other_sampling_text(const SampleHeader& header);
 
 /// Adds a warning where the samples' header tells of another --lift, --weld or --keep-seams than
-/// `additions`, those of the mesh here: samples of another surface would show as violations, or
-/// worse, would not.
+/// the mesh here: samples of another surface would show as violations, or worse, would not.
 void warn_of_other_surface(const std::string& samples_path, const SampleFile& samples,
-                           const HeaderEntries& additions, std::vector<MeshWarning>& warnings);
+                           const MeshInput& mesh, std::vector<MeshWarning>& warnings);
 
 /// Why rows may differ from those of a digest.
 inline constexpr const char* kOtherRows = "samples of the run are missing, others were added, or "

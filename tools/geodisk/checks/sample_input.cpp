@@ -5,7 +5,7 @@
 
 #include "files/meshes/line_file.hpp"
 #include "files/samples/sample_columns.hpp"
-#include "geodisk/options/tolerance_option.hpp"
+#include "geodisk/options/distance_options.hpp"
 #include "geodisk/outputs/outputs.hpp"
 #include "geometry/nearest_face.hpp"
 #include "program/failure.hpp"
@@ -36,21 +36,20 @@ struct Moves {
     double mean() const { return sum / static_cast<double>(count); }
 };
 
-void warn_of_moves(const std::string& path, const std::string& mesh_path, const Moves& moves,
+void warn_of_moves(const std::string& path, const MeshInput& mesh, const Moves& moves,
                    double tolerance, std::vector<MeshWarning>& warnings) {
     warnings.push_back({"points_moved", moves.count, "",
                         counted(moves.count, "point", "points") + " without faces put on the " +
-                            "nearest face of " + mesh_path + ", from up to " +
+                            "nearest face of " + mesh.path + ", from up to " +
                             rounded(moves.farthest, 3) + " away, " + rounded(moves.mean(), 3) +
                             " on average (tolerance " + rounded(tolerance, 3) + ")",
                         path});
 }
 
 /// Gives each point the nearest face. Returns those that are too far away.
-std::vector<StrayRow> put_on_faces(const std::string& path, const std::string& mesh_path,
-                                   const MeshInput& mesh, const std::string& given,
-                                   SampleFile& samples, std::vector<MeshWarning>& warnings,
-                                   ProgressLine& progress) {
+std::vector<StrayRow> put_on_faces(const std::string& path, const MeshInput& mesh,
+                                   const std::string& given, SampleFile& samples,
+                                   std::vector<MeshWarning>& warnings, ProgressLine& progress) {
     progress.begin_stage("projecting the points onto the mesh");
     const NearestFace faces(mesh.file);
     const double tolerance = tolerance_on(given, faces.diagonal());
@@ -72,7 +71,7 @@ std::vector<StrayRow> put_on_faces(const std::string& path, const std::string& m
     }
     progress.clear();
     if (moves.count > 0) {
-        warn_of_moves(path, mesh_path, moves, tolerance, warnings);
+        warn_of_moves(path, mesh, moves, tolerance, warnings);
     }
     return strays;
 }
@@ -95,74 +94,68 @@ void check_columns(const std::string& path, const SampleFile& samples, const std
 }
 
 /// As read_samples_on(), but prints nothing.
-SampleInput read_silently(const std::string& path, const std::string& mesh_path,
-                          const MeshInput& mesh, const HeaderEntries* additions,
+SampleInput read_silently(const std::string& path, const MeshInput& mesh,
                           const std::string& tolerance, std::vector<MeshWarning>& warnings,
-                          ProgressLine& progress, const ReadAs& as = {}) {
+                          ProgressLine& progress, const ReadAs& as) {
     progress.begin_stage("reading the samples");
     SampleInput input{as.has_lines ? read_points_and_lines(path, as.numbers, as.allows_outside)
                                    : read_samples(path, as.numbers),
                       {}};
     progress.clear();
-    put_on_mesh(path, mesh_path, mesh, additions, tolerance, input, warnings, progress, as.noun);
+    put_on_mesh(path, mesh, tolerance, input, warnings, progress, as);
     return input;
 }
 
 } // namespace
 
-void put_on_mesh(const std::string& path, const std::string& mesh_path, const MeshInput& mesh,
-                 const HeaderEntries* additions, const std::string& tolerance, SampleInput& input,
-                 std::vector<MeshWarning>& warnings, ProgressLine& progress,
-                 const std::string& noun) {
+void put_on_mesh(const std::string& path, const MeshInput& mesh, const std::string& tolerance,
+                 SampleInput& input, std::vector<MeshWarning>& warnings, ProgressLine& progress,
+                 const ReadAs& as) {
     for (MeshWarning& warning : input.file.warnings) {
         warning.file = path;
         warnings.push_back(std::move(warning));
     }
     input.file.warnings.clear();
-    check_columns(path, input.file, noun, warnings);
+    check_columns(path, input.file, as.noun, warnings);
     if (const std::string other = other_sampling_text(input.file.header); !other.empty()) {
         warnings.push_back({"other_sampling", 1, "", other, path});
     }
-    check_dimensions(path, input.file, mesh_path, mesh);
+    check_dimensions(path, input.file, mesh);
     if (!input.file.has_faces) {
-        input.strays =
-            put_on_faces(path, mesh_path, mesh, tolerance, input.file, warnings, progress);
+        input.strays = put_on_faces(path, mesh, tolerance, input.file, warnings, progress);
         return;
     }
-    check_rows(path, input.file, mesh_path, mesh, noun);
-    if (additions != nullptr && !input.file.header.entries.empty()) {
-        warn_of_other_surface(path, input.file, *additions, warnings);
+    check_rows(path, input.file, mesh, as.noun);
+    if (as.compares_surface && !input.file.header.entries.empty()) {
+        warn_of_other_surface(path, input.file, mesh, warnings);
     }
     input.strays = find_strays(input.file, mesh);
 }
 
-SampleFile without_strays(const std::string& path, const std::string& mesh_path, SampleInput input,
-                          const std::string& noun) {
+SampleFile without_strays(const std::string& path, const MeshInput& mesh, SampleInput input,
+                          const ReadAs& as) {
     if (input.strays.empty()) {
         return std::move(input.file);
     }
     const StrayRow& first = input.strays.front();
-    const std::string sample = noun + " " + std::to_string(first.row) + " is ";
+    const std::string sample = as.noun + " " + std::to_string(first.row) + " is ";
     if (input.file.has_faces) {
-        fail_input(path, sample + offset_text(first) + " on " + mesh_path + "; are these " + noun +
-                             "s of another mesh?");
+        fail_input(path, sample + offset_text(first) + " on " + mesh.path + "; are these " +
+                             as.noun + "s of another mesh?");
     }
     fail_input(path, counted(input.strays.size(), "point lies", "points lie") + " farther off " +
-                         mesh_path + " than --tolerance allows; " + sample +
+                         mesh.path + " than --tolerance allows; " + sample +
                          rounded(first.offset, 3) +
                          " away. Give the mesh that the points were made on, or raise --tolerance");
 }
 
-SampleInput read_samples_on(const std::string& path, const std::string& mesh_path,
-                            const MeshInput& mesh, const HeaderEntries* additions,
+SampleInput read_samples_on(const std::string& path, const MeshInput& mesh,
                             const std::string& tolerance, std::vector<MeshWarning>& warnings,
-                            ProgressLine& progress) {
-    const std::size_t before = warnings.size();
-    SampleInput input =
-        read_silently(path, mesh_path, mesh, additions, tolerance, warnings, progress);
-    for (std::size_t i = before; i < warnings.size(); ++i) {
-        print_warning(path + ": " + warnings[i].message);
-    }
+                            ProgressLine& progress, const ReadAs& as) {
+    std::vector<MeshWarning> found;
+    SampleInput input = read_silently(path, mesh, tolerance, found, progress, as);
+    print_warnings(found);
+    warnings.insert(warnings.end(), found.begin(), found.end());
     return input;
 }
 
@@ -174,24 +167,19 @@ void warn_of_no_samples(const std::string& path, const SampleFile& file,
     }
 }
 
-SampleFile read_samples_exactly_on(const std::string& path, const std::string& mesh_path,
-                                   const MeshInput& mesh, const HeaderEntries* additions,
+SampleFile read_samples_exactly_on(const std::string& path, const MeshInput& mesh,
                                    const std::string& tolerance, std::vector<MeshWarning>& warnings,
-                                   ProgressLine& progress) {
-    return without_strays(
-        path, mesh_path,
-        read_samples_on(path, mesh_path, mesh, additions, tolerance, warnings, progress));
+                                   ProgressLine& progress, const ReadAs& as) {
+    return without_strays(path, mesh,
+                          read_samples_on(path, mesh, tolerance, warnings, progress, as), as);
 }
 
-SampleFile read_samples_silently_on(const std::string& path, const std::string& mesh_path,
-                                    const MeshInput& mesh, const HeaderEntries* additions,
+SampleFile read_samples_silently_on(const std::string& path, const MeshInput& mesh,
                                     const std::string& tolerance,
                                     std::vector<MeshWarning>& warnings, ProgressLine& progress,
                                     const ReadAs& as) {
-    return without_strays(
-        path, mesh_path,
-        read_silently(path, mesh_path, mesh, additions, tolerance, warnings, progress, as),
-        as.noun);
+    return without_strays(path, mesh, read_silently(path, mesh, tolerance, warnings, progress, as),
+                          as);
 }
 
 } // namespace geodisk::tools

@@ -19,31 +19,30 @@ struct SampleInput {
 
 /// Purpose of reading a file of samples.
 struct ReadAs {
-    std::string noun = "sample"; ///< Names a row in errors.
-    std::string numbers;         ///< Column to read as well, see read_samples(), or "".
-    bool has_lines = false;      ///< Formats of lines may be read, see read_points_and_lines().
-    bool allows_outside = false; ///< Files that a file of lines names may be anywhere.
+    std::string noun = "sample";  ///< Names a row in errors.
+    std::string numbers{};        ///< Column to read as well, see read_samples(), or "".
+    bool has_lines = false;       ///< Formats of lines may be read, see read_points_and_lines().
+    bool allows_outside = false;  ///< Files that a file of lines names may be anywhere.
+    bool compares_surface = true; ///< Warns of samples of another surface.
 };
 
-/// Reads the samples in the file `path` of the mesh in the file `mesh_path`. Points without faces
-/// are put on the nearest face, with a warning that says how far they lay away; those farther than
-/// `tolerance`, "" for a thousandth of the diagonal, are strays. Samples with faces are strays if
-/// their positions are elsewhere. Warns of samples of another surface than `additions` make, unless
-/// null. Throws UserError for rows that are not on the mesh at all.
-SampleInput read_samples_on(const std::string& path, const std::string& mesh_path,
-                            const MeshInput& mesh, const HeaderEntries* additions,
+/// Reads the samples in the file `path` of a mesh. Points without faces are put on the nearest
+/// face, with a warning that says how far they lay away; those farther than `tolerance`, "" for a
+/// thousandth of the diagonal, are strays. Samples with faces are strays if their positions are
+/// elsewhere. Prints warnings, one of them about samples of another surface. Throws UserError for
+/// rows that are not on the mesh at all.
+SampleInput read_samples_on(const std::string& path, const MeshInput& mesh,
                             const std::string& tolerance, std::vector<MeshWarning>& warnings,
-                            ProgressLine& progress);
+                            ProgressLine& progress, const ReadAs& as = {});
 
-/// Does this with samples that were read, but prints no warnings. `noun` names a row in errors.
-void put_on_mesh(const std::string& path, const std::string& mesh_path, const MeshInput& mesh,
-                 const HeaderEntries* additions, const std::string& tolerance, SampleInput& input,
-                 std::vector<MeshWarning>& warnings, ProgressLine& progress,
-                 const std::string& noun = "sample");
+/// Does this with samples that were read, but prints no warnings.
+void put_on_mesh(const std::string& path, const MeshInput& mesh, const std::string& tolerance,
+                 SampleInput& input, std::vector<MeshWarning>& warnings, ProgressLine& progress,
+                 const ReadAs& as = {});
 
 /// Returns the samples. Throws UserError(bad_input) for strays.
-SampleFile without_strays(const std::string& path, const std::string& mesh_path, SampleInput input,
-                          const std::string& noun = "sample");
+SampleFile without_strays(const std::string& path, const MeshInput& mesh, SampleInput input,
+                          const ReadAs& as = {});
 
 /// Warns of a file without samples.
 void warn_of_no_samples(const std::string& path, const SampleFile& file,
@@ -51,14 +50,12 @@ void warn_of_no_samples(const std::string& path, const SampleFile& file,
 
 /// As read_samples_on(), and throws UserError(bad_input) for strays: samples of another mesh would
 /// land anywhere.
-SampleFile read_samples_exactly_on(const std::string& path, const std::string& mesh_path,
-                                   const MeshInput& mesh, const HeaderEntries* additions,
+SampleFile read_samples_exactly_on(const std::string& path, const MeshInput& mesh,
                                    const std::string& tolerance, std::vector<MeshWarning>& warnings,
-                                   ProgressLine& progress);
+                                   ProgressLine& progress, const ReadAs& as = {});
 
 /// The same, but leaves the warnings to the caller to print.
-SampleFile read_samples_silently_on(const std::string& path, const std::string& mesh_path,
-                                    const MeshInput& mesh, const HeaderEntries* additions,
+SampleFile read_samples_silently_on(const std::string& path, const MeshInput& mesh,
                                     const std::string& tolerance,
                                     std::vector<MeshWarning>& warnings, ProgressLine& progress,
                                     const ReadAs& as = {});

@@ -18,7 +18,6 @@
 #include "geodisk/options/distance_options.hpp"
 #include "geodisk/options/mask_options.hpp"
 #include "geodisk/options/run_options.hpp"
-#include "geodisk/options/tolerance_option.hpp"
 #include "geodisk/outputs/outputs.hpp"
 #include "geodisk/reports/analysis_report.hpp"
 #include "geodisk/set_analysis.hpp"
@@ -48,8 +47,6 @@ struct AnalyzeOptions {
     DistanceOptions distance;
     std::string probes, seed = "0", tolerance;
     OutputOptions out; ///< No samples.
-
-    HeaderEntries additions() const { return with_entries(mesh.additions(), mask); }
 };
 
 /// Regions of the mesh, and how many samples of each set they hold.
@@ -106,9 +103,8 @@ class RegionCounts {
 SetAnalysis analyze_set(const AnalyzeOptions& options, const std::string& path,
                         const MeshInput& mesh, RegionCounts& regions,
                         std::vector<MeshWarning>& warnings, ProgressLine& progress) {
-    const HeaderEntries additions = options.additions();
-    const SampleFile samples = read_samples_exactly_on(path, options.mesh.mesh, mesh, &additions,
-                                                       options.tolerance, warnings, progress);
+    const SampleFile samples =
+        read_samples_exactly_on(path, mesh, options.tolerance, warnings, progress);
     if (samples.rows.empty()) {
         fail_input(path, "has no samples to analyze");
     }
@@ -149,10 +145,7 @@ void run_analyze(const AnalyzeOptions& options) {
     for (const std::string& path : options.samples) {
         sets.push_back(analyze_set(options, path, mesh, regions, warnings, progress));
     }
-    const HeaderEntries additions = options.additions();
-    const Analysis analysis{options.mesh, additions,
-                            mesh,         warnings,
-                            sets,         are_alike(sets) ? regions.test() : std::nullopt};
+    const Analysis analysis{mesh, warnings, sets, are_alike(sets) ? regions.test() : std::nullopt};
     publish(options.out, report_json(analysis), report_text(analysis));
 }
 

@@ -1,21 +1,25 @@
 #include <memory>
+#include <sstream>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "geodisk/checks/run_warnings.hpp"
+#include <geodisk/version.hpp>
+
 #include "geodisk/checks/sample_input.hpp"
 #include "geodisk/commands/commands.hpp"
 #include "geodisk/commands/help_text.hpp"
 #include "geodisk/inputs/mesh_input.hpp"
 #include "geodisk/map_run.hpp"
 #include "geodisk/opened_device.hpp"
+#include "geodisk/options/distance_options.hpp"
 #include "geodisk/options/mesh_options.hpp"
 #include "geodisk/options/run_options.hpp"
-#include "geodisk/options/tolerance_option.hpp"
 #include "geodisk/outputs/map_output.hpp"
 #include "geodisk/outputs/outputs.hpp"
-#include "geodisk/reports/map_report.hpp"
+#include "geodisk/reports/json.hpp"
+#include "geodisk/reports/mesh_report.hpp"
+#include "geodisk/reports/run_report.hpp"
 #include "program/command.hpp"
 #include "program/exact_text.hpp"
 #include "program/failure.hpp"
@@ -37,6 +41,64 @@ struct BakeOptions {
     RunOptions run;
     std::string samples, tolerance, size = "1024", padding = "0", style = "voronoi", depth = "8";
 };
+
+/// A map that is made, for write_outputs().
+struct MapReport {
+    const MeshInput& mesh;
+    const std::vector<MeshWarning>& warnings; ///< Warnings about mesh and samples.
+    const MapResult& result;
+    std::size_t samples;
+    const std::string& output;
+
+    std::string json(double write_seconds) const;
+    std::string summary(double write_seconds) const;
+};
+
+std::string MapReport::json(double write_seconds) const {
+    Json document{{"version", GEODISK_VERSION_STRING},
+                  {"mesh", mesh_json(mesh)},
+                  {"warnings", warnings_json(warnings)},
+                  {"samples", samples},
+                  {"size", {result.map.width, result.map.height}},
+                  {"texels",
+                   {{"covered", result.covered},
+                    {"overlapping", result.overlapping},
+                    {"padded", result.padded},
+                    {"unreached", result.unreached}}},
+                  {"repeating_faces", result.repeating},
+                  {"largest_distance", result.largest_distance},
+                  {"error", result.error},
+                  {"disks", result.done.run.disks},
+                  {"windows", result.done.run.windows},
+                  {"output", output}};
+    return search_json(std::move(document), mesh, result.done, write_seconds);
+}
+
+std::string MapReport::summary(double write_seconds) const {
+    std::ostringstream out;
+    out << mesh_lines("mesh", mesh) << "texels        " << grouped(result.covered) << " of "
+        << grouped(result.map.width) << " x " << grouped(result.map.height) << " have a face\n"
+        << "samples       " << grouped(samples) << ", at most "
+        << rounded(result.largest_distance, 6) << " away, exact to " << rounded(result.error, 2)
+        << '\n';
+    if (result.padded > 0) {
+        out << "padding       " << counted(result.padded, "texel", "texels") << " around these\n";
+    }
+    if (result.overlapping > 0) {
+        out << "overlaps      " << counted(result.overlapping, "texel has", "texels have")
+            << " several faces; the lowest counts\n";
+    }
+    if (result.repeating > 0) {
+        out << "repeats       " << counted(result.repeating, "face has", "faces have")
+            << " texture coordinates outside of 0 to 1, which wrap around\n";
+    }
+    if (result.unreached > 0) {
+        out << "no sample     in the parts of the mesh of "
+            << counted(result.unreached, "texel", "texels") << '\n';
+    }
+    out << search_text(mesh, result.done, write_seconds, output, "finding samples");
+    return out.str();
+}
 
 std::uint32_t parse_side(const std::string& text, std::string_view side) {
     const auto texels = parse_integer<std::uint32_t>(side);
@@ -80,21 +142,18 @@ void run_bake(BakeOptions options) {
     ProgressLine progress(options.out.quiet);
     const MeshInput mesh = load_mesh(options.mesh, progress);
     std::vector<MeshWarning> warnings;
-    const HeaderEntries additions = options.mesh.additions();
     const SampleFile file =
-        read_samples_silently_on(options.samples, options.mesh.mesh, mesh, &additions,
-                                 options.tolerance, warnings, progress);
+        read_samples_silently_on(options.samples, mesh, options.tolerance, warnings, progress);
     if (file.rows.empty()) {
         fail_input(options.samples, "has no samples");
     }
     print_warnings(warnings);
     warnings.insert(warnings.begin(), mesh.warnings.begin(), mesh.warnings.end());
     RunDevice device(options.run.device, runner);
-    MapResult result = run_map(file.rows, size, options.mesh.mesh, mesh, target.has_cells(), device,
-                               runner.device_bytes, progress);
+    MapResult result =
+        run_map(file.rows, size, mesh, target.has_cells(), device, runner.device_bytes, progress);
     check_validation(device.context());
-    const MapReport report{options.mesh,      mesh, warnings, result, file.rows.size(),
-                           options.out.output};
+    const MapReport report{mesh, warnings, result, file.rows.size(), options.out.output};
     write_outputs(options.out, "the map", progress, report, [&](AtomicFile& map) {
         write_map(map, target, result.map, file.rows.size(), result.touching);
     });

@@ -8,16 +8,15 @@
 #include "files/samples/sample_fields.hpp"
 #include "files/samples/sample_format.hpp"
 #include "geodisk/cell_run.hpp"
-#include "geodisk/checks/run_warnings.hpp"
 #include "geodisk/checks/sample_input.hpp"
 #include "geodisk/commands/commands.hpp"
 #include "geodisk/commands/help_text.hpp"
 #include "geodisk/inputs/mesh_input.hpp"
 #include "geodisk/opened_device.hpp"
+#include "geodisk/options/distance_options.hpp"
 #include "geodisk/options/mask_options.hpp"
 #include "geodisk/options/mesh_options.hpp"
 #include "geodisk/options/run_options.hpp"
-#include "geodisk/options/tolerance_option.hpp"
 #include "geodisk/outputs/outputs.hpp"
 #include "geodisk/outputs/scene_frame.hpp"
 #include "geodisk/reports/cell_report.hpp"
@@ -112,9 +111,8 @@ void run_cells_command(CellOptions options) {
     check_dimension(options.out.target(), mesh.dimension());
     check_attributes(options, mesh);
     std::vector<MeshWarning> warnings;
-    const HeaderEntries additions = options.mesh.additions();
-    SampleFile file = read_samples_silently_on(options.samples, options.mesh.mesh, mesh, &additions,
-                                               options.tolerance, warnings, progress);
+    SampleFile file =
+        read_samples_silently_on(options.samples, mesh, options.tolerance, warnings, progress);
     if (file.rows.empty()) {
         fail_input(options.samples, "has no samples");
     }
@@ -139,13 +137,9 @@ void run_cells_command(CellOptions options) {
                                           dual_mesh(result, mesh, attributes));
                            }});
     }
-    const CellReport report{options.mesh,
-                            mesh,
-                            warnings,
-                            result,
-                            options.out.output,
-                            options.dual,
-                            scene_frame(options.out, options.mesh, mesh)};
+    const CellReport report{mesh,         warnings,
+                            result,       options.out.output,
+                            options.dual, scene_frame(options.out, options.mesh, mesh)};
     write_outputs(
         options.out, "the samples", progress, report,
         [&](AtomicFile& samples) {

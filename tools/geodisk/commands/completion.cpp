@@ -1,6 +1,5 @@
 #include "program/completion.hpp"
 
-#include <algorithm>
 #include <iostream>
 #include <memory>
 #include <string>
@@ -18,10 +17,7 @@ void add_completion_command(Command app) {
     const auto shell = std::make_shared<std::string>();
     command.add_option("SHELL", *shell, "", "bash or zsh").required();
     command.calls([app, shell] {
-        const std::vector<std::string> shells{"bash", "zsh"};
-        if (std::ranges::find(shells, *shell) == shells.end()) {
-            fail_choice("SHELL", *shell, shells);
-        }
+        check_choice("SHELL", *shell, std::vector<std::string>{"bash", "zsh"});
         std::cout << (*shell == "bash" ? bash_completion(app.facts(), "quick")
                                        : zsh_completion(app.facts(), "quick"));
         flush_or_fail("the script");

@@ -1,8 +1,12 @@
+#include <algorithm>
 #include <optional>
 #include <string>
+#include <type_traits>
+#include <variant>
 #include <vector>
 
 #include <geodisk/context.hpp>
+#include <geodisk/kernel_report.hpp>
 #include <geodisk/sampler.hpp>
 #include <geodisk/version.hpp>
 
@@ -12,13 +16,96 @@
 #include "geodisk/opened_device.hpp"
 #include "geodisk/outputs/outputs.hpp"
 #include "geodisk/reports/json.hpp"
-#include "geodisk/reports/kernel_report.hpp"
+#include "geodisk/reports/json_type.hpp"
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
 #include "program/suggestion.hpp"
+#include "program/table.hpp"
 
 namespace geodisk::tools {
 namespace {
+
+/// No count or size of a kernel is as large; NVIDIA's driver puts other things there.
+constexpr double kBeyondSize = 0x1p32;
+
+/// "" for what is no value.
+std::string value_text(const KernelStatistic& statistic) {
+    return std::visit(
+        [](auto value) -> std::string {
+            using Value = decltype(value);
+            if (static_cast<double>(value) >= kBeyondSize)
+                return "";
+            if constexpr (std::is_same_v<Value, bool>)
+                return value ? "yes" : "no";
+            else if constexpr (std::is_same_v<Value, double>)
+                return rounded(value, 6);
+            else
+                return std::to_string(value);
+        },
+        statistic.value);
+}
+
+/// Returns the names in all reports, in the order of the driver.
+std::vector<std::string> statistic_names(const std::vector<KernelReport>& reports) {
+    std::vector<std::string> names;
+    for (const KernelReport& report : reports) {
+        for (const KernelStatistic& statistic : report.statistics) {
+            if (std::find(names.begin(), names.end(), statistic.name) == names.end())
+                names.push_back(statistic.name);
+        }
+    }
+    return names;
+}
+
+/// One word a line: names are longer than values.
+std::string heading(std::string name) {
+    std::replace(name.begin(), name.end(), ' ', '\n');
+    return name;
+}
+
+/// A table with a column for each statistic that the driver gives.
+std::string kernels_text(const std::vector<KernelReport>& reports) {
+    const std::vector<std::string> names = statistic_names(reports);
+    std::vector<std::string> columns{"kernel", "variant", "executable", "subgroup\nsize"};
+    for (const std::string& name : names)
+        columns.push_back(heading(name));
+    Table table(columns);
+    for (const KernelReport& report : reports) {
+        std::vector<std::string> row{report.kernel, report.variant, report.executable,
+                                     std::to_string(report.subgroup_size)};
+        for (const std::string& name : names) {
+            const auto& all = report.statistics;
+            const auto found = std::find_if(all.begin(), all.end(), [&](const auto& statistic) {
+                return statistic.name == name;
+            });
+            row.push_back(found != all.end() ? value_text(*found) : "");
+        }
+        table.add(row);
+    }
+    constexpr std::size_t kNamesToTheLeft = 3;
+    return table.text(kNamesToTheLeft);
+}
+
+/// An array with an object for each executable.
+Json kernels_json(const std::vector<KernelReport>& reports) {
+    Json kernels = Json::array();
+    for (const KernelReport& report : reports) {
+        Json statistics = Json::object();
+        for (const KernelStatistic& statistic : report.statistics)
+            std::visit(
+                [&](auto value) {
+                    const bool is_size = static_cast<double>(value) < kBeyondSize;
+                    statistics[statistic.name] = is_size ? Json(value) : Json(nullptr);
+                },
+                statistic.value);
+        kernels.push_back({{"kernel", report.kernel},
+                           {"variant", report.variant},
+                           {"executable", report.executable},
+                           {"subgroup_size", report.subgroup_size},
+                           {"statistics", statistics}});
+    }
+    return kernels;
+}
 
 Reads parsed_reads(const std::string& name) {
     if (name.empty())

@@ -8,17 +8,16 @@
 
 #include "files/text_file.hpp"
 #include "files/text_lines.hpp"
-#include "geodisk/checks/run_warnings.hpp"
 #include "geodisk/checks/sample_input.hpp"
 #include "geodisk/commands/commands.hpp"
 #include "geodisk/commands/help_text.hpp"
 #include "geodisk/inputs/mesh_input.hpp"
 #include "geodisk/neighbour_run.hpp"
 #include "geodisk/opened_device.hpp"
+#include "geodisk/options/distance_options.hpp"
 #include "geodisk/options/mask_options.hpp"
 #include "geodisk/options/mesh_options.hpp"
 #include "geodisk/options/run_options.hpp"
-#include "geodisk/options/tolerance_option.hpp"
 #include "geodisk/outputs/outputs.hpp"
 #include "geodisk/reports/neighbour_report.hpp"
 #include "program/arguments.hpp"
@@ -158,23 +157,12 @@ void check_files(const NeighbourOptions& options) {
 SampleFile read_points(const NeighbourOptions& options, const std::string& path,
                        const std::string& column, const MeshInput& mesh,
                        std::vector<MeshWarning>& warnings, ProgressLine& progress) {
-    const HeaderEntries additions = options.mesh.additions();
-    SampleFile file =
-        read_samples_silently_on(path, options.mesh.mesh, mesh, &additions, options.tolerance,
-                                 warnings, progress, {"point", column});
+    SampleFile file = read_samples_silently_on(path, mesh, options.tolerance, warnings, progress,
+                                               {"point", column});
     if (file.rows.empty()) {
         fail_input(path, "has no points");
     }
     return file;
-}
-
-std::vector<Sample> samples_in(const SampleFile& file) {
-    std::vector<Sample> samples;
-    samples.reserve(file.rows.size());
-    for (const SampleRow& row : file.rows) {
-        samples.push_back(sample_of(row));
-    }
-    return samples;
 }
 
 std::vector<double> radii_in(const std::string& path, const std::string& column,
@@ -201,7 +189,7 @@ NeighbourJob make_job(const NeighbourOptions& options, const Within& within,
     } else {
         const SampleFile file =
             read_points(options, options.points, within.column, mesh, warnings, progress);
-        job.sources.points = samples_in(file);
+        job.sources.points = samples_of(file.rows);
         if (!within.column.empty()) {
             job.radii = radii_in(options.points, within.column, file);
         }
@@ -211,7 +199,7 @@ NeighbourJob make_job(const NeighbourOptions& options, const Within& within,
     }
     if (const std::string path = options.searched(); !path.empty()) {
         job.kind = NeighbourKind::points;
-        job.points = samples_in(read_points(options, path, {}, mesh, warnings, progress));
+        job.points = samples_of(read_points(options, path, {}, mesh, warnings, progress).rows);
     } else if (options.among == "sources") {
         job.kind = NeighbourKind::sources;
     }
@@ -249,8 +237,7 @@ void run_neighbours(const NeighbourOptions& options) {
     const NeighbourResult result =
         search_neighbours(job, mesh, device, runner.device_bytes != 0, progress);
     check_validation(device.context());
-    const NeighbourReport report{options.mesh,
-                                 mesh,
+    const NeighbourReport report{mesh,
                                  warnings,
                                  job,
                                  result,

@@ -3,7 +3,6 @@
 #include <vector>
 
 #include "files/samples/sample_file.hpp"
-#include "geodisk/checks/run_warnings.hpp"
 #include "geodisk/checks/sample_checks.hpp"
 #include "geodisk/checks/sample_input.hpp"
 #include "geodisk/commands/commands.hpp"
@@ -46,12 +45,10 @@ void render_samples(const RenderOptions& options) {
     check_tolerance(options.tolerance);
     ProgressLine progress(options.out.quiet);
     const MeshInput mesh = load_mesh(options.mesh, progress);
-    check_visible(options.mesh.mesh, mesh);
+    check_visible(mesh);
     std::vector<MeshWarning> warnings = mesh.warnings;
-    const HeaderEntries additions = options.mesh.additions();
     const SampleFile samples =
-        read_samples_exactly_on(options.samples, options.mesh.mesh, mesh, &additions,
-                                options.tolerance, warnings, progress);
+        read_samples_exactly_on(options.samples, mesh, options.tolerance, warnings, progress);
     std::vector<MeshWarning> of_disks;
     const DrawnPicture drawn = draw_samples(
         options, mesh, samples, of_disks,
@@ -60,9 +57,8 @@ void render_samples(const RenderOptions& options) {
     warnings.insert(warnings.end(), of_disks.begin(), of_disks.end());
     const PictureSubject subject{
         options.samples,
-        mesh_lines("mesh", options.mesh.mesh, options.mesh.additions(), mesh),
-        {{"mesh", mesh_json(options.mesh.mesh, options.mesh.additions(), mesh)},
-         {"warnings", warnings_json(warnings)}}};
+        mesh_lines("mesh", mesh),
+        {{"mesh", mesh_json(mesh)}, {"warnings", warnings_json(warnings)}}};
     write_picture(options, subject, drawn, progress);
 }
 
@@ -72,7 +68,7 @@ DrawnPicture draw_samples(const RenderOptions& options, const MeshInput& mesh,
                           const SampleFile& samples, std::vector<MeshWarning>& warnings,
                           const OpenContext& open, ProgressLine& progress) {
     const picture::PictureParams params = surface_picture(options);
-    check_visible(options.mesh.mesh, mesh);
+    check_visible(mesh);
     std::vector<SurfaceDisk> disks =
         sample_disks_silently(options.samples, samples, mesh, options.distance.parsed(), warnings,
                               progress)

@@ -4,12 +4,12 @@
 #include <vector>
 
 #include "files/input_file.hpp"
-#include "geodisk/checks/run_warnings.hpp"
 #include "geodisk/checks/sample_checks.hpp"
 #include "geodisk/commands/commands.hpp"
 #include "geodisk/commands/help_text.hpp"
 #include "geodisk/inputs/mesh_input.hpp"
-#include "geodisk/options/report_options.hpp"
+#include "geodisk/options/sample_options.hpp"
+#include "geodisk/options/up_option.hpp"
 #include "geodisk/outputs/outputs.hpp"
 #include "geodisk/page_content.hpp"
 #include "geodisk/reports/page_report.hpp"
@@ -17,6 +17,7 @@
 #include "geodisk/sample_run.hpp"
 #include "geodisk/set_analysis.hpp"
 #include "geodisk/spectrum_run.hpp"
+#include "picture/view.hpp"
 #include "program/command.hpp"
 #include "program/failure.hpp"
 #include "program/program.hpp"
@@ -31,6 +32,42 @@ constexpr const char* kReportExamples[] = {
     "geodisk report bunny.obj -o bunny.html --min-distance 2% --view front",
 };
 
+/// As given on the command line.
+struct ReportOptions {
+    SampleOptions sample; ///< Its output is the page.
+    std::string probes, view = "auto";
+    UpOption up;
+    std::string harmonics; ///< Harmonics of the spectrum; "" for none.
+
+    /// The views to choose the first one from. Throws UserError(usage).
+    std::vector<picture::View> first_views() const {
+        const auto given = picture::parse_view("--view", view);
+        return given ? std::vector{*given} : picture::views_to_try();
+    }
+};
+
+/// Adds all options of the command; `options` must outlive the parsing.
+void add_report_options(Command command, ReportOptions& options) {
+    add_mesh_argument(command, options.sample.mesh, "Mesh to sample");
+    add_output_argument(command, options.sample.out, "Page to write: *.html");
+    command
+        .add_option("--view", options.view, "VIEW",
+                    "First direction of view: front, back, left, right, top,\n"
+                    "bottom, AZIMUTH,ELEVATION in degrees, or auto for the one\n"
+                    "that shows most")
+        .offers(picture::named_views())
+        .shows_default();
+    add_up_option(command, options.up);
+    add_probes_option(command, options.probes);
+    command.add_option("--harmonics", options.harmonics, "K",
+                       "Show the power spectrum from K waves of the surface (default\n"
+                       "no spectrum); blue noise needs about five per sample");
+    add_job_options(command, options.sample);
+    add_json_option(command, options.sample.out);
+    add_quiet_option(command, options.sample.out);
+    add_verbose_option(command, options.sample.run.device);
+}
+
 void check_page_path(const Path& path) {
     const std::string extension = lower_extension(path);
     if (extension != ".html" && extension != ".htm" && !output_stream(path)) {
@@ -39,16 +76,14 @@ void check_page_path(const Path& path) {
     check_writable(path);
 }
 
-SpectrumRun spectrum_of(const SampleJob& job, const MeshInput& mesh,
-                        std::span<const SurfaceDisk> disks, const std::string& harmonics,
-                        ProgressLine& progress) {
+SpectrumRun spectrum_of(const MeshInput& mesh, std::span<const SurfaceDisk> disks,
+                        const std::string& harmonics, ProgressLine& progress) {
     analysis::PlacedSamples places;
     for (const SurfaceDisk& disk : disks) {
         places.push_back({disk.face, disk.weight1, disk.weight2});
     }
     std::vector<MeshWarning> warnings; // Printed; the page tells of the mesh itself.
-    return compute_spectrum_on(job.mesh.mesh, mesh, std::span(&places, 1), harmonics, warnings,
-                               progress);
+    return compute_spectrum_on(mesh, std::span(&places, 1), harmonics, warnings, progress);
 }
 
 void run_report(const ReportOptions& options) {
@@ -79,7 +114,7 @@ void run_report(const ReportOptions& options) {
     page.set = analyze_disks(mesh, samples, options.probes, 0, progress);
     page.measure_seconds = watch.seconds();
     if (!options.harmonics.empty()) {
-        page.spectrum = spectrum_of(job, mesh, samples.disks, options.harmonics, progress);
+        page.spectrum = spectrum_of(mesh, samples.disks, options.harmonics, progress);
     }
     watch = Stopwatch();
     page.content = make_page_content(mesh, samples, page.set.found.neighbors, up, progress);

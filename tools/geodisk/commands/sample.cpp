@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "files/meshes/mesh_file.hpp"
-#include "geodisk/checks/run_warnings.hpp"
 #include "geodisk/checks/sample_checks.hpp"
 #include "geodisk/commands/commands.hpp"
 #include "geodisk/commands/help_text.hpp"
@@ -109,7 +108,7 @@ void sample_to_files(const SampleOptions& options, const UnnamedOutputs& unnamed
         check_target(job, mesh);
     }
     if (!job.picture.empty()) {
-        check_visible(job.mesh.mesh, mesh);
+        check_visible(mesh);
     }
     RunDevice device = open_device_for(job, std::move(begun), unnamed.may_lack_picture, progress);
     device.sample_by(sampler);

@@ -72,9 +72,8 @@ SurfaceSets read_sets(const SpectrumOptions& options, const MeshInput& mesh,
                       std::vector<MeshWarning>& warnings, ProgressLine& progress) {
     SurfaceSets result;
     for (const std::string& path : options.samples) {
-        const HeaderEntries additions = options.mesh.additions();
-        const SampleFile file = read_samples_exactly_on(path, options.mesh.mesh, mesh, &additions,
-                                                        options.tolerance, warnings, progress);
+        const SampleFile file =
+            read_samples_exactly_on(path, mesh, options.tolerance, warnings, progress);
         if (file.rows.empty()) {
             fail_input(path, "has no samples");
         }
@@ -130,15 +129,14 @@ void spectrum_of_surface(const SpectrumOptions& options) {
     const MeshInput mesh = load_mesh(options.mesh, progress);
     std::vector<MeshWarning> warnings = mesh.warnings;
     const SurfaceSets sets = read_sets(options, mesh, warnings, progress);
-    const std::string& path = options.mesh.mesh;
     const SpectrumRun run =
-        compute_spectrum_on(path, mesh, sets.sets, options.harmonics, warnings, progress);
+        compute_spectrum_on(mesh, sets.sets, options.harmonics, warnings, progress);
     const SurfaceSpectrum& spectrum = run.spectrum;
 
     const SpectrumReport report{options.samples, sets.samples, sets.min_distance, spectrum.rings(),
                                 2.0 / static_cast<double>(sets.sets.size())};
     Json json{{"version", GEODISK_VERSION_STRING},
-              {"mesh", mesh_json(path, options.mesh.additions(), mesh)},
+              {"mesh", mesh_json(mesh)},
               {"warnings", warnings_json(warnings)},
               {"harmonics",
                {{"count", spectrum.frequencies.size()},
@@ -147,7 +145,7 @@ void spectrum_of_surface(const SpectrumOptions& options) {
                 {"expected_seconds", run.expected_seconds},
                 {"expected_bytes", run.expected_bytes}}}};
     report.add_to(json);
-    const std::string text = mesh_lines("mesh", path, options.mesh.additions(), mesh) +
+    const std::string text = mesh_lines("mesh", mesh) +
                              harmonics_line(spectrum, sets.min_distance, run.seconds) +
                              report.text();
     if (options.out.output.empty()) {

@@ -21,10 +21,10 @@
 #include "geodisk/commands/help_text.hpp"
 #include "geodisk/farthest_run.hpp"
 #include "geodisk/inputs/mesh_input.hpp"
+#include "geodisk/options/distance_options.hpp"
 #include "geodisk/options/mesh_options.hpp"
 #include "geodisk/options/method_options.hpp"
 #include "geodisk/options/run_options.hpp"
-#include "geodisk/options/tolerance_option.hpp"
 #include "geodisk/outputs/outputs.hpp"
 #include "geodisk/outputs/progress.hpp"
 #include "geodisk/outputs/scene_frame.hpp"
@@ -125,7 +125,7 @@ SampleHeader transferred_header(const TransferOptions& options, const Transfer& 
     const auto add = [&](const HeaderEntries& more) {
         header.entries.insert(header.entries.end(), more.begin(), more.end());
     };
-    add(options.to.additions());
+    add(done.to.additions);
     if (done.closest) {
         add({{"min_distance", exact_text(done.closest->distance)}});
     }
@@ -153,24 +153,22 @@ std::uint64_t seed_of(const SampleHeader& header) {
 }
 
 std::string report_text(const TransferOptions& options, const Transfer& done) {
-    return text_of(
-        Json{{"version", GEODISK_VERSION_STRING},
-             {"transferred_from", options.samples},
-             {"mesh_a", mesh_json(options.from.mesh, options.from.additions(), done.from)},
-             {"mesh_b", mesh_json(options.to.mesh, options.to.additions(), done.to)},
-             {"warnings_a", warnings_json(done.from.warnings)},
-             {"warnings_b", warnings_json(done.to.warnings)},
-             {"output", options.out.output},
-             {"samples", done.samples.rows.size()},
-             {"farthest", done.farthest ? farthest_json(*done.farthest) : Json(nullptr)},
-             {"scene", scene_json(done.scene)},
-             {"smallest", pair_json(done.closest)}});
+    return text_of(Json{{"version", GEODISK_VERSION_STRING},
+                        {"transferred_from", options.samples},
+                        {"mesh_a", mesh_json(done.from)},
+                        {"mesh_b", mesh_json(done.to)},
+                        {"warnings_a", warnings_json(done.from.warnings)},
+                        {"warnings_b", warnings_json(done.to.warnings)},
+                        {"output", options.out.output},
+                        {"samples", done.samples.rows.size()},
+                        {"farthest", done.farthest ? farthest_json(*done.farthest) : Json(nullptr)},
+                        {"scene", scene_json(done.scene)},
+                        {"smallest", pair_json(done.closest)}});
 }
 
 std::string summary_text(const TransferOptions& options, const Transfer& done) {
     std::ostringstream out;
-    out << mesh_lines("from", options.from.mesh, options.from.additions(), done.from)
-        << mesh_lines("to", options.to.mesh, options.to.additions(), done.to) << "samples       "
+    out << mesh_lines("from", done.from) << mesh_lines("to", done.to) << "samples       "
         << grouped(done.samples.rows.size()) << " of " << one_line(options.samples) << '\n';
     if (done.farthest) {
         out << farthest_line(*done.farthest);
@@ -195,9 +193,7 @@ FarthestRun put_farthest_first(const TransferOptions& options, const RunnerOptio
 }
 
 FarthestParams parse_order(const TransferOptions& options) {
-    if (options.order != "file" && !options.is_farthest()) {
-        fail_choice("--order", options.order, std::vector<std::string>{"file", "farthest"});
-    }
+    check_choice("--order", options.order, std::vector<std::string>{"file", "farthest"});
     if (!options.start.empty() && !options.first.empty()) {
         fail_usage(
             "--start and --first exclude each other: the first samples of a file come first");
@@ -234,8 +230,8 @@ void run_transfer(const TransferOptions& options) {
     check_dimension(options.out.target(), to.dimension());
     check_record(options.out.record, to);
     SampleFile& samples = done.samples;
-    samples = read_samples_exactly_on(options.samples, options.from.mesh, done.from, nullptr,
-                                      options.tolerance, done.from.warnings, progress);
+    samples = read_samples_exactly_on(options.samples, done.from, options.tolerance,
+                                      done.from.warnings, progress, {.compares_surface = false});
     warn_of_no_samples(options.samples, samples, done.from.warnings);
     if (options.is_farthest()) {
         done.farthest = put_farthest_first(options, runner, order, to, samples, progress);

@@ -140,9 +140,8 @@ void verify_samples(const VerifyOptions& options, const NotePairs& note) {
     ProgressLine progress(options.out.quiet);
     const MeshInput mesh = load_mesh(options.mesh, progress, options.density, options.mask);
     std::vector<MeshWarning> warnings = mesh.warnings;
-    const HeaderEntries additions = options.mesh.additions();
-    auto [samples, strays] = read_samples_on(options.samples, options.mesh.mesh, mesh, &additions,
-                                             options.tolerance, warnings, progress);
+    auto [samples, strays] =
+        read_samples_on(options.samples, mesh, options.tolerance, warnings, progress);
     warn_of_no_samples(options.samples, samples, warnings);
     warn_of_other_rows(options, samples, warnings);
     check_class_options(options.samples, samples, options.mask, options.constraints);

@@ -84,11 +84,10 @@ std::vector<std::uint8_t> classes_in(const std::string& path, const SampleFile& 
 void avoid_file(const AvoidOption& option, const std::string& tolerance, const MeshOptions& of_mesh,
                 const MeshInput& mesh, std::vector<MeshWarning>& warnings, ProgressLine& progress,
                 Avoided& avoided, std::vector<KeepOut>& along_lines) {
-    const HeaderEntries additions = of_mesh.additions();
     const std::string& path = option.points;
     const SampleFile file =
-        read_samples_silently_on(path, of_mesh.mesh, mesh, &additions, tolerance, warnings,
-                                 progress, {"point", option.column, true, of_mesh.allows_outside});
+        read_samples_silently_on(path, mesh, tolerance, warnings, progress,
+                                 {"point", option.column, true, of_mesh.allows_outside});
     warn_if_empty(file, path, "has no points to avoid, so --avoid does nothing", warnings);
     const std::size_t first = avoided.disks.size();
     for (std::size_t i = 0; i < file.rows.size(); ++i) {
@@ -103,12 +102,12 @@ void avoid_file(const AvoidOption& option, const std::string& tolerance, const M
         }
         avoided.disks.push_back({sample_of(file.rows[i]), radius});
     }
-    avoided.length += LineCover(mesh, path, of_mesh.mesh, tolerance)
-                          .cover(file, first, avoided.disks, along_lines);
+    avoided.length +=
+        LineCover(mesh, path, tolerance).cover(file, first, avoided.disks, along_lines);
 }
 
 /// Adds points along edges of the mesh.
-void avoid_edges(const AvoidOption& option, const MeshOptions& of_mesh, const MeshInput& mesh,
+void avoid_edges(const AvoidOption& option, const MeshInput& mesh,
                  std::vector<MeshWarning>& warnings, Avoided& avoided,
                  std::vector<KeepOut>& along_lines) {
     const double radius = distance_on_mesh(*option.radius, mesh.prepared.statistics());
@@ -117,8 +116,7 @@ void avoid_edges(const AvoidOption& option, const MeshOptions& of_mesh, const Me
         const bool is_border = option.kind == AvoidOption::Kind::border;
         warnings.push_back(
             {"nothing_to_avoid", 1, "",
-             std::string("has no ") + (is_border ? "border" : "creases") + " to avoid",
-             of_mesh.mesh});
+             std::string("has no ") + (is_border ? "border" : "creases") + " to avoid", mesh.path});
     }
     avoided.length += length;
 }
@@ -136,7 +134,7 @@ Avoided load_avoided(const ConstraintOptions& options, const MeshOptions& of_mes
             avoid_file(option, options.tolerance, of_mesh, mesh, warnings, progress, avoided,
                        along_lines);
         } else {
-            avoid_edges(option, of_mesh, mesh, warnings, avoided, along_lines);
+            avoid_edges(option, mesh, warnings, avoided, along_lines);
         }
         avoided.classes.resize(avoided.disks.size(), option.only_class);
         of_lines.resize(along_lines.size(), option.only_class);
@@ -158,10 +156,8 @@ ExistingInput load_existing(const SampleJob& job, const MeshInput& mesh, Progres
     if (options.existing.empty()) {
         return existing;
     }
-    const HeaderEntries additions = job.mesh.additions();
-    const SampleFile file =
-        read_samples_silently_on(options.existing, job.mesh.mesh, mesh, &additions,
-                                 options.tolerance, existing.warnings, progress);
+    const SampleFile file = read_samples_silently_on(options.existing, mesh, options.tolerance,
+                                                     existing.warnings, progress);
     warn_if_empty(file, options.existing, "has no samples to keep, so --existing does nothing",
                   existing.warnings);
     check_count(job, file.rows.size());

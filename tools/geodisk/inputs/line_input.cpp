@@ -9,7 +9,7 @@
 
 #include <geodisk/features.hpp>
 
-#include "geodisk/options/tolerance_option.hpp"
+#include "geodisk/options/distance_options.hpp"
 #include "geometry/nearest_face.hpp"
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
@@ -104,9 +104,9 @@ double path_between(const PreparedMesh& mesh, const Sample& a, const Sample& b) 
 /// Covers one line after the other.
 class Cover {
   public:
-    Cover(const MeshInput& mesh, const std::string& path, const std::string& of_mesh,
-          const std::string& tolerance, std::vector<KeepOut>& between)
-        : mesh_(mesh), path_(path), of_mesh_(of_mesh), faces_(mesh.file),
+    Cover(const MeshInput& mesh, const std::string& path, const std::string& tolerance,
+          std::vector<KeepOut>& between)
+        : mesh_(mesh), path_(path), faces_(mesh.file),
           tolerance_(tolerance_on(tolerance, faces_.diagonal())), between_(between) {}
 
     double length() const { return length_; }
@@ -138,7 +138,7 @@ class Cover {
         const Vector point = between(a.point, b.point, 0.5);
         const SurfacePoint nearest = faces_.find(std::span(point).first(mesh_.dimension()));
         if (nearest.distance > tolerance_) {
-            fail_input(path_, "a line leaves " + of_mesh_ + ": its point" + text_of(point) +
+            fail_input(path_, "a line leaves " + mesh_.path + ": its point" + text_of(point) +
                                   " is " + rounded(nearest.distance, 3) +
                                   " away; give it more points, or raise --tolerance");
         }
@@ -161,7 +161,6 @@ class Cover {
 
     const MeshInput& mesh_;
     const std::string& path_;
-    const std::string& of_mesh_;
     NearestFace faces_;
     double tolerance_;
     std::vector<KeepOut>& between_;
@@ -196,10 +195,8 @@ std::vector<std::uint32_t> edges_of(const MeshInput& mesh, AvoidOption::Kind kin
 
 } // namespace
 
-LineCover::LineCover(const MeshInput& mesh, std::string path, std::string of_mesh,
-                     std::string tolerance)
-    : mesh_(mesh), path_(std::move(path)), of_mesh_(std::move(of_mesh)),
-      tolerance_(std::move(tolerance)) {}
+LineCover::LineCover(const MeshInput& mesh, std::string path, std::string tolerance)
+    : mesh_(mesh), path_(std::move(path)), tolerance_(std::move(tolerance)) {}
 
 double LineCover::cover(const SampleFile& file, std::size_t first, std::vector<KeepOut>& disks,
                         std::vector<KeepOut>& between) const {
@@ -210,7 +207,7 @@ double LineCover::cover(const SampleFile& file, std::size_t first, std::vector<K
         fail_input(path_, "has lines, which need the coordinates of the mesh, and it has edge "
                           "lengths alone");
     }
-    Cover cover(mesh_, path_, of_mesh_, tolerance_, between);
+    Cover cover(mesh_, path_, tolerance_, between);
     // Radii of the points alone, before the disks grow.
     std::vector<Place> places;
     for (std::size_t i = first; i < first + file.rows.size(); ++i) {

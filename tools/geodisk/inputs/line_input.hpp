@@ -32,8 +32,8 @@ struct Avoided {
 /// halved, and the middle moved to the nearest face, until both halves are short enough.
 class LineCover {
   public:
-    /// `path` names the file and `of_mesh` the mesh in errors; points may be moved by `tolerance`.
-    LineCover(const MeshInput& mesh, std::string path, std::string of_mesh, std::string tolerance);
+    /// `path` names the file in errors; points may be moved by `tolerance`.
+    LineCover(const MeshInput& mesh, std::string path, std::string tolerance);
 
     /// Adds the disks of the segments of `file`, whose rows have the disks from `first` on; these
     /// become wider. Further disks are appended to `between`. Returns the length of the lines.
@@ -43,7 +43,7 @@ class LineCover {
 
   private:
     const MeshInput& mesh_;
-    std::string path_, of_mesh_, tolerance_;
+    std::string path_, tolerance_;
 };
 
 /// Appends disks that cover, in the same way, all borders of the mesh, or all edges where faces

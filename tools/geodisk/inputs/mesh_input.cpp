@@ -247,6 +247,8 @@ MeshInput load_silently(const MeshOptions& options, ProgressLine& progress,
                    distance_part,    {},
                    load_seconds,     watch.seconds()};
     mesh.split = std::move(split);
+    mesh.path = path;
+    mesh.additions = with_entries(density.added_to(options.additions()), mask);
     mesh.class_count = loaded_shares.count;
     mesh.class_shares = std::move(loaded_shares.shares);
     if (mesh.file.materials) {
@@ -270,9 +272,7 @@ MeshInput load_mesh(const MeshOptions& options, ProgressLine& progress,
                     const std::string& hint) {
     MeshInput mesh = load_silently(options, progress, density, mask, hint);
     progress.clear();
-    for (const MeshWarning& warning : mesh.warnings) {
-        print_warning((warning.file.empty() ? "" : warning.file + ": ") + warning.message);
-    }
+    print_warnings(mesh.warnings);
     return mesh;
 }
 
@@ -284,6 +284,7 @@ MeshInput load_masked_mesh(const MeshOptions& options, ProgressLine& progress,
             "--mask: the image shows more than the corners of faces; split the faces where it "
             "has detail");
     }
+    mesh.additions = options.additions();
     return mesh;
 }
 

@@ -30,6 +30,12 @@ namespace geodisk::tools {
 inline Sample sample_of(const SampleRow& row) {
     return {row.face, {row.bary[0], row.bary[1], row.bary[2]}};
 }
+/// Returns those of all rows.
+inline std::vector<Sample> samples_of(std::span<const SampleRow> rows) {
+    std::vector<Sample> samples(rows.size());
+    std::ranges::transform(rows, samples.begin(), sample_of);
+    return samples;
+}
 
 /// The surface of a mesh whose faces are split for images.
 struct SplitSurface {
@@ -60,6 +66,9 @@ struct MeshInput {
     /// SampleParams::class_shares of so many classes on sampled(), where options give some.
     std::size_t class_count = 0;
     std::vector<float> class_shares{};
+    std::string path{}; ///< Names the mesh in messages and reports.
+    /// Options that shape the surface, its radii and where samples may lie, as headers name them.
+    HeaderEntries additions{};
 
     /// Returns the mesh that samples are drawn on, and that radii and masks are of.
     const PreparedMesh& sampled() const { return split ? split->prepared : prepared; }

@@ -19,9 +19,6 @@
 namespace geodisk::tools {
 namespace {
 
-/// Curvature makes no radius smaller.
-constexpr double kLeastFactor = 0.1;
-
 /// Values at the vertices, and where they come from for messages.
 struct Values {
     std::string source;
@@ -184,7 +181,7 @@ std::vector<double> density_parts(const DensitySource& of, const std::string& pa
         if (mesh.fans()[v].corner_count == 0) {
             value = 0;
         } else if (of.kind == DensitySource::Kind::curvature) { // A factor of radii.
-            const double factor = std::max(value, kLeastFactor);
+            const double factor = std::max(value, kCurvatureFloor);
             value = 1 / (factor * factor);
         } else if (!(value >= 0) || !std::isfinite(value)) {
             fail_input(values.source, "the density of vertex " + std::to_string(v) + " is " +

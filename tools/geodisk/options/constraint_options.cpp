@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "geodisk/options/class_options.hpp"
-#include "geodisk/options/tolerance_option.hpp"
+#include "geodisk/options/distance_options.hpp"
 #include "program/command.hpp"
 #include "program/failure.hpp"
 #include "program/human_text.hpp"

@@ -17,9 +17,6 @@ namespace {
 
 using Kind = DensitySource::Kind;
 
-/// Few vertices are curved so much that a tenth is not small enough, and those are often noise.
-constexpr double kCurvatureFloor = 0.1;
-
 constexpr std::array<std::pair<std::string_view, Kind>, 3> kPrefixes{
     {{"attribute:", Kind::attribute}, {"file:", Kind::file}, {"map:", Kind::map}}};
 

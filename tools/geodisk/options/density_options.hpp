@@ -14,6 +14,10 @@
 
 namespace geodisk::tools {
 
+/// Least factor of curvature. Few vertices are curved so much that a tenth is not small enough, and
+/// those are often noise.
+inline constexpr double kCurvatureFloor = 0.1;
+
 /// Source of the values at the vertices, and their meaning.
 struct DensitySource {
     enum class Kind { attribute, file, map, curvature };

@@ -1,5 +1,5 @@
-// The distance that samples of a file are to keep, where a command line tells another than the
-// file.
+// Lengths for samples of files: the distance that they are to keep, and how far off a mesh they may
+// lie.
 #pragma once
 
 #include <optional>
@@ -11,7 +11,7 @@ namespace geodisk::tools {
 
 class Command;
 
-/// As given on the command line.
+/// Distance that samples are to keep, where a command line tells another than the file.
 struct DistanceOptions {
     std::string min_distance, radius;
 
@@ -21,5 +21,16 @@ struct DistanceOptions {
 
 /// Adds --min-distance and --radius.
 void add_distance_options(Command command, DistanceOptions& options);
+
+/// Adds --tolerance.
+void add_tolerance_option(Command command, std::string& tolerance,
+                          const std::string& group = "Options");
+
+/// Throws UserError(usage) for what is no length.
+void check_tolerance(const std::string& tolerance);
+
+/// Returns the distance that points of other programs may lie off a mesh in mesh units on a mesh
+/// with that diagonal.
+double tolerance_on(const std::string& tolerance, double diagonal);
 
 } // namespace geodisk::tools

@@ -39,9 +39,21 @@ constexpr std::array<std::pair<std::string_view, Comparison>, 6> kComparisons{
 constexpr const char* kMask = "--mask";
 constexpr const char* kClassMask = "--class-mask";
 constexpr const char* kClassDensity = "--class-density";
+constexpr std::pair<const char*, std::vector<std::string> MaskOptions::*> kLists[] = {
+    {"--only", &MaskOptions::only},
+    {kMask, &MaskOptions::masks},
+    {kClassMask, &MaskOptions::class_masks},
+    {kClassDensity, &MaskOptions::class_densities}};
 constexpr std::string_view kMap = "map:";
 /// Grey of an image from which on it counts as white.
 constexpr double kWhite = 0.5;
+
+/// Returns the key of an option in headers.
+std::string key_of(const std::string& option) {
+    std::string key = option.substr(2);
+    std::ranges::replace(key, '-', '_');
+    return key;
+}
 
 OnlyRule parse_only(const std::string& text) {
     for (const auto& [prefix, kind] : kKinds) {
@@ -243,29 +255,19 @@ void MaskOptions::place_files(const std::function<std::string(const std::string&
 
 HeaderEntries MaskOptions::entries() const {
     HeaderEntries entries;
-    for (const std::string& text : only) {
-        entries.emplace_back("only", text);
-    }
-    for (const std::string& text : masks) {
-        entries.emplace_back("mask", text);
-    }
-    for (const std::string& text : class_masks) {
-        entries.emplace_back("class_mask", text);
-    }
-    for (const std::string& text : class_densities) {
-        entries.emplace_back("class_density", text);
+    for (const auto& [option, values] : kLists) {
+        for (const std::string& text : this->*values) {
+            entries.emplace_back(key_of(option), text);
+        }
     }
     return entries;
 }
 
 std::string MaskOptions::names() const {
     std::string names;
-    for (const auto& [name, values] : {std::pair{"--only", &only},
-                                       {kMask, &masks},
-                                       {kClassMask, &class_masks},
-                                       {kClassDensity, &class_densities}}) {
-        if (!values->empty()) {
-            names += (names.empty() ? "" : " and ") + std::string(name);
+    for (const auto& [option, values] : kLists) {
+        if (!(this->*values).empty()) {
+            names += (names.empty() ? "" : " and ") + std::string(option);
         }
     }
     return names;

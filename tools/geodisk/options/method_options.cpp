@@ -75,10 +75,8 @@ std::vector<std::uint32_t> parse_class_counts(const std::string& count) {
 }
 
 void parse_order(const MethodOptions& options, Method& method) {
-    const std::vector<std::string> names{"dart", "progressive", "farthest"};
-    if (std::ranges::find(names, options.order) == names.end()) {
-        fail_choice("--order", options.order, names);
-    }
+    check_choice("--order", options.order,
+                 std::vector<std::string>{"dart", "progressive", "farthest"});
     method.has_levels = options.order == "progressive";
     method.is_farthest = options.order == "farthest";
     method.keep = parse_keep(options.keep, method.is_farthest);
@@ -101,6 +99,23 @@ void parse_order(const MethodOptions& options, Method& method) {
 }
 
 } // namespace
+
+void GivenFields::add(RequestField field, const std::string& option, bool is_set) {
+    if (is_set) {
+        fields_.add(field);
+        options_[static_cast<std::size_t>(field)] = option;
+    }
+}
+
+void GivenFields::check() const {
+    const auto option = [&](RequestField field) -> const std::string& {
+        return options_[static_cast<std::size_t>(field)];
+    };
+    if (const RequestRule* const rule = broken_rule(fields_)) {
+        fail_usage(option(rule->field) + " and " + option(rule->other) +
+                   " exclude each other: " + rule->reason);
+    }
+}
 
 std::uint32_t Method::darts_for(double samples) const {
     if ((stop_count == 0 && class_counts.empty()) || darts != 0) {

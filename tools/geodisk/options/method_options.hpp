@@ -1,6 +1,7 @@
 // Number of candidates of a run and its end: options of the commands that sample.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -11,12 +12,24 @@
 
 #include <geodisk/levels.hpp>
 #include <geodisk/params.hpp>
-
-#include "geodisk/options/given_fields.hpp"
+#include <geodisk/request_rules.hpp>
 
 namespace geodisk::tools {
 
 class Command;
+
+/// Fields, with the options that set them.
+class GivenFields {
+  public:
+    /// Notes that an option, as it was given, sets a field.
+    void add(RequestField field, const std::string& option, bool is_set = true);
+    /// Throws UserError(usage) for two options whose fields exclude each other.
+    void check() const;
+
+  private:
+    RequestFields fields_;
+    std::array<std::string, kRequestFields> options_;
+};
 
 /// Returns true for "darts", and for "pdts", as the paper calls the method.
 inline bool names_darts(std::string_view method) {

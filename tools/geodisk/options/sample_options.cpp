@@ -115,10 +115,6 @@ GivenFields given_fields(const SampleOptions& options, const ClassTable& classes
     return given;
 }
 
-HeaderEntries SampleJob::additions() const {
-    return with_entries(density.added_to(mesh.additions()), mask);
-}
-
 std::string metric_name(const std::optional<Metric>& metric) {
     return !metric ? "geodesic" : *metric == Metric::euclidean ? "euclidean" : "approximate";
 }

@@ -11,7 +11,6 @@
 #include "geodisk/options/class_options.hpp"
 #include "geodisk/options/constraint_options.hpp"
 #include "geodisk/options/density_options.hpp"
-#include "geodisk/options/given_fields.hpp"
 #include "geodisk/options/mask_options.hpp"
 #include "geodisk/options/mesh_options.hpp"
 #include "geodisk/options/method_options.hpp"
@@ -76,9 +75,6 @@ struct SampleJob {
     std::string update;  ///< Its samples, or "".
 
     bool is_geodesic() const { return !metric; }
-
-    /// Returns what shapes the surface and its radii besides the mesh file, as the header names it.
-    HeaderEntries additions() const;
 };
 
 /// Returns the fields of a request that the options set.

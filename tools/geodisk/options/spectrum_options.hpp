@@ -7,7 +7,6 @@
 #include "geodisk/options/distance_options.hpp"
 #include "geodisk/options/mesh_options.hpp"
 #include "geodisk/options/run_options.hpp"
-#include "geodisk/options/tolerance_option.hpp"
 
 namespace geodisk::tools {
 

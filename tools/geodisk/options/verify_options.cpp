@@ -6,8 +6,8 @@
 #include "files/input_file.hpp"
 #include "files/samples/sample_format.hpp"
 #include "geodisk/options/class_options.hpp"
-#include "geodisk/options/given_fields.hpp"
-#include "geodisk/options/tolerance_option.hpp"
+#include "geodisk/options/distance_options.hpp"
+#include "geodisk/options/method_options.hpp"
 #include "program/arguments.hpp"
 #include "program/failure.hpp"
 
@@ -43,10 +43,6 @@ void check_class_options(const VerifyOptions& options) {
 }
 
 } // namespace
-
-HeaderEntries VerifyOptions::additions() const {
-    return with_entries(density.added_to(mesh.additions()), mask);
-}
 
 std::vector<NamedFile> VerifyOptions::files_read() const {
     std::vector<NamedFile> read{{"the samples", samples}};

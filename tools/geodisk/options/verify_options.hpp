@@ -22,8 +22,6 @@ struct VerifyOptions {
     bool is_maximal = false; ///< Look for gaps as well.
     OutputOptions out;       ///< No samples.
 
-    /// Returns what makes the surface and the radii on it, as the header of a sample file names it.
-    HeaderEntries additions() const;
     /// Returns the files that are read, the samples first.
     std::vector<NamedFile> files_read() const;
     /// Throws UserError(usage) for wrong or contradictory options, before any file is read.

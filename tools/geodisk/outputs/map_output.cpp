@@ -21,13 +21,9 @@ const std::vector<std::string>& map_depths() {
 MapTarget parse_map_target(const Path& path, const std::string& style, const std::string& depth) {
     MapTarget target;
     target.format = map_format(path);
-    if (style != map_style_names()[0] && style != map_style_names()[1]) {
-        fail_choice("--style", style, map_style_names());
-    }
+    check_choice("--style", style, map_style_names());
     target.style = picture::parse_style("--style", style);
-    if (depth != map_depths()[0] && depth != map_depths()[1]) {
-        fail_choice("--depth", depth, map_depths());
-    }
+    check_choice("--depth", depth, map_depths());
     target.is_deep = depth == map_depths()[1];
     if (target.is_deep && (target.format != MapFormat::png || target.has_cells())) {
         fail_usage(

@@ -134,4 +134,10 @@ void print_warning(const std::string& message) {
               << '\n';
 }
 
+void print_warnings(const std::vector<MeshWarning>& warnings) {
+    for (const MeshWarning& warning : warnings) {
+        print_warning((warning.file.empty() ? "" : warning.file + ": ") + warning.message);
+    }
+}
+
 } // namespace geodisk::tools

@@ -85,4 +85,7 @@ void print_failure(const std::string& subject, const std::string& message);
 /// "NAME: warning: MESSAGE", NAME that of the program, on standard error, once for each message.
 void print_warning(const std::string& message);
 
+/// The same with warnings about files.
+void print_warnings(const std::vector<MeshWarning>& warnings);
+
 } // namespace geodisk::tools

@@ -114,7 +114,7 @@ Json set_json(const SetAnalysis& set) {
 
 std::string report_text(const Analysis& analysis) {
     std::ostringstream out;
-    out << mesh_lines("mesh", analysis.mesh_options.mesh, analysis.additions, analysis.mesh);
+    out << mesh_lines("mesh", analysis.mesh);
     Table table({"samples of", "number", "rho", "smallest", "mean\nnearest", "room\nfor more",
                  "largest\ngap", "pairs\npeak", "at", "bare\nparts"});
     bool has_classes = false;
@@ -151,14 +151,13 @@ std::string report_json(const Analysis& analysis) {
     for (const SetAnalysis& set : analysis.sets) {
         sets.push_back(set_json(set));
     }
-    Json document{
-        {"version", GEODISK_VERSION_STRING},
-        {"mesh", mesh_json(analysis.mesh_options.mesh, analysis.additions, analysis.mesh)},
-        {"warnings", warnings_json(analysis.warnings)},
-        {"sets", sets},
-        {"number", alike ? json_of_summary(number_of(analysis.sets)) : Json(nullptr)},
-        {"uncovered", alike ? json_of_summary(room_of(analysis.sets)) : Json(nullptr)},
-        {"evenness", nullptr}};
+    Json document{{"version", GEODISK_VERSION_STRING},
+                  {"mesh", mesh_json(analysis.mesh)},
+                  {"warnings", warnings_json(analysis.warnings)},
+                  {"sets", sets},
+                  {"number", alike ? json_of_summary(number_of(analysis.sets)) : Json(nullptr)},
+                  {"uncovered", alike ? json_of_summary(room_of(analysis.sets)) : Json(nullptr)},
+                  {"evenness", nullptr}};
     if (analysis.evenness) {
         document["evenness"] = {{"sets", analysis.evenness->sets},
                                 {"regions", analysis.evenness->regions},

@@ -33,8 +33,6 @@ bool are_alike(const std::vector<SetAnalysis>& sets);
 
 /// All sets, on one mesh; what is borrowed must outlive it.
 struct Analysis {
-    const MeshOptions& mesh_options;
-    const HeaderEntries& additions; ///< Settings that make the surface, and where samples may lie.
     const MeshInput& mesh;
     const std::vector<MeshWarning>& warnings;
     const std::vector<SetAnalysis>& sets;

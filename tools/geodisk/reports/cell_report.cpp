@@ -13,12 +13,6 @@
 namespace geodisk::tools {
 namespace {
 
-SecondsByStage seconds_of(const CellReport& report, double write_seconds) {
-    return stage_seconds(
-        {{"load", report.mesh.load_seconds}, {"prepare", report.mesh.prepare_seconds}},
-        report.result.done, {{"write", write_seconds}});
-}
-
 double manifold_part(const DualReport& dual) {
     return dual.triangles == 0
                ? 1
@@ -72,7 +66,7 @@ std::string CellReport::json(double write_seconds) const {
     const SurfaceCells& cells = result.cells;
     const auto [least, largest] = std::ranges::minmax(cells.areas);
     Json document{{"version", GEODISK_VERSION_STRING},
-                  {"mesh", mesh_json(options.mesh, options.additions(), mesh)},
+                  {"mesh", mesh_json(mesh)},
                   {"warnings", warnings_json(warnings)},
                   {"samples", cells.areas.size()},
                   {"areas",
@@ -86,19 +80,16 @@ std::string CellReport::json(double write_seconds) const {
                   {"windows", cells.report.windows},
                   {"scene", scene_json(scene)},
                   {"output", output}};
-    Json run = run_json(result.done, seconds_of(*this, write_seconds));
-    run.erase("guard"); // Of samples.
-    document.update(run);
-    return text_of(document);
+    return search_json(std::move(document), mesh, result.done, write_seconds);
 }
 
 std::string CellReport::summary(double write_seconds) const {
     const SurfaceCells& cells = result.cells;
     const auto [least, largest] = std::ranges::minmax(cells.areas);
     std::ostringstream out;
-    out << mesh_lines("mesh", options.mesh, options.additions(), mesh) << "cells         "
-        << grouped(cells.areas.size()) << ", with areas from " << rounded(least, 4) << " to "
-        << rounded(largest, 4) << ", exact to " << rounded(cells.area_error, 2) << '\n';
+    out << mesh_lines("mesh", mesh) << "cells         " << grouped(cells.areas.size())
+        << ", with areas from " << rounded(least, 4) << " to " << rounded(largest, 4)
+        << ", exact to " << rounded(cells.area_error, 2) << '\n';
     if (cells.unreached > 0) {
         out << "no sample     in parts of the mesh with an area of " << rounded(cells.unreached, 4)
             << '\n';
@@ -106,7 +97,7 @@ std::string CellReport::summary(double write_seconds) const {
     if (!dual.empty()) {
         out << dual_lines(*this);
     }
-    out << run_text(result.done, seconds_of(*this, write_seconds), output, "finding cells")
+    out << search_text(mesh, result.done, write_seconds, output, "finding cells")
         << scene_line(scene);
     return out.str();
 }

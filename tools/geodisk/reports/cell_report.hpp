@@ -13,7 +13,6 @@ namespace geodisk::tools {
 
 /// Cells that are found, for write_outputs().
 struct CellReport {
-    const MeshOptions& options;
     const MeshInput& mesh;
     const std::vector<MeshWarning>& warnings; ///< Warnings about mesh and samples.
     const CellResult& result;

@@ -57,15 +57,15 @@ std::optional<std::uint64_t> triangles_for_samples(const MeshInput& input) {
 
 } // namespace
 
-std::string mesh_lines(const std::string& label, const std::string& path,
-                       const HeaderEntries& additions, const MeshInput& input,
+std::string mesh_lines(const std::string& label, const MeshInput& input,
                        std::uint64_t components_without_samples) {
     constexpr std::size_t kColumn = 14; // Where values begin in all summaries.
-    std::string lines = label + std::string(kColumn - label.size(), ' ') + one_line(path) + '\n';
+    std::string lines =
+        label + std::string(kColumn - label.size(), ' ') + one_line(input.path) + '\n';
     const auto add = [&](const std::string& text) {
         lines += std::string(kColumn, ' ') + text + '\n';
     };
-    for (const auto& [name, value] : additions) {
+    for (const auto& [name, value] : input.additions) {
         add(name + ' ' + one_line(value));
     }
     add(size_text(input, components_without_samples));
@@ -75,12 +75,12 @@ std::string mesh_lines(const std::string& label, const std::string& path,
     return lines;
 }
 
-Json mesh_json(const std::string& path, const HeaderEntries& additions, const MeshInput& input) {
+Json mesh_json(const MeshInput& input) {
     const MeshStatistics& mesh = input.prepared.statistics();
     const std::optional<WeldCounts>& weld = input.file.weld;
     const bool has_box = mesh.diagonal > 0; // Edge lengths have none.
-    Json json{{"path", path}};
-    for (const auto& [name, value] : additions) {
+    Json json{{"path", input.path}};
+    for (const auto& [name, value] : input.additions) {
         if (name == "lift" || name == "only" || name.ends_with("mask") ||
             name == "class_density") { // There may be several.
             json[name].push_back(value);

@@ -10,14 +10,13 @@
 
 namespace geodisk::tools {
 
-/// Lines of a summary, the first with `label`: `path`, then `additions`, the options about it, then
-/// its size and what is particular about it.
-std::string mesh_lines(const std::string& label, const std::string& path,
-                       const HeaderEntries& additions, const MeshInput& input,
+/// Lines of a summary, the first with `label`: its path, the options about it, its size and what is
+/// particular about it.
+std::string mesh_lines(const std::string& label, const MeshInput& input,
                        std::uint64_t components_without_samples = 0);
 
 /// The same for programs.
-Json mesh_json(const std::string& path, const HeaderEntries& additions, const MeshInput& input);
+Json mesh_json(const MeshInput& input);
 
 /// Returns how many points, and what length of lines, are avoided; "" for none.
 std::string avoided_text(std::size_t points, double length);

@@ -14,12 +14,6 @@
 namespace geodisk::tools {
 namespace {
 
-SecondsByStage seconds_of(const NeighbourReport& report, double write_seconds) {
-    return stage_seconds(
-        {{"load", report.mesh.load_seconds}, {"prepare", report.mesh.prepare_seconds}},
-        report.result.done, {{"write", write_seconds}});
-}
-
 struct RowSizes {
     std::uint64_t least, most;
     double mean;
@@ -58,7 +52,7 @@ std::string NeighbourReport::json(double write_seconds) const {
     const RowSizes sizes = sizes_of(result.table);
     Json document{
         {"version", GEODISK_VERSION_STRING},
-        {"mesh", mesh_json(options.mesh, options.additions(), mesh)},
+        {"mesh", mesh_json(mesh)},
         {"warnings", warnings_json(warnings)},
         {"sources",
          {{"kind", has_points ? "points" : "vertices"}, {"count", result.table.sources.size()}}},
@@ -71,16 +65,13 @@ std::string NeighbourReport::json(double write_seconds) const {
         {"disks", result.done.run.disks},
         {"windows", result.done.run.windows},
         {"output", output}};
-    Json run = run_json(result.done, seconds_of(*this, write_seconds));
-    run.erase("guard"); // Of samples.
-    document.update(run);
-    return text_of(document);
+    return search_json(std::move(document), mesh, result.done, write_seconds);
 }
 
 std::string NeighbourReport::summary(double write_seconds) const {
     const RowSizes sizes = sizes_of(result.table);
     std::ostringstream out;
-    out << mesh_lines("mesh", options.mesh, options.additions(), mesh) << "sources       "
+    out << mesh_lines("mesh", mesh) << "sources       "
         << (has_points ? counted(result.table.sources.size(), "point", "points")
                        : counted(result.table.sources.size(), "vertex", "vertices"))
         << '\n'
@@ -88,7 +79,7 @@ std::string NeighbourReport::summary(double write_seconds) const {
         << grouped(sizes.least) << " to " << grouped(sizes.most) << " each, "
         << rounded(sizes.mean, 4) << " on average, among " << targets << '\n'
         << "within        " << within_text(job) << ", exact to " << rounded(result.error, 2) << '\n'
-        << run_text(result.done, seconds_of(*this, write_seconds), output, "searching");
+        << search_text(mesh, result.done, write_seconds, output, "searching");
     return out.str();
 }
 

@@ -11,7 +11,6 @@ namespace geodisk::tools {
 
 /// A search that is done, for write_outputs().
 struct NeighbourReport {
-    const MeshOptions& options;
     const MeshInput& mesh;
     const std::vector<MeshWarning>& warnings; ///< Warnings about mesh and points.
     const NeighbourJob& job;

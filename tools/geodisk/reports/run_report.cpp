@@ -44,6 +44,11 @@ double compile_seconds(const DeviceRun& done) {
     return done.compile_seconds + done.run.seconds.compile;
 }
 
+SecondsByStage search_seconds(const MeshInput& mesh, const DeviceRun& done, double write_seconds) {
+    return stage_seconds({{"load", mesh.load_seconds}, {"prepare", mesh.prepare_seconds}}, done,
+                         {{"write", write_seconds}});
+}
+
 } // namespace
 
 Json tuning_json(const Tuning& tuning) {
@@ -130,6 +135,19 @@ Json run_json(const DeviceRun& done, const SecondsByStage& seconds) {
         json["processes"] = processes_json(done.processes);
     }
     return json;
+}
+
+std::string search_json(Json document, const MeshInput& mesh, const DeviceRun& done,
+                        double write_seconds) {
+    Json run = run_json(done, search_seconds(mesh, done, write_seconds));
+    run.erase("guard"); // Of samples.
+    document.update(run);
+    return text_of(document);
+}
+
+std::string search_text(const MeshInput& mesh, const DeviceRun& done, double write_seconds,
+                        const std::string& output, const std::string& work) {
+    return run_text(done, search_seconds(mesh, done, write_seconds), output, work);
 }
 
 std::string run_text(const DeviceRun& done, const SecondsByStage& seconds,

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "geodisk/device_run.hpp"
+#include "geodisk/inputs/mesh_input.hpp"
 #include "geodisk/options/method_options.hpp"
 #include "geodisk/reports/json_type.hpp"
 
@@ -42,6 +43,14 @@ SecondsByStage stage_seconds(SecondsByStage before, const DeviceRun& done,
 
 /// Returns the end of the JSON of a run: guard, memory, seconds, tuning, device.
 Json run_json(const DeviceRun& done, const SecondsByStage& seconds);
+
+/// Returns the report of a search on a mesh as JSON, with `document` before what all runs have.
+std::string search_json(Json document, const MeshInput& mesh, const DeviceRun& done,
+                        double write_seconds);
+
+/// Returns the end of its summary, as run_text() has it.
+std::string search_text(const MeshInput& mesh, const DeviceRun& done, double write_seconds,
+                        const std::string& output, const std::string& work);
 
 /// Returns the end of the summary of a run: time, also of the `work` itself, device, file.
 std::string run_text(const DeviceRun& done, const SecondsByStage& seconds,

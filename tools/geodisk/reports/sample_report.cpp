@@ -1,9 +1,12 @@
 #include "geodisk/reports/sample_report.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <sstream>
+#include <string_view>
 #include <vector>
 
+#include <geodisk/fields.hpp>
 #include <geodisk/version.hpp>
 
 #include "files/meshes/part_columns.hpp"
@@ -13,12 +16,43 @@
 #include "geodisk/reports/farthest_report.hpp"
 #include "geodisk/reports/json.hpp"
 #include "geodisk/reports/mesh_report.hpp"
-#include "geodisk/reports/number_entries.hpp"
 #include "program/exact_text.hpp"
 #include "program/human_text.hpp"
 
 namespace geodisk::tools {
 namespace {
+
+constexpr std::string_view kToldElsewhere[] = {"min_distance", "seed", "darts", "stop_count",
+                                               "maximal"};
+
+/// Returns the numbers of a job that differ from their defaults, for a header. The distance, the
+/// seed, and what ends a run have entries of their own.
+HeaderEntries number_entries(const SampleParams& params) {
+    const SampleParams plain;
+    HeaderEntries defaults, entries;
+    const auto write_to = [](HeaderEntries& list) {
+        return [&list](const char* name, auto value) {
+            if (std::ranges::find(kToldElsewhere, name) == std::end(kToldElsewhere)) {
+                list.emplace_back(name, exact_text(+value)); // No bool.
+            }
+        };
+    };
+    for_each_number(plain, write_to(defaults));
+    for_each_number(params, write_to(entries));
+    std::erase_if(entries, [&](const auto& entry) {
+        return std::ranges::find(defaults, entry) != defaults.end();
+    });
+    return entries;
+}
+
+/// Adds those that a report does not tell yet.
+void add_numbers(Json& report, const SampleParams& params) {
+    for_each_number(params, [&](const char* name, auto value) {
+        if (!report.contains(name)) {
+            report[name] = value;
+        }
+    });
+}
 
 /// Says what is not exact.
 std::string metric_text(const SampleJob& job) {
@@ -195,7 +229,7 @@ std::string constraint_lines(const SampleJob& job, const SampleResult& result) {
 
 std::string dry_sample_json(const SampleJob& job, const MeshInput& mesh, const DryRun& dry) {
     Json document{{"version", GEODISK_VERSION_STRING},
-                  {"mesh", mesh_json(job.mesh.mesh, job.additions(), mesh)},
+                  {"mesh", mesh_json(mesh)},
                   {"warnings", warnings_json(mesh.warnings)},
                   {"metric", metric_text(job)}};
     document.update(dry_run_json(dry));
@@ -204,8 +238,8 @@ std::string dry_sample_json(const SampleJob& job, const MeshInput& mesh, const D
 }
 
 std::string dry_sample_text(const SampleJob& job, const MeshInput& mesh, const DryRun& dry) {
-    return mesh_lines("mesh", job.mesh.mesh, job.additions(), mesh) +
-           distance_line(job, mesh, dry.min_distance) + dry_run_text(dry);
+    return mesh_lines("mesh", mesh) + distance_line(job, mesh, dry.min_distance) +
+           dry_run_text(dry);
 }
 
 std::string SampleResult::digest() const {
@@ -228,7 +262,7 @@ bool SampleReport::is_told(const JobFrame& frame, double distance) const {
 
 SampleHeader SampleReport::header() const {
     const DeviceRun& done = result_.done;
-    const HeaderEntries additions = job_.additions();
+    const HeaderEntries& additions = mesh_.additions;
     const double distance = told_distance(job_, mesh_, result_.params.min_distance);
     SampleHeader header{{{"version", "geodisk " GEODISK_VERSION_STRING},
                          {std::string(kSamplingVersion), std::to_string(GEODISK_SAMPLING_VERSION)},
@@ -297,7 +331,7 @@ Json SampleReport::document(const SecondsByStage& after) const {
     const double distance = told_distance(job_, mesh_, params.min_distance);
     Json document{{"version", GEODISK_VERSION_STRING},
                   {"sampling_version", GEODISK_SAMPLING_VERSION},
-                  {"mesh", mesh_json(job_.mesh.mesh, job_.additions(), mesh_)},
+                  {"mesh", mesh_json(mesh_)},
                   {"warnings", warnings_json(warnings)},
                   {"output", job_.out.output},
                   {"min_distance", distance},
@@ -360,7 +394,7 @@ Json SampleReport::document(const SecondsByStage& after) const {
 
 std::string SampleReport::summary(const SecondsByStage& after) const {
     std::ostringstream out;
-    out << mesh_lines("mesh", job_.mesh.mesh, job_.additions(), mesh_, result_.bare.count)
+    out << mesh_lines("mesh", mesh_, result_.bare.count)
         << distance_line(job_, mesh_, result_.params.min_distance);
     if (radii_.do_vary()) {
         out << "radii         " << rounded(radii_.least, 6) << " to " << rounded(radii_.most, 6)

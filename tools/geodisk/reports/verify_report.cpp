@@ -79,9 +79,8 @@ std::string report_text(const SampleCheck& check) {
     const WantedSpacing& spacing = check.spacing;
     const std::vector<StrayRow>& strays = check.strays;
     std::ostringstream out;
-    out << mesh_lines("mesh", check.options.mesh.mesh, check.options.additions(), check.mesh)
-        << "samples       " << grouped(check.samples.rows.size()) << " in "
-        << one_line(check.options.samples) << '\n';
+    out << mesh_lines("mesh", check.mesh) << "samples       " << grouped(check.samples.rows.size())
+        << " in " << one_line(check.options.samples) << '\n';
     if (spacing.min_distance > 0) {
         out << "min distance  " << rounded(spacing.min_distance * check.mesh.distance_part, 9)
             << " in mesh units\n"
@@ -161,7 +160,7 @@ std::string report_json(const SampleCheck& check) {
     const bool has_distance = spacing.min_distance > 0;
     return text_of(Json{
         {"version", GEODISK_VERSION_STRING},
-        {"mesh", mesh_json(options.mesh.mesh, options.additions(), mesh)},
+        {"mesh", mesh_json(mesh)},
         {"warnings", warnings_json(warnings)},
         {"samples_file", options.samples},
         {"samples", samples.rows.size()},

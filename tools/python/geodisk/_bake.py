@@ -152,7 +152,7 @@ def bake(
         view(0, np.int32),
         view(1, np.float32),
         view(2, np.int32),
-        c.nearest_error(nearest.value),
+        c.ask("geodisk_nearest_error", nearest.value),
         int.from_bytes(made[3], sys.byteorder),
     )
 

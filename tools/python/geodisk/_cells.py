@@ -128,13 +128,10 @@ def cells(
     told = s.CellArrays()
     c.call("geodisk_cells_describe", handle.value, byref(told))
 
-    def view(pointer: Any, shape: tuple[int, ...], dtype: Any) -> NDArray[Any]:
-        return view_of(pointer, shape, handle) if shape[0] else np.empty(shape, dtype)
-
     return Cells(
-        view(told.areas, (told.sample_count,), np.float64),
-        view(told.edges, (told.edge_count, 2), np.uint32),
-        view(told.triangles, (told.triangle_count, 3), np.uint32),
+        view_of(told.areas, (told.sample_count,), handle, np.float64),
+        view_of(told.edges, (told.edge_count, 2), handle),
+        view_of(told.triangles, (told.triangle_count, 3), handle),
         told.area_error,
         told.distance_error,
         told.unreached,

@@ -181,7 +181,7 @@ def _forget_in_child() -> None:
         handle.abandon()
     _lock, _opened, _idle = threading.Lock(), {}, {}
     if _uses_drivers:
-        c.skip_exit_handlers()
+        c.ask("geodisk_skip_exit_handlers")
 
 
 if hasattr(os, "register_at_fork"):

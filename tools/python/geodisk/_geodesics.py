@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ctypes import byref
+from ctypes import byref, c_size_t, sizeof, string_at
 from dataclasses import dataclass
 from typing import Any, Literal, Tuple, Union, overload
 
@@ -261,13 +261,16 @@ def geodesic_path(
         lambda stop: c.Handle("path", "geodisk_geodesic_path", mesh._handle.value, byref(params))
     )
     del kept  # Which the library has read.
-    points = c.path_points(path)
+    count = c_size_t()
+    address = c.ask("geodisk_path_points", path.value, byref(count))
+    data = string_at(address, count.value * sizeof(s.PathPoint))
+    points = np.frombuffer(data, np.dtype(s.PathPoint))
     faces_of, weights = points["face"].copy(), points["weights"].copy()
     place = None
     if not isinstance(mesh.vertices, int):
         corners = mesh.vertices[mesh.triangles[faces_of]].astype(np.float64)
         place = np.einsum("nk,nkd->nd", weights, corners)
-    return GeodesicPath(place, c.path_length(path), faces_of, weights)
+    return GeodesicPath(place, c.ask("geodisk_path_length", path.value), faces_of, weights)
 
 
 def _mesh_and_two(
@@ -292,7 +295,7 @@ def _mesh_and_two(
     return mesh, after, given
 
 
-def _set_end(params: s.PathParams, mesh: Mesh, end: Any, name: str, field: str) -> Any:
+def _set_end(params: Any, mesh: Mesh, end: Any, name: str, field: str) -> Any:
     """Sets an end of a path. Returns what it refers to."""
     if isinstance(end, (int, np.integer)) and not isinstance(end, bool):
         vertex, joined = integer(end, name, 2**32 - 1), mesh._surface.joined

@@ -11,17 +11,22 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _errors as e
-from ._class_places import values_of
 from ._classes import ClassesLike
 from ._devices import DeviceLike
 from ._existing import AvoidLike, ExistingLike
-from ._mesh import Mesh, attributes_with, mesh_of
 from ._protocols import MeshLike
 from ._record import Record, recorded
 from ._running import ProgressCallback, Runs
 from ._samples import Samples
 from ._values import listed
-from ._wanted import Wanted
+from ._wanted import Wanted, wanted_of
+
+
+#: Parameters that have an array for each mesh.
+_ARRAYS = (
+    *("density", "radius_factor", "face_keys", "face_mask", "existing", "avoid"),
+    *("class_masks", "class_densities", "class_avoid"),
+)
 
 
 def sample_many(
@@ -106,71 +111,19 @@ def sample_many(
     >>> bool((b.points == alone.points).all())
     True
     """
+    given = dict(locals(), edge_lengths=None)
     record = Record(texture, normals, frames, up)
-    several = listed(meshes)
-    if several is None:
+    all_meshes = listed(meshes)
+    if all_meshes is None:
         raise TypeError(f"meshes is {reprlib.repr(meshes)}, not a list of meshes")
-    given = several
-    n = len(given)
-    values = {
-        name: _each(value, name, n)
-        for name, value in (
-            ("min_distance", min_distance),
-            ("radius", radius),
-            ("count", count),
-            ("seed", seed),
-        )
-    }
-    arrays = {
-        name: _each_array(array, name, n)
-        for name, array in (
-            ("density", density),
-            ("radius_factor", radius_factor),
-            ("face_keys", face_keys),
-            ("face_mask", face_mask),
-            ("existing", existing),
-            ("avoid", avoid),
-            ("class_masks", class_masks),
-            ("class_densities", class_densities),
-            ("class_avoid", class_avoid),
-        )
-    }
+    several, n = all_meshes, len(all_meshes)
+    own = {name: _each(given[name], name, n) for name in ("min_distance", "radius", "count", "seed")}
+    own |= {name: _each_array(given[name], name, n) for name in _ARRAYS}
 
-    def wanted_of(i: int) -> Wanted:
-        own = {name: each[i] for name, each in (values | arrays).items()}
-        return Wanted(
-            lambda: _mesh_of(
-                given[i],
-                weld,
-                keep_seams,
-                columns,
-                mesh_format,
-                attributes_with(
-                    attributes,
-                    given[i],
-                    own["density"],
-                    own["radius_factor"],
-                    *values_of(own["class_densities"]),
-                ),
-                record,
-                allow_outside,
-            ),
-            exact=exact,
-            pool_ratio=pool_ratio,
-            darts=darts,
-            stop_count=stop_count,
-            maximal=maximal,
-            order=order,
-            levels=levels,
-            level_factor=level_factor,
-            classes=classes,
-            class_counts=class_counts,
-            features=features,
-            metric=metric,
-            **own,
-        )
+    def wanted_at(i: int) -> Wanted:
+        return wanted_of(*_parts_of(several[i]), record, given | {name: x[i] for name, x in own.items()})
 
-    wanted = [_named(i, wanted_of) for i in range(n)]
+    wanted = [_named(i, wanted_at) for i in range(n)]
     if not wanted:
         return []
     with Runs(device, progress) as runs:
@@ -195,25 +148,13 @@ def _named(index: int, make: Any) -> Any:
         raise type(error)(f"mesh {index}: {error}") from error
 
 
-def _mesh_of(
-    given: Any,
-    weld: bool | float,
-    keep_seams: bool,
-    columns: str | Sequence[str],
-    mesh_format: str | None,
-    attributes: str | Sequence[str],
-    record: Record,
-    allow_outside: bool,
-) -> Mesh:
-    vertices, faces = given, None
-    if isinstance(given, (tuple, list)):
-        if len(given) != 2:
-            raise TypeError("a mesh is a pair of vertices and faces, or brings its faces")
-        vertices, faces = given
-    return mesh_of(
-        vertices, faces, None, weld, keep_seams, columns, mesh_format, attributes, record,
-        allow_outside,
-    )
+def _parts_of(given: Any) -> tuple[Any, Any]:
+    """Returns the vertices and faces of a pair, or a mesh that brings its faces."""
+    if not isinstance(given, (tuple, list)):
+        return given, None
+    if len(given) != 2:
+        raise TypeError("a mesh is a pair of vertices and faces, or brings its faces")
+    return given[0], given[1]
 
 
 def _each(values: Any, name: str, n: int) -> list[Any]:

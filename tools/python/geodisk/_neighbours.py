@@ -170,7 +170,7 @@ def neighbours(
 
 
 def set_sources(
-    params: s.NeighbourParams | s.DistanceParams, mesh: Mesh, sources: Any, address: Any
+    params: Any, mesh: Mesh, sources: Any, address: Any
 ) -> int | None:
     """Sets sources of a search, at their `address`. Returns their number, None for all vertices."""
     if sources is None:
@@ -227,14 +227,10 @@ def _arrays_of(handle: c.Handle) -> Neighbours:
     """Returns the arrays, which keep the library's object alive."""
     told = s.NeighbourArrays()
     c.call("geodisk_neighbours_describe", handle.value, byref(told))
-
-    def view(pointer: Any, count: int, dtype: Any) -> NDArray[Any]:
-        return view_of(pointer, (count,), handle) if count else np.empty(0, dtype)
-
     return Neighbours(
-        view(told.vertices, told.source_count, np.uint32) if told.vertices else None,
-        view(told.offsets, told.source_count + 1, np.uint64),
-        view(told.indices, told.pair_count, np.uint32),
-        view(told.distances, told.pair_count, np.float32),
+        view_of(told.vertices, (told.source_count,), handle) if told.vertices else None,
+        view_of(told.offsets, (told.source_count + 1,), handle, np.uint64),
+        view_of(told.indices, (told.pair_count,), handle),
+        view_of(told.distances, (told.pair_count,), handle, np.float32),
         told.error,
     )

@@ -59,4 +59,4 @@ def radii_on(mesh: c.Handle, name: str, values: NDArray[Any]) -> Radii:
         s.FLOAT32 if values.dtype == np.float32 else s.FLOAT64,
         len(values),
     )
-    return Radii(handle, c.radii_min_factor(handle.value) if name == "density" else 1.0)
+    return Radii(handle, c.ask("geodisk_radii_min_factor", handle.value) if name == "density" else 1.0)

@@ -8,15 +8,13 @@ import json
 import numbers
 import os
 import reprlib
-from ctypes import byref
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from . import _errors as e
 from . import _library as c
-from . import _structs as s
 from ._background import interruptible
 from ._polygons import from_rows
 from ._source import split
@@ -55,7 +53,7 @@ class Record:
         self.texture = None if texture is None else path_of(texture, "texture")
         if self.texture == _AUTO and not isinstance(texture, str):
             self.texture = os.path.join(os.curdir, _AUTO)  # A path means a file of that name.
-        self.normals = choice(normals, "normals", s.NORMALS)
+        self.normals = choice(normals, "normals", ("face", "file", "smooth"))
         self.frames, has_up = _style_of(frames)
         self.up = None if up is None else choice(up, "up", "xyz")
         if up is not None and not has_up:
@@ -122,8 +120,8 @@ def recorded(samples: Samples, mesh: Mesh, record: Record) -> Samples:
         return dataclasses.replace(samples, _record=record)
     assert samples.face_index is not None and samples.barycentric is not None
     record = record.on(mesh._surface)
-    normals = np.array(samples.normals, np.float64, order="C")
-    added = _record(
+    normals = np.asarray(samples.normals, np.float64)
+    normals, added = _record(
         mesh, record, samples.face_index, samples.barycentric, normals, samples.seed or 0
     )
     return dataclasses.replace(
@@ -136,10 +134,10 @@ def coloured(samples: Samples, mesh: Mesh, texture: str | None) -> Samples:
     if texture is None or mesh._source is None or "color" in samples.attributes:
         return samples
     assert samples.face_index is not None and samples.barycentric is not None
-    normals = np.empty((len(samples), 3))
+    normals = np.zeros((len(samples), 3))
     colours = Record(texture, "face", False)
     try:
-        added = _record(mesh, colours, samples.face_index, samples.barycentric, normals, 0)
+        _, added = _record(mesh, colours, samples.face_index, samples.barycentric, normals, 0)
     except e.InvalidArgument:  # The image is gone.
         return samples
     had = samples._record or NOTHING
@@ -164,32 +162,25 @@ def _record(
     barycentric: NDArray[np.float64],
     normals: NDArray[np.float64],
     seed: int,
-) -> dict[str, NDArray[np.float64]]:
-    """Returns attributes, and replaces `normals`."""
-    count = len(face_index)
-    faces = np.ascontiguousarray(face_index)
-    weights = np.ascontiguousarray(barycentric)
-    params = s.RecordParams(
-        faces=faces.ctypes.data,
-        weights=weights.ctypes.data,
-        count=count,
-        normal_kind=s.NORMALS[record.normals],
-        seed=seed,
-        normals=normals.ctypes.data,
+) -> tuple[NDArray[np.float64], dict[str, NDArray[np.float64]]]:
+    """Returns normals and attributes."""
+    arrays: dict[str, Any] = {
+        "source": mesh._source or _source_of(mesh._surface),
+        "faces": np.ascontiguousarray(face_index),
+        "samples": np.hstack([barycentric, normals]),
+        "path": None if record.texture is None else os.fsencode(record.texture),
+    }
+    made = c.run(
+        "record", arrays, count=len(face_index), normals=record.normals,
+        frames=record.frames or "", up=record.up or "", seed=seed,
     )
-    added: dict[str, NDArray[np.float64]] = {}
-    if record.texture is not None:
-        added["color"] = np.empty((count, 3))
-        params.texture = os.fsencode(record.texture)
-        params.colours = added["color"].ctypes.data
-    if record.frames is not None:
-        params.frame_style = record.frames.encode()
-        params.up = (record.up or "").encode()
-        added["frames"] = np.empty((count, 4))
-        params.frames = added["frames"].ctypes.data
-    source = mesh._source or _source_of(mesh._surface)
-    c.call("geodisk_source_record", source.value, byref(params))
-    return added
+    if record.normals != "face":
+        normals = np.frombuffer(made.pop(0), np.float32).reshape(-1, 3).astype(np.float64)
+    added = {}
+    for name, value, width in (("color", record.texture, 3), ("frames", record.frames, 4)):
+        if value is not None:
+            added[name] = np.frombuffer(made.pop(0), np.float64).reshape(-1, width).copy()
+    return normals, added
 
 
 def _source_of(surface: Surface) -> c.Handle:

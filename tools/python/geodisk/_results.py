@@ -20,10 +20,10 @@ _TYPES = {np.uint32: s.UINT32, np.float32: s.FLOAT32, np.float64: s.FLOAT64}
 
 def copied(samples: ctypes.c_void_p, attribute: int, dtype: Any) -> NDArray[Any] | None:
     """Returns an attribute of all samples; None if they lack it."""
-    width = c.samples_width(samples, attribute)
+    width = c.ask("geodisk_samples_width", samples, attribute)
     if width == 0:
         return None
-    count = c.samples_count(samples)
+    count = c.ask("geodisk_samples_count", samples)
     array = np.empty((count, width), dtype)
     kind = _TYPES[dtype]
     c.call("geodisk_samples_copy", samples, attribute, kind, array.ctypes.data, 0, count)

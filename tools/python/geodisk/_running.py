@@ -6,7 +6,7 @@ import ctypes
 import sys
 import time
 from collections.abc import Sequence
-from ctypes import byref, pointer
+from ctypes import addressof, byref
 from typing import Any, Callable
 
 import numpy as np
@@ -108,16 +108,12 @@ class Runs:
         if isinstance(self._report, Bar):
             self._report.close()
 
-    def run(self, domain: c.Handle) -> c.Handle:
-        """Returns the samples of a domain."""
-        return self._begun(1, "geodisk_start", domain.value)[0]
-
     def serve(self, requests: Sequence[tuple[c.Handle, s.Request]]) -> list[c.Handle]:
         """Returns the samples that each request asks for, of a mesh."""
         given = (s.MeshRequest * len(requests))()
         for one, (mesh, request) in zip(given, requests):
             one.struct_size = ctypes.sizeof(s.MeshRequest)
-            one.mesh, one.request = mesh.value, pointer(request)
+            one.mesh, one.request = mesh.value, addressof(request)
         return self._begun(len(given), "geodisk_start_requests", given, len(given))
 
     def serve_box(self, request: s.BoxRequest) -> c.Handle:
@@ -156,7 +152,7 @@ class Runs:
 def _end(sampler: ctypes.c_void_p, sets: int) -> None:
     """Stops the run in progress, if there is one."""
     made = (ctypes.c_void_p * sets)()
-    c.cancel(sampler)
+    c.ask("geodisk_cancel", sampler)
     try:
         while not made[0]:
             c.call("geodisk_poll", sampler, _PATIENCE, made)

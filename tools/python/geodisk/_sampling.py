@@ -5,7 +5,6 @@ from __future__ import annotations
 import numbers
 import ctypes
 import os
-from ctypes import c_double, pointer
 from typing import Mapping, Sequence
 
 import numpy as np
@@ -14,11 +13,9 @@ from numpy.typing import ArrayLike
 from . import _errors as e
 from . import _structs as s
 from ._arrays import real
-from ._class_places import values_of
 from ._classes import ClassesLike
 from ._devices import DeviceLike
 from ._existing import AvoidLike, ExistingLike
-from ._mesh import Mesh, attributes_with, mesh_of
 from ._oddities import oddities_of_set, warn
 from ._protocols import Faces, MeshLike
 from ._record import Record, recorded
@@ -27,7 +24,7 @@ from ._rules import check_fields
 from ._running import ProgressCallback, Runs
 from ._samples import Samples
 from ._values import check_exact, check_pool, distance_of, flag, integer, seed_of
-from ._wanted import Wanted
+from ._wanted import wanted_of
 
 
 def sample(
@@ -220,48 +217,11 @@ def sample(
     >>> bool(samples.face_index.max() < 4)
     True
     """
+    given = dict(locals())
     if isinstance(faces, numbers.Real):
         raise TypeError(f"faces is {faces!r}; for about so many samples give count={faces!r}")
     record = Record(texture, normals, frames, up)
-
-    named = attributes_with(
-        attributes, vertices, density, radius_factor, *values_of(class_densities)
-    )
-
-    def read_mesh() -> Mesh:
-        return mesh_of(
-            vertices, faces, edge_lengths, weld, keep_seams, columns, mesh_format, named,
-            record, allow_outside,
-        )
-
-    wanted = Wanted(
-        read_mesh,
-        min_distance=min_distance,
-        radius=radius,
-        count=count,
-        exact=exact,
-        seed=seed,
-        density=density,
-        radius_factor=radius_factor,
-        pool_ratio=pool_ratio,
-        darts=darts,
-        stop_count=stop_count,
-        maximal=maximal,
-        order=order,
-        levels=levels,
-        level_factor=level_factor,
-        face_keys=face_keys,
-        face_mask=face_mask,
-        existing=existing,
-        avoid=avoid,
-        classes=classes,
-        class_counts=class_counts,
-        class_masks=class_masks,
-        class_densities=class_densities,
-        class_avoid=class_avoid,
-        features=features,
-        metric=metric,
-    )
+    wanted = wanted_of(vertices, faces, record, given)
     with Runs(device, progress) as runs:
         (made,) = runs.serve([(wanted.mesh._handle, wanted.request)])
     samples = wanted.samples_of(made, device, progress)
@@ -323,7 +283,7 @@ def sample_box(
         }
     )
     params = s.BoxParams(
-        extents=sides.ctypes.data_as(ctypes.POINTER(c_double)),
+        extents=sides.ctypes.data,
         dimension=len(sides),
         is_periodic=int(periodic),
         min_distance=0.0 if distance is None else distance,
@@ -333,7 +293,7 @@ def sample_box(
         stop_count=stop_count,
     )
     request = s.BoxRequest(
-        params=pointer(params), count=0.0 if count is None else count, is_exact=int(exact)
+        params=ctypes.addressof(params), count=0.0 if count is None else count, is_exact=int(exact)
     )
     with Runs(device, progress) as runs:
         made = runs.serve_box(request)

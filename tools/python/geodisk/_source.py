@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ctypes
+import json
 import os
 from dataclasses import dataclass
 from typing import Any, NamedTuple, Sequence
@@ -102,7 +103,7 @@ def read_file(
     encoded = (ctypes.c_char_p * len(attributes))(*(one.encode() for one in attributes))
     params = s.SourceParams(
         path=os.fsencode(name),
-        attributes=encoded,
+        attributes=ctypes.addressof(encoded),
         attribute_count=len(attributes),
         columns=joined.encode(),
         mesh_format=None if mesh_format is None else mesh_format.encode(),
@@ -142,65 +143,55 @@ def _read(
     keep_seams: bool,
     columns: Sequence[str] = (),
 ) -> Source:
-    params.stop = ctypes.pointer(stop)
+    params.stop = ctypes.addressof(stop)
     params.keep_seams = keep_seams
     if weld is not False:
         params.weld = 1
         params.weld_distance = 0.0 if weld is True else float(weld)
     handle = c.Handle("source", "geodisk_source_read", ctypes.byref(params))
-    arrays = s.SourceArrays()
-    c.call("geodisk_source_describe", handle.value, ctypes.byref(arrays))
+    told = json.loads(c.run("describe", {"source": handle})[0])
+    count = told["triangle_count"]
 
-    polygons = (
-        view_of(arrays.polygons, (arrays.triangle_count,), handle) if arrays.polygons else None
-    )
-    named = {}
-    for index, name in enumerate(columns):
-        values = ctypes.POINTER(ctypes.c_uint32)()
-        c.call("geodisk_source_column", handle.value, index, ctypes.byref(values))
-        named[name] = view_of(values, (arrays.triangle_count,), handle)
+    def view(address: int, *shape: int, dtype: Any = np.uint32) -> NDArray[Any] | None:
+        return view_of(address, shape, handle, dtype) if address else None
 
+    polygons = view(told["polygons"], count)
+    attributes = {}
+    for one in told["attributes"]:
+        shape = (one["count"],) if one["components"] == 1 else (one["count"], one["components"])
+        attributes[one["name"]] = Attribute(
+            values=view_of(one["values"], shape, handle, np.float64),
+            corners=view(one["corners"], count, 3),
+            of_vertices=one["of_vertices"],
+            is_whole=one["is_whole"],
+            is_light=one["is_light"],
+            polygons=polygons,
+        )
     return Source(
-        vertices=view_of(arrays.positions, (arrays.vertex_count, arrays.dimension), handle),
-        triangles=view_of(arrays.triangles, (arrays.triangle_count, 3), handle),
-        polygons=polygons,
-        attributes=dict(
-            _attribute(handle, index, arrays.triangle_count, polygons)
-            for index in range(arrays.attribute_count)
+        vertices=view_of(
+            told["positions"], (told["vertex_count"], told["dimension"]), handle, np.float64
         ),
-        handle=handle,
-        joined=view_of(arrays.joined, (arrays.vertex_count,), handle) if arrays.joined else None,
-        joined_edges=arrays.joined_edges,
-        columns=named,
-        corners=view_of(arrays.corners, (arrays.triangle_count, 3), handle),
-        is_y_up=bool(arrays.is_y_up),
-    )
-
-
-def _attribute(
-    handle: c.Handle, index: int, triangles: int, polygons: NDArray[np.uint32] | None
-) -> tuple[str, Attribute]:
-    """Returns an attribute with its name."""
-    found = s.SourceAttribute()
-    c.call("geodisk_source_get_attribute", handle.value, index, ctypes.byref(found))
-    shape = (found.value_count,) if found.components == 1 else (found.value_count, found.components)
-    return found.name.decode("utf-8", "replace"), Attribute(
-        values=view_of(found.values, shape, handle),
-        corners=view_of(found.corners, (triangles, 3), handle) if found.corners else None,
-        of_vertices=bool(found.of_vertices),
-        is_whole=bool(found.is_whole),
-        is_light=bool(found.is_light),
+        triangles=view_of(told["triangles"], (count, 3), handle),
         polygons=polygons,
+        attributes=attributes,
+        handle=handle,
+        joined=view(told["joined"], told["vertex_count"]),
+        joined_edges=told["joined_edges"],
+        columns={name: view_of(at, (count,), handle) for name, at in zip(columns, told["columns"])},
+        corners=view_of(told["corners"], (count, 3), handle),
+        is_y_up=told["is_y_up"],
     )
 
 
-def view_of(pointer: Any, shape: tuple[int, ...], handle: c.Handle) -> NDArray[Any]:
+def view_of(
+    address: int | None, shape: tuple[int, ...], handle: c.Handle, dtype: Any = np.uint32
+) -> NDArray[Any]:
     """Returns the memory as an array that cannot be written, and keeps `handle`."""
-    count = int(np.prod(shape))
-    memory: Any = (pointer._type_ * count).from_address(
-        ctypes.addressof(pointer.contents) if pointer else 0
-    )
+    size = int(np.prod(shape)) * np.dtype(dtype).itemsize
+    if address is None or size == 0:
+        return np.empty(shape, dtype)
+    memory: Any = (ctypes.c_char * size).from_address(address)
     memory.handle = handle
-    array = np.frombuffer(memory, pointer._type_).reshape(shape)
+    array = np.frombuffer(memory, dtype).reshape(shape)
     array.flags.writeable = False
     return array

@@ -18,7 +18,7 @@ from . import _library as c
 from . import _structs as s
 from ._attributes import Attribute
 from ._devices import DeviceLike, name_of
-from ._existing import POINT, AvoidLike, ExistingLike, avoided_of, existing_of, points_of
+from ._existing import AvoidLike, ExistingLike, avoided_of, existing_of, points_of
 from ._inherited import Wanted
 from ._inputs import surface_of
 from ._job import FOLLOWED, Job, JobFrame, joins_of
@@ -226,8 +226,11 @@ class _Side:
         radii = radii_of(mesh, job.density, job.radius_factor)
         keys = None if job.face_keys is None else keys_of(mesh, job.face_keys)
         mask = None if job.face_mask is None else mask_of(mesh._surface, job.face_mask)
-        kept = _existing(mesh._handle, job.existing)
-        avoided, avoid_radii = _avoided(mesh._handle, job.avoid)
+        has_existing = job.existing is not None and not _is_empty(job.existing)
+        kept = existing_of(mesh._handle, job.existing if has_existing else None)
+        avoided, avoid_radii = avoided_of(
+            mesh._handle, None if _avoids_nothing(job.avoid) else job.avoid
+        )
         #: By faces and weights, since positions are those before an edit.
         self.existing = None if job.existing is None else (kept["face"], kept["weights"])
         self.avoid: AvoidLike | None = None
@@ -332,24 +335,8 @@ def _is_empty(points: ExistingLike) -> bool:
     return isinstance(points, (Samples, list)) and len(points) == 0
 
 
-def _existing(mesh: c.Handle, existing: ExistingLike | None) -> NDArray[Any]:
-    """Returns existing samples as the library takes them; none for an empty pair or set."""
-    if existing is not None and _is_empty(existing):
-        return np.empty(0, POINT)
-    return existing_of(mesh, existing)
-
-
 def _avoids_nothing(avoid: AvoidLike | None) -> bool:
     return isinstance(avoid, (tuple, list)) and len(avoid) == 2 and _is_empty(avoid[0])
-
-
-def _avoided(
-    mesh: c.Handle, avoid: AvoidLike | None
-) -> tuple[NDArray[Any], NDArray[np.float64]]:
-    """Returns points to avoid and radii as the library takes them; none for empty points."""
-    if _avoids_nothing(avoid):
-        return avoided_of(mesh, None)
-    return avoided_of(mesh, avoid)
 
 
 def _check_radii(job: Job, density: ArrayLike | None, radius_factor: ArrayLike | None) -> None:

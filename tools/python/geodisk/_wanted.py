@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import dataclasses
-from ctypes import byref, pointer
-from typing import Callable, Mapping, Sequence
+import inspect
+from ctypes import addressof, byref
+from typing import Any, Callable, Mapping, Sequence
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -12,7 +13,7 @@ from numpy.typing import ArrayLike
 from . import _errors as e
 from . import _library as c
 from . import _structs as s
-from ._class_places import ClassPlaces
+from ._class_places import ClassPlaces, values_of
 from ._classes import Classes, ClassesLike
 from ._devices import DeviceLike
 from ._existing import AvoidLike, ExistingLike, existing_of
@@ -20,9 +21,10 @@ from ._farthest import put_farthest_first
 from ._features import degrees_of
 from ._job import Job, JobFrame, exact_text, joins_of
 from ._levels import levels_of
-from ._mesh import Mesh, keys_of, mask_of
+from ._mesh import Mesh, attributes_with, keys_of, mask_of, mesh_of
 from ._oddities import oddities_of_set, warn, warn_of_whole_mask
 from ._radii import one_of, radii_of
+from ._record import Record
 from ._results import report_of, samples_of
 from ._rules import check_fields
 from ._running import ProgressCallback
@@ -79,22 +81,36 @@ class Wanted:
         choice(order, "order", ("dart", "progressive", "farthest"))
         maximal = flag(maximal, "maximal")
         radii_name = one_of(density, radius_factor)
+        chosen = {
+            "pool_ratio": pool_ratio != 20,
+            "darts": darts,
+            "stop_count": stop_count,
+            "exact": exact,
+            "density": density is not None,
+            "radius_factor": radius_factor is not None,
+            "face_keys": face_keys is not None,
+            "face_mask": face_mask is not None,
+            "metric": metric != "geodesic",
+            "classes": classes is not None,
+            "class_counts": class_counts is not None,
+            "class_masks": class_masks is not None,
+            "class_densities": class_densities is not None,
+            "class_avoid": class_avoid is not None,
+            "features": features is not None,
+            "order": order != "dart",
+            "maximal": maximal,
+            "existing": existing is not None,
+            "avoid": avoid is not None,
+        }
+        self._options = [name for name, is_chosen in chosen.items() if is_chosen]
         check_fields(
             {
+                **{name: name for name in self._options},
                 "count": None if count is None else "count",
                 "is_exact": "exact" if exact else None,
-                "darts": "darts" if darts else None,
-                "stop_count": "stop_count" if stop_count else None,
-                "maximal": "maximal" if maximal else None,
                 "radii": radii_name,
-                "density": None if density is None else "density",
                 "class_factors": "classes" if kinds is not None and kinds.count > 1 else None,
-                "class_counts": None if class_counts is None else "class_counts",
-                "existing": None if existing is None else "existing",
-                "avoid": None if avoid is None else "avoid",
-                "features": None if features is None else "features",
-                "progressive": "order='progressive'" if order == "progressive" else None,
-                "farthest": "order='farthest'" if order == "farthest" else None,
+                order: f"order='{order}'",
                 "metric": f"metric='{metric}'" if metric != "geodesic" else None,
             }
         )
@@ -147,7 +163,7 @@ class Wanted:
                 params.avoid_classes = places.avoid_classes.ctypes.data
         #: As the library takes it.
         self.request = s.Request(
-            params=pointer(params),
+            params=addressof(params),
             count=0.0 if count is None else count,
             is_exact=int(exact),
             order=s.ORDERS["dart" if in_levels is None else "progressive"],
@@ -167,28 +183,6 @@ class Wanted:
         self._count, self._stop_count, self._darts = count, stop_count, darts
         self._existing, self._avoids, self._classes = len(kept), len(places.points) > 0, kinds
         self._is_farthest, self._degrees = order == "farthest", degrees
-        chosen = {
-            "pool_ratio": pool_ratio != 20,
-            "darts": darts,
-            "stop_count": stop_count,
-            "exact": exact,
-            "density": density is not None,
-            "radius_factor": radius_factor is not None,
-            "face_keys": face_keys is not None,
-            "face_mask": face_mask is not None,
-            "metric": metric != "geodesic",
-            "classes": classes is not None,
-            "class_counts": class_counts is not None,
-            "class_masks": class_masks is not None,
-            "class_densities": class_densities is not None,
-            "class_avoid": class_avoid is not None,
-            "features": features is not None,
-            "order": order != "dart",
-            "maximal": maximal,
-            "existing": existing is not None,
-            "avoid": avoid is not None,
-        }
-        self._options = [name for name, is_chosen in chosen.items() if is_chosen]
         self._told = joins_of(mesh._surface.weld, mesh._surface.keep_seams)
         if metric != "geodesic":
             self._told["metric"] = metric
@@ -271,3 +265,23 @@ class Wanted:
             for number in np.flatnonzero(made < self._class_counts):
                 text = f"class {number} has {made[number]} of {self._class_counts[number]} samples"
                 warn([e.GeodiskWarning(f"{prefix}{text}", "few_of_class", int(made[number]))])
+
+
+_ARGUMENTS = inspect.signature(Wanted).parameters.keys() - {"read_mesh"}
+_OF_MESH = ("edge_lengths", "weld", "keep_seams", "columns", "mesh_format", "allow_outside")
+
+
+def wanted_of(vertices: Any, faces: Any, record: Record, given: Mapping[str, Any]) -> Wanted:
+    """Returns what arguments of :func:`sample` ask for, by name, on a mesh that is read for `record`."""
+
+    def read_mesh() -> Mesh:
+        named = (given["density"], given["radius_factor"], *values_of(given["class_densities"]))
+        return mesh_of(
+            vertices,
+            faces,
+            **{name: given[name] for name in _OF_MESH},
+            attributes=attributes_with(given["attributes"], vertices, *named),
+            record=record,
+        )
+
+    return Wanted(read_mesh, **{name: given[name] for name in _ARGUMENTS})

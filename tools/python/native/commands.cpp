@@ -16,10 +16,14 @@
 #include "c/c_call.hpp"
 #include "c/c_cells.hpp"
 #include "c/c_mesh.hpp"
+#include "files/images/textures.hpp"
+#include "files/meshes/mesh_fields.hpp"
 #include "files/output/output_file.hpp"
 #include "files/samples/frame_style.hpp"
+#include "files/samples/sample_fields.hpp"
 #include "files/samples/sample_file.hpp"
 #include "files/samples/sample_format.hpp"
+#include "files/samples/sample_records.hpp"
 #include "files/samples/sample_rows.hpp"
 #include "files/vulkan_environment.hpp"
 #include "geodisk/checks/sample_checks.hpp"
@@ -28,7 +32,7 @@
 #include "geodisk/commands/verify.hpp"
 #include "geodisk/inputs/mesh_input.hpp"
 #include "geodisk/map_run.hpp"
-#include "geodisk/options/tolerance_option.hpp"
+#include "geodisk/options/distance_options.hpp"
 #include "geodisk/outputs/map_output.hpp"
 #include "geodisk/outputs/progress.hpp"
 #include "geodisk/picture_run.hpp"
@@ -46,6 +50,10 @@ namespace {
 
 /// Names of samples and their mesh in messages.
 constexpr const char *kSamplesName = "samples", *kMeshName = "mesh";
+
+float to_float(double value) {
+    return static_cast<float>(value);
+}
 
 /// A task while it runs.
 struct RunningTask {
@@ -79,7 +87,9 @@ MeshInput mesh_input(const geodisk_mesh& given) {
     }
     std::ranges::transform(mesh.prepared.half_edges(), std::back_inserter(file.triangles),
                            &HalfEdge::origin);
-    return {std::move(file), mesh.prepared, {}, {}, 1, {}};
+    MeshInput input{std::move(file), mesh.prepared, {}, {}, 1, {}};
+    input.path = kMeshName;
+    return input;
 }
 
 /// Returns samples as a reader of files does. Throws UserError.
@@ -118,8 +128,51 @@ SampleInput samples_on(const MeshInput& mesh, RunningTask& run) {
     check_tolerance(tolerance);
     SampleInput input{sample_file(run.task, run.options), {}};
     std::vector<MeshWarning> warnings; // Python has its own.
-    put_on_mesh(kSamplesName, kMeshName, mesh, nullptr, tolerance, input, warnings, run.progress);
+    put_on_mesh(kSamplesName, mesh, tolerance, input, warnings, run.progress);
     return input;
+}
+
+template <class Value>
+std::uintptr_t address_of(const std::vector<Value>& values) {
+    return values.empty() ? 0 : reinterpret_cast<std::uintptr_t>(values.data());
+}
+
+Json attribute_json(const MeshFile& mesh, const MeshField& field) {
+    const bool of_vertices = field.of == MeshField::Of::vertices;
+    const bool of_corners = field.of == MeshField::Of::corners;
+    return {{"name", field.name},
+            {"values", address_of(field.values)},
+            {"components", field.components.size()},
+            {"count", field.values.size() / field.components.size()},
+            {"corners", of_vertices  ? address_of(mesh.corners_in_file())
+                        : of_corners ? address_of(field.corners)
+                                     : 0},
+            {"of_vertices", of_vertices},
+            {"is_whole", field.is_whole},
+            {"is_light", field.is_light}};
+}
+
+void describe(RunningTask& run) {
+    const MeshFile& mesh = run.task.source->mesh;
+    Json attributes = Json::array(), columns = Json::array();
+    for (const MeshField& field : mesh.fields) {
+        attributes.push_back(attribute_json(mesh, field));
+    }
+    for (const std::vector<std::uint32_t>& column : run.task.source->columns) {
+        columns.push_back(address_of(column));
+    }
+    run.hand_over(text_of(Json{{"positions", address_of(mesh.positions)},
+                               {"dimension", mesh.dimension},
+                               {"vertex_count", mesh.positions.size() / mesh.dimension},
+                               {"triangles", address_of(mesh.triangles)},
+                               {"triangle_count", mesh.triangle_count()},
+                               {"polygons", address_of(mesh.polygons)},
+                               {"joined", address_of(mesh.joined)},
+                               {"joined_edges", mesh.weld ? mesh.weld->joined_edges : 0},
+                               {"corners", address_of(mesh.corners_in_file())},
+                               {"attributes", attributes},
+                               {"columns", columns},
+                               {"is_y_up", run.task.source->is_y_up}}));
 }
 
 void verify(RunningTask& run) {
@@ -153,7 +206,7 @@ void verify(RunningTask& run) {
         places.rows.emplace_back().face = task.avoid[i].face;
         std::ranges::copy(task.avoid[i].weights, places.rows.back().bary);
     }
-    check_rows("avoid", places, kMeshName, mesh, "point");
+    check_rows("avoid", places, mesh, "point");
     auto [samples, strays] = samples_on(mesh, run);
     run.hand_over(report_json(check_samples(options, mesh, samples, std::move(strays),
                                             wanted_spacing(options, samples, mesh), avoided, {},
@@ -163,7 +216,7 @@ void verify(RunningTask& run) {
 /// Returns the samples on their mesh, after handing over where that is.
 SampleFile place(RunningTask& run) {
     const MeshInput mesh = mesh_input(*run.task.mesh);
-    SampleFile samples = without_strays(kSamplesName, kMeshName, samples_on(mesh, run));
+    SampleFile samples = without_strays(kSamplesName, mesh, samples_on(mesh, run));
     std::vector<std::uint32_t> faces;
     std::vector<float> weights;
     for (const SampleRow& row : samples.rows) {
@@ -218,6 +271,50 @@ void save_map(RunningTask& run) {
     file.commit();
 }
 
+/// Returns samples of a mesh, by weights and normals.
+std::vector<SampleRow> recorded_rows(const RunningTask& run, const MeshFile& mesh) {
+    std::vector<SampleRow> rows(run.options.at("count"));
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        rows[i].face = run.task.faces[i];
+        const double* const numbers = run.task.samples + 6 * i;
+        std::ranges::transform(numbers, numbers + 3, rows[i].bary, to_float);
+        std::ranges::transform(numbers + 3, numbers + 6, rows[i].normal, to_float);
+        if (rows[i].face >= mesh.triangle_count() || mesh.dimension != 3) {
+            fail_usage("samples are not of this mesh, or it is not in space");
+        }
+    }
+    return rows;
+}
+
+void record(RunningTask& run) {
+    const MeshFile& mesh = run.task.source->mesh;
+    std::vector<SampleRow> rows = recorded_rows(run, mesh);
+    if (const std::string kind = run.options.at("normals"); kind != "face") {
+        if (kind == "file" && !mesh.normals) {
+            fail_usage("the normals of the file were not read");
+        }
+        kind == "file" ? set_file_normals(mesh, rows) : set_smooth_normals(mesh, rows);
+        std::vector<float> normals;
+        for (const SampleRow& row : rows) {
+            normals.insert(normals.end(), row.normal, row.normal + 3);
+        }
+        run.hand_over(normals);
+    }
+    if (run.task.path != nullptr) {
+        const bool is_auto = std::string_view(run.task.path) == kAutoTexture;
+        if (is_auto ? !mesh.materials : !mesh.texture_uvs || mesh.materials) {
+            fail_usage("a texture needs texture coordinates or materials");
+        }
+        const Textures textures = is_auto ? Textures(mesh) : Textures(mesh, Path(run.task.path));
+        run.hand_over(texture_colours(mesh, textures, rows).values);
+    }
+    if (const std::string frames = run.options.at("frames"); !frames.empty()) {
+        FrameStyle style = parse_frame_style("frames", frames);
+        style.world = find_up(run.options.at("up").get<std::string>()).value_or(style.world);
+        run.hand_over(sample_frames(rows, run.options.at("seed"), style).values);
+    }
+}
+
 /// Opens a device that draws. Python warns of missing drivers.
 Context drawing_context(const std::string& device) {
     ContextOptions wanted;
@@ -247,7 +344,7 @@ void render(RunningTask& run) {
         drawn = draw_box(options, kSamplesName, box, samples, open, run.progress);
     } else {
         const MeshInput mesh = mesh_input(*run.task.mesh);
-        const SampleFile samples = without_strays(kSamplesName, kMeshName, samples_on(mesh, run));
+        const SampleFile samples = without_strays(kSamplesName, mesh, samples_on(mesh, run));
         std::vector<MeshWarning> warnings;
         drawn = draw_samples(options, mesh, samples, warnings, open, run.progress);
     }
@@ -302,11 +399,13 @@ void read_frame_style(RunningTask& run) {
 
 void run_named(std::string_view name, RunningTask& run) {
     constexpr std::pair<std::string_view, void (*)(RunningTask&)> kCommands[] = {
+        {"describe", &describe},
         {"verify", &verify},
         {"place", [](RunningTask& one) { static_cast<void>(place(one)); }},
         {"transfer", &transfer},
         {"bake", &bake},
         {"save_map", &save_map},
+        {"record", &record},
         {"render", &render},
         {"save", &save},
         {"frame_style", &read_frame_style},

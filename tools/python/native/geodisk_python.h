@@ -35,7 +35,7 @@ typedef struct geodisk_source_params {
     int32_t keep_seams;        /* As in geodisk_mesh_params. */
     const char *mesh_format;   /* "obj" and so on, or NULL for that of the extension. */
     const char *columns;       /* Columns of triangles to read: "mesh,primitive". May be NULL. */
-    int32_t has_normals;       /* Not 0 to read the file's normals, for geodisk_source_record(). */
+    int32_t has_normals;       /* Not 0 to read the file's normals, for the command `record`. */
     int32_t has_uvs;           /* Not 0 to read texture coordinates, for a texture. */
     int32_t has_materials;     /* Not 0 to read materials, for the texture "auto". */
     int32_t allow_outside;     /* As --allow-outside of the program. */
@@ -44,76 +44,6 @@ typedef struct geodisk_source_params {
 /* Reads a mesh. Fails with GEODISK_MESH_REJECTED for a file that cannot be read or used. */
 GEODISK_C_API geodisk_status geodisk_source_read(const geodisk_source_params *params,
                                                  geodisk_source **source, geodisk_error *error);
-
-/* The arrays of a source. They live as long as it does. */
-typedef struct geodisk_source_arrays {
-    size_t struct_size;
-    const double *positions;
-    uint32_t dimension;
-    size_t vertex_count;
-    const uint32_t *triangles; /* Three vertices each. */
-    size_t triangle_count;
-    const uint32_t *polygons;  /* The file's face of each triangle; NULL where the numbers agree. */
-    size_t polygon_count;      /* Faces of the file. */
-    const uint32_t *joined;    /* Lowest vertex that each is joined with; NULL where none are. */
-    uint64_t joined_edges;     /* Border edges joined to others along seams. */
-    const uint32_t *corners;   /* Vertices of triangles before any were joined, as `triangles`. */
-    size_t attribute_count;
-    int32_t is_y_up;           /* Not 0 for a file of a format in which y points up. */
-} geodisk_source_arrays;
-
-GEODISK_C_API geodisk_status geodisk_source_describe(const geodisk_source *source,
-                                                     geodisk_source_arrays *arrays,
-                                                     geodisk_error *error);
-
-/* One attribute of a source. The arrays live as long as it does. */
-typedef struct geodisk_source_attribute {
-    size_t struct_size;
-    const char *name;
-    const double *values;    /* `components` numbers each. */
-    size_t value_count;
-    size_t components;
-    const uint32_t *corners; /* The value of each triangle's corner; NULL for values of faces. */
-    int32_t of_vertices;     /* Not 0 if there is a value for each vertex. */
-    int32_t is_whole;        /* Not 0 for integers, which are not interpolated. */
-    int32_t is_light;        /* Not 0 for colours that are amounts of light. */
-} geodisk_source_attribute;
-
-GEODISK_C_API geodisk_status geodisk_source_get_attribute(const geodisk_source *source, size_t index,
-                                                          geodisk_source_attribute *attribute,
-                                                          geodisk_error *error);
-
-/* Writes to `values` where those of a column are, one for each triangle. */
-GEODISK_C_API geodisk_status geodisk_source_column(const geodisk_source *source, size_t index,
-                                                   const uint32_t **values, geodisk_error *error);
-
-/* Normals of triangles, those of the file, or interpolated means at vertices. */
-typedef int32_t geodisk_normal_kind;
-#define GEODISK_FACE_NORMALS 0
-#define GEODISK_FILE_NORMALS 1
-#define GEODISK_SMOOTH_NORMALS 2
-
-/* Samples on a source, and what they get of it besides attributes. */
-typedef struct geodisk_record_params {
-    size_t struct_size;
-    const uint32_t *faces;
-    const double *weights; /* Three for each sample. */
-    size_t count;
-    geodisk_normal_kind normal_kind;
-    const char *texture;   /* Image whose colours to look up, "auto" for materials, or NULL. */
-    uint64_t seed;         /* Of the angles of frames. */
-    double *normals;       /* In: those of the triangles, three for each sample. Out: those asked for. */
-    double *colours;       /* Out: red, green and blue of the texture. */
-    double *frames;        /* Out: quaternions x y z w, or NULL. */
-    const char *frame_style; /* As headers of files spell it. */
-    const char *up;        /* Axis of the mesh to keep frames to: "x", "y", "z", or "" for none. */
-} geodisk_record_params;
-
-/* Fails with GEODISK_INVALID_ARGUMENT for a damaged image, and for normals, texture coordinates or
- * materials that were not read. */
-GEODISK_C_API geodisk_status geodisk_source_record(const geodisk_source *source,
-                                                   const geodisk_record_params *params,
-                                                   geodisk_error *error);
 
 GEODISK_C_API void geodisk_source_release(geodisk_source *source);
 
@@ -138,12 +68,14 @@ typedef struct geodisk_task {
     const int32_t *map_samples; /* What `bake` handed over, for each texel. */
     const float *map_distances;
     const uint32_t *map_faces;
+    const char *path;           /* File to read, as the system spells it. */
 } geodisk_task;
 
 /* Takes an array that a command made. */
 typedef void (*geodisk_take_fn)(const void *bytes, size_t size);
 
 /* Runs a command of the program or of this list, and hands over what it makes:
+ *   describe  `source` as JSON, with addresses of arrays that live as long as it does, 0 for none
  *   verify    the report of the program, as JSON
  *   place     faces and weights of samples on their mesh, as uint32_t and three float for each
  *   transfer  the same, then their points as double with at least three coordinates and normals as
@@ -151,6 +83,10 @@ typedef void (*geodisk_take_fn)(const void *bytes, size_t size);
  *   bake      the nearest sample of each texel of `source` as int32_t, its distance as float, the
  *             face as int32_t, and how many texels several faces cover as uint64_t
  *   save_map  nothing; writes a map of `bake` to a file
+ *   record    of samples on `source`, each six numbers, weights and normals: normals as three float
+ *             unless those of triangles will do, then red, green and blue as double of the texture
+ *             `path`, "auto" for materials, and the quaternions x y z w of frames as double, each
+ *             if asked for
  *   render    a PNG file
  *   frame_style  the style of frames that the option `text` names, as JSON: `text` as headers of
  *             files spell it, and `has_up`, true if they keep to an axis of the mesh
@@ -163,6 +99,9 @@ typedef void (*geodisk_take_fn)(const void *bytes, size_t size);
  * Fails with GEODISK_INVALID_ARGUMENT for what the program refuses, in its words. */
 GEODISK_C_API geodisk_status geodisk_run_command(const char *name, const geodisk_task *task,
                                                  geodisk_take_fn take, geodisk_error *error);
+
+/* Returns geodisk.h and this header, from which Python has the types of structs and functions. */
+GEODISK_C_API const char *geodisk_python_headers(void);
 
 /* For a child of fork() whose parent has used a driver: the threads of the driver are not there, and
  * its exit handler would wait for them forever. Lets exit() end the process without the handlers that
