@@ -3,11 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
-#include <optional>
-#include <span>
-
-#include <geodisk/geodesics.hpp>
 
 #include <doctest/doctest.h>
 
@@ -60,35 +55,6 @@ void check_documented(const DistanceCase& c, const char* kind, const PreparedMes
     report(c, kind, source, worst_error(found, truth, c.reach, 3 * bound), bound);
 }
 
-Sample sample_at(const Point& point) {
-    return {point.face,
-            {static_cast<float>(1 - point.weight1 - point.weight2),
-             static_cast<float>(point.weight1), static_cast<float>(point.weight2)}};
-}
-
-std::vector<Sample> samples_at(const std::vector<Point>& points) {
-    std::vector<Sample> samples;
-    std::ranges::transform(points, std::back_inserter(samples), sample_at);
-    return samples;
-}
-
-/// Returns the library's own distances on the CPU. It gives up where windows are too many.
-std::optional<std::vector<double>> by_library(const PreparedMesh& mesh, double reach,
-                                              const Point& source,
-                                              const std::vector<Sample>& targets) {
-    const Sample from = sample_at(source);
-    DistanceQuery query;
-    query.sources = std::span(&from, 1);
-    query.targets = targets;
-    query.within = reach;
-    auto found = geodesic_distances(mesh, query);
-    if (!found) {
-        CHECK(found.error().status == Status::mesh_rejected);
-        return std::nullopt;
-    }
-    return std::move(found->distances);
-}
-
 } // namespace
 
 void check_distances(const DistanceCase& c, const Truth& truth) {
@@ -98,7 +64,6 @@ void check_distances(const DistanceCase& c, const Truth& truth) {
     GeodesicQuery<double> reference(mesh, c.reach, c.targets, documented);
     GeodesicQuery<float> twin(mesh, c.reach, c.targets, documented);
     const double bound = c.exactness * c.reach;
-    const std::vector<Sample> targets = samples_at(c.targets);
     for (const Point& source : c.sources) {
         std::vector<double> expected(c.targets.size());
         for (std::size_t i = 0; i < expected.size(); ++i) {
@@ -108,7 +73,7 @@ void check_distances(const DistanceCase& c, const Truth& truth) {
                worst_error(exact.from(source), expected, c.reach, 3 * bound), bound);
         check_documented(c, "double", mesh, reference, source, reference.from(source), expected);
         check_documented(c, "float", mesh, twin, source, twin.from(source), expected);
-        if (const auto found = by_library(mesh, c.reach, source, targets)) {
+        if (const auto found = library_distances(mesh, c.reach, source, c.targets)) {
             report(c, "the library's double", source,
                    worst_error(*found, expected, c.reach, 3 * bound), bound);
         }

@@ -106,6 +106,9 @@ std::vector<WrongDistance> wrong_distances(const TestMesh& mesh, const PreparedM
     Comparison comparison(truth, reach, std::move(ignores));
     comparison.add_one_way();
     comparison.add("double", 2e-7 * reach, all_from(exact));
+    comparison.add("library", 1e-9 * reach, [&](std::size_t a) {
+        return library_distances(surface, reach, points[a], points);
+    });
     comparison.add("float", guard, all_from(twin));
     comparison.add("float, trimming", guard, all_from(trimming));
     comparison.add("float, by a group", guard,

@@ -1,7 +1,12 @@
 #include "support/geodesic_query.hpp"
 
 #include <algorithm>
+#include <iterator>
+#include <span>
+#include <stdexcept>
 #include <utility>
+
+#include <geodisk/geodesics.hpp>
 
 namespace geodisk::test {
 namespace {
@@ -19,6 +24,12 @@ std::vector<ref::FacePoint<Real>> converted(const std::vector<Point>& points) {
         result.push_back(converted<Real>(p));
     }
     return result;
+}
+
+Sample sample_at(const Point& point) {
+    return {point.face,
+            {static_cast<float>(1 - point.weight1 - point.weight2),
+             static_cast<float>(point.weight1), static_cast<float>(point.weight2)}};
 }
 
 } // namespace
@@ -64,6 +75,26 @@ std::optional<std::vector<double>> GeodesicQuery<Real>::by_group_from(const Poin
     } catch (const ref::ManyWindows&) {
         return std::nullopt;
     }
+}
+
+std::optional<std::vector<double>> library_distances(const PreparedMesh& mesh, double reach,
+                                                     const Point& source,
+                                                     const std::vector<Point>& targets) {
+    const Sample from = sample_at(source);
+    std::vector<Sample> to;
+    std::ranges::transform(targets, std::back_inserter(to), sample_at);
+    DistanceQuery query;
+    query.sources = std::span(&from, 1);
+    query.targets = to;
+    query.within = reach;
+    auto found = geodesic_distances(mesh, query);
+    if (!found && found.error().status != Status::mesh_rejected) {
+        throw std::runtime_error(found.error().message);
+    }
+    if (!found) {
+        return std::nullopt;
+    }
+    return std::move(found->distances);
 }
 
 template class GeodesicQuery<float>;

@@ -54,4 +54,10 @@ class GeodesicQuery {
     ref::DiskCount count_;
 };
 
+/// Returns what the library measures on the CPU from a point to others, kUnreachable beyond the
+/// reach; nothing where windows are too many for it. Weights are multiples of 2^-24.
+std::optional<std::vector<double>> library_distances(const PreparedMesh& mesh, double reach,
+                                                     const Point& source,
+                                                     const std::vector<Point>& targets);
+
 } // namespace geodisk::test

@@ -35,6 +35,7 @@ void set_up(geodisk::tools::Command app) {
     geodisk::tools::add_render_command(app);
     geodisk::tools::add_report_command(app);
     geodisk::tools::add_neighbours_command(app);
+    geodisk::tools::add_distances_command(app);
     geodisk::tools::add_cells_command(app);
     geodisk::tools::add_bake_command(app);
     geodisk::tools::add_transfer_command(app);

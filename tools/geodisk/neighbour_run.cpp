@@ -9,35 +9,6 @@
 #include "program/interrupt.hpp"
 
 namespace geodisk::tools {
-NumberedPoints places_of(const MeshInput& mesh) {
-    VertexPoints places = take(vertex_points(mesh.prepared));
-    return {std::move(places.points), std::move(places.vertices)};
-}
-
-NumberedPoints vertices_of(const MeshInput& mesh, const std::vector<VertexRange>& wanted) {
-    VertexPoints all = take(vertex_points(mesh.prepared, mesh.file.joined));
-    if (wanted.empty()) {
-        return {std::move(all.points), std::move(all.vertices)};
-    }
-    NumberedPoints found;
-    for (const auto& [first, last] : wanted) {
-        if (last >= mesh.prepared.vertex_count()) {
-            fail_usage("--vertices: there is no vertex " + std::to_string(last) +
-                       ", since the mesh has " + grouped(mesh.prepared.vertex_count()) +
-                       ", counted from 0");
-        }
-        auto at = std::ranges::lower_bound(all.vertices, first);
-        for (std::uint32_t vertex = first; vertex <= last; ++vertex, ++at) {
-            if (at == all.vertices.end() || *at != vertex) {
-                fail_usage("--vertices: no face uses vertex " + std::to_string(vertex));
-            }
-            found.points.push_back(all.points[static_cast<std::size_t>(at - all.vertices.begin())]);
-            found.numbers.push_back(vertex);
-        }
-    }
-    return found;
-}
-
 void keep_masked(const MeshInput& mesh, NumberedPoints& vertices) {
     const auto place = [&](std::uint32_t vertex) {
         return mesh.file.joined.empty() ? vertex : mesh.file.joined[vertex];

@@ -11,28 +11,10 @@
 #include "files/samples/neighbour_file.hpp"
 #include "geodisk/device_run.hpp"
 #include "geodisk/inputs/mesh_input.hpp"
+#include "geodisk/inputs/source_points.hpp"
 #include "geodisk/outputs/progress.hpp"
 
 namespace geodisk::tools {
-
-/// Points of a mesh with the numbers that a file gives them.
-struct NumberedPoints {
-    std::vector<Sample> points;
-    std::vector<std::uint32_t> numbers; ///< Empty for 0, 1, 2 ...
-};
-
-/// Vertices from the first to the last.
-struct VertexRange {
-    std::uint32_t first, last;
-};
-
-/// Returns the places of vertices that faces use, each by the lowest of those that are joined.
-NumberedPoints places_of(const MeshInput& mesh);
-
-/// Returns the vertices of the mesh that faces use, or those of `wanted` in that order. Of vertices
-/// that are joined, each has the place of all. Throws UserError(usage) for one that there is not,
-/// or that no face uses.
-NumberedPoints vertices_of(const MeshInput& mesh, const std::vector<VertexRange>& wanted);
 
 /// Leaves out vertices that no face of the mesh's mask uses.
 void keep_masked(const MeshInput& mesh, NumberedPoints& vertices);

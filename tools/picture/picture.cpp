@@ -367,9 +367,10 @@ Picture draw_picture(const Gpu& gpu, const Content& content, const PictureParams
             return try_view(renderer, scene, view, picture.up).covered * side * side;
         };
         Style style = params.style;
-        const DrawKind what = content.balls.empty()
-                                  ? kind_with_scale(style, content.samples, covered)
-                                  : DrawKind{kDrawFrame, 1, params.cuts};
+        const DrawKind what =
+            content.largest_value > 0 ? DrawKind{kDrawValues, content.largest_value}
+            : content.balls.empty()   ? kind_with_scale(style, content.samples, covered)
+                                      : DrawKind{kDrawFrame, 1, params.cuts};
         picture.style = i == 0 ? style : picture.style;
         draw_pane(renderer, camera, what, pane, params.background, picture.pixels, tell_tile);
         if (params.legend) {

@@ -32,6 +32,7 @@ struct Content {
     std::span<const SampleRec> samples;
     std::span<const BallRec> balls = {};
     double ball_distance = 0; ///< Minimum distance of the samples that are balls, in mesh units.
+    float largest_value = 0;  ///< Of the corners, where these are drawn in place of samples.
 };
 
 /// Holds a scene on the device. All members throw UserError.

@@ -165,7 +165,7 @@ Scene make_scene(std::span<const double> positions, std::uint32_t dimension,
         const std::uint32_t v = triangles[corner];
         const glm::vec3 at(points[v]);
         const glm::vec3 n(corner_normal(corner, vertices.at(v), normals));
-        scene.corners.push_back({at.x, at.y, at.z, n.x, n.y, n.z});
+        scene.corners.push_back({at.x, at.y, at.z, n.x, n.y, n.z, 0});
     }
     return scene;
 }

@@ -13,9 +13,12 @@
 namespace geodisk::geodesics {
 namespace {
 
-/// Part of its length by which a path to a vertex or target may pass beside the end of its window.
-/// Rounding turns rays by less, and such a path is hardly too short.
+/// Part of its length by which a path to a vertex or target may be longer than the straight one
+/// since that passes beside its window. Rounding moves rays by less.
 constexpr double kSlack = 0x1p-40;
+
+/// Part of an edge that a root is off it at least.
+constexpr double kGrain = 0x1p-50;
 
 /// The apex of a face, in place of a point of its edge.
 constexpr double kToApex = -1;
@@ -201,19 +204,21 @@ void Wavefront::light_fan(std::uint32_t vertex) {
 /// Notes the paths of a window that end in the face of h.
 void Wavefront::look(std::uint32_t h, const Window& window) {
     const auto end_at = [&](FlatPoint p) -> std::optional<Arrival> {
-        const FlatPoint way{p.x - window.x, p.y + window.y};
-        const double straight = length_of(way);
+        const double straight = length_of({p.x - window.x, p.y + window.y});
         const double crossing = window.crossing_to(p.x, p.y);
-        // The flatter the ray lies on the edge, the farther.
-        const double slack = kSlack * straight * (straight / way.y);
-        if (!(crossing >= window.begin - slack && crossing <= window.end + slack)) {
-            return std::nullopt;
+        double way = straight;
+        if (!(crossing >= window.begin && crossing <= window.end)) {
+            const double beside = crossing < window.begin ? window.begin : window.end;
+            way = std::sqrt(window.square_to(beside)) + length_of({p.x - beside, p.y});
+            if (!(way <= straight * (1 + kSlack))) {
+                return std::nullopt;
+            }
         }
         const std::uint32_t source = window.root < mesh_.vertex_count()
                                          ? vertices_[window.root].source
                                          : window.root - mesh_.vertex_count();
-        return Arrival{
-            window.sigma + straight, window.root, source, h, window.x, window.y, window.trail};
+        return Arrival{window.sigma + way, window.root, source,      h,
+                       window.x,           window.y,    window.trail};
     };
     if (const auto path = end_at({edges_[h].apex_x, edges_[h].apex_y})) {
         reach(edges_[previous_in_face(h)].origin, *path);
@@ -290,8 +295,14 @@ void Wavefront::cross_to(std::uint32_t child, std::uint32_t h, const Window& win
 /// Adds a window, given in the frame of the half-edge that it leaves a face by, unless it is of no
 /// use beyond.
 void Wavefront::leave(std::uint32_t h, Window window, std::uint32_t from, WindowList& windows) {
-    // A root in line with the edge lights nothing beyond it. Its ends go on for themselves.
-    if (window.is_empty() || !(window.y > 0) || window.nearest() > within_ ||
+    const double length = edges_[h].length, grain = kGrain * length;
+    // A root in line with the edge lights nothing beyond it: its ends go on for themselves. One on
+    // the edge, as the corner of a flat triangle may be, lights everything.
+    if (window.y < grain && (window.x <= grain || length - window.x <= grain)) {
+        return;
+    }
+    window.y = std::max(window.y, grain);
+    if (window.is_empty() || window.nearest() > within_ ||
         around_half_edge(edges_[h].around) == h || is_beaten_at_ends(h, window)) {
         return;
     }

@@ -3,6 +3,9 @@
 namespace geodisk::geodesics {
 namespace {
 
+/// Angle between rays, in radians, that counts.
+constexpr double kAngle = 1e-9;
+
 /// Returns how much shorter the paths of `second` are at a point.
 double gain(const Window& first, const Window& second, double at) {
     return first.distance_to(at) - second.distance_to(at);
@@ -48,12 +51,43 @@ double equal_point(const Window& a, const Window& b, double low, double high) {
     return high;
 }
 
-/// Cuts [low, high] off a window where it is one of its ends.
-void cut(Window& window, double low, double high) {
-    if (high >= window.end) {
-        window.end = std::min(window.end, low);
-    } else if (low <= window.begin) {
-        window.begin = high;
+/// Returns true if two windows are views of one root.
+bool are_of_one_root(const Window& a, const Window& b, double tie) {
+    return std::abs(a.sigma - b.sigma) <= tie && std::abs(a.x - b.x) <= tie &&
+           std::abs(a.y - b.y) <= tie;
+}
+
+/// Returns where, from `end` towards `other` on, a window is farther than another one by more than
+/// rounding. Where that moves its rays by less than an angle that counts, returns `end`. A root
+/// close to the edge sends rays of all directions through a part as small as rounding.
+double end_of_loss(const Window& loser, const Window& winner, double end, double other,
+                   double tie) {
+    const double loss = gain(loser, winner, end);
+    const double way = std::sqrt(loser.square_to(end));
+    if (loss > tie || !(way > 0) || are_of_one_root(loser, winner, tie)) {
+        return end;
+    }
+    const double slope =
+        (end - loser.x) / way - (end - winner.x) / std::sqrt(winner.square_to(end));
+    const double rise = other > end ? slope : -slope;
+    const double step = rise > 0 ? (tie - loss) / rise : std::abs(other - end);
+    if (step * loser.y <= kAngle * square(way)) {
+        return end;
+    }
+    return other > end ? std::min(end + step, other) : std::max(end - step, other);
+}
+
+/// Cuts off a window what another one reaches sooner, [low, high], where that is one of its ends.
+void cut(Window& window, const Window& winner, double low, double high, double tie) {
+    const double begin = end_of_loss(window, winner, low, high, tie);
+    const double end = end_of_loss(window, winner, high, low, tie);
+    if (!(begin < end)) {
+        return;
+    }
+    if (end >= window.end) {
+        window.end = std::min(window.end, begin);
+    } else if (begin <= window.begin) {
+        window.begin = end;
     }
 }
 
@@ -72,18 +106,22 @@ void trim(Window& first, Window& second) {
     };
     if (at_low <= tie && at_high <= tie) {
         if (between() <= tie) {
-            cut(second, low, high);
+            cut(second, first, low, high, tie);
         }
     } else if (at_low >= -tie && at_high >= -tie) {
         if (between() >= -tie) {
-            cut(first, low, high);
+            cut(first, second, low, high, tie);
         }
     } else {
         const double equal = equal_point(first, second, low, high);
-        Window& farther_at_low = at_low < 0 ? second : first;
-        Window& farther_at_high = at_low < 0 ? first : second;
-        cut(farther_at_low, low, equal);
-        cut(farther_at_high, equal, high);
+        const Window one = first, other = second;
+        if (at_low < 0) {
+            cut(second, one, low, equal, tie);
+            cut(first, other, equal, high, tie);
+        } else {
+            cut(first, other, low, equal, tie);
+            cut(second, one, equal, high, tie);
+        }
     }
 }
 

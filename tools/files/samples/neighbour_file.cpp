@@ -13,12 +13,13 @@
 
 namespace geodisk::tools {
 
-SampleTarget neighbour_target(const Path& path, const std::string& format) {
+SampleTarget neighbour_target(const Path& path, const std::string& format,
+                              const std::string& what) {
     const auto wanted = find_format(path, format);
     if (!wanted || !facts_of(*wanted).is_for_programs) {
         fail_usage(
-            (format.empty() ? path.string() : "--format: " + in_quotes(format)) +
-            ": neighbours are written as .npz or .csv" +
+            (format.empty() ? path.string() : "--format: " + in_quotes(format)) + ": " + what +
+            " are written as .npz or .csv" +
             (format.empty() && lower_extension(path).empty() ? "; give --format npz or csv" : ""));
     }
     return {path, *wanted};

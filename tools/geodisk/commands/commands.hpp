@@ -80,6 +80,9 @@ void add_report_command(Command app);
 /// Finds what is near each vertex or point along the surface, on a Vulkan device.
 void add_neighbours_command(Command app);
 
+/// Measures distances from sources to all vertices along the surface, on the CPU.
+void add_distances_command(Command app);
+
 /// Finds the nearest sample of each texel of a texture.
 void add_bake_command(Command app);
 

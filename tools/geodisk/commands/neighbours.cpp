@@ -3,15 +3,12 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
-#include "files/text_file.hpp"
-#include "files/text_lines.hpp"
-#include "geodisk/checks/sample_input.hpp"
 #include "geodisk/commands/commands.hpp"
 #include "geodisk/commands/help_text.hpp"
 #include "geodisk/inputs/mesh_input.hpp"
+#include "geodisk/inputs/source_points.hpp"
 #include "geodisk/neighbour_run.hpp"
 #include "geodisk/opened_device.hpp"
 #include "geodisk/options/distance_options.hpp"
@@ -41,7 +38,8 @@ struct NeighbourOptions {
     MaskOptions mask;
     OutputOptions out;
     RunOptions run;
-    std::string points, vertices, within, among = "vertices", nearest, max_pairs, tolerance;
+    SourceOptions source;
+    std::string within, among = "vertices", nearest, max_pairs;
 
     /// Returns the file of the points to search; "" for others.
     std::string searched() const { return among == "vertices" || among == "sources" ? "" : among; }
@@ -66,103 +64,22 @@ Within parsed_within(const NeighbourOptions& options) {
     if (is_number) {
         return {parse_length("--within", options.within), {}};
     }
-    if (options.points.empty()) {
+    if (options.source.points.empty()) {
         fail_usage("--within: " + in_quotes(options.within) +
                    " is no length; for a column, give POINTS that have it");
     }
     return {{}, options.within};
 }
 
-/// Returns the range of a text such as "5" or "10-20"; nothing for another text.
-std::optional<VertexRange> parsed_range(std::string_view text) {
-    const std::size_t dash = text.find('-');
-    const auto first = parse_integer<std::uint32_t>(text.substr(0, dash));
-    const auto last = dash == std::string_view::npos
-                          ? first
-                          : parse_integer<std::uint32_t>(text.substr(dash + 1));
-    return first && last && *first <= *last ? std::optional(VertexRange{*first, *last})
-                                            : std::nullopt;
-}
-
-std::string no_range_text(std::string_view text) {
-    return in_quotes(std::string(text)) + " is neither a number nor a range such as 10-20";
-}
-
-/// Returns the name of the file of vertices; "" if they are on the command line.
-std::string vertex_file(const NeighbourOptions& options) {
-    return options.vertices.starts_with('@') ? options.vertices.substr(1) : "";
-}
-
-/// Reads numbers and ranges between blanks, commas and lines; '#' begins a comment.
-std::vector<VertexRange> vertices_in(const std::string& file) {
-    std::vector<VertexRange> ranges;
-    const std::string text = read_text(file);
-    TextLines lines(text);
-    for (std::string_view read; lines.next(read);) {
-        std::string line(without_comment(read));
-        std::ranges::replace(line, ',', ' ');
-        std::vector<std::string_view> words;
-        split_tokens(line, words);
-        for (const std::string_view word : words) {
-            const auto range = parsed_range(word);
-            if (!range) {
-                fail_input(file,
-                           "line " + std::to_string(lines.number()) + ": " + no_range_text(word));
-            }
-            ranges.push_back(*range);
-        }
-    }
-    if (ranges.empty()) {
-        fail_input(file, "names no vertex");
-    }
-    return ranges;
-}
-
-std::vector<VertexRange> parsed_vertices(const NeighbourOptions& options) {
-    if (const std::string file = vertex_file(options); !file.empty()) {
-        return vertices_in(file);
-    }
-    std::vector<VertexRange> ranges;
-    const std::string_view list = options.vertices;
-    for (std::size_t begin = 0; begin <= list.size() && !list.empty();) {
-        const std::size_t end = std::min(list.find(',', begin), list.size());
-        const std::string_view item = trimmed(list.substr(begin, end - begin));
-        const auto range = parsed_range(item);
-        if (!range) {
-            fail_usage("--vertices: " + no_range_text(item));
-        }
-        ranges.push_back(*range);
-        begin = end + 1;
-    }
-    return ranges;
-}
-
 void check_files(const NeighbourOptions& options) {
     std::vector<NamedFile> read;
     options.mesh.add_files(read, "the mesh");
     options.mask.add_files(read);
-    if (!options.points.empty()) {
-        read.push_back({"the sources", options.points});
-    }
+    options.source.add_files(read);
     if (!options.searched().empty()) {
         read.push_back({"the points to search", options.searched()});
     }
-    if (const std::string file = vertex_file(options); !file.empty()) {
-        read.push_back({"the vertices", file});
-    }
     check_outputs(options.out, "the neighbours", read, [](const Path&) {});
-}
-
-/// Points of a file, on the mesh.
-SampleFile read_points(const NeighbourOptions& options, const std::string& path,
-                       const std::string& column, const MeshInput& mesh,
-                       std::vector<MeshWarning>& warnings, ProgressLine& progress) {
-    SampleFile file = read_samples_silently_on(path, mesh, options.tolerance, warnings, progress,
-                                               {"point", column});
-    if (file.rows.empty()) {
-        fail_input(path, "has no points");
-    }
-    return file;
 }
 
 std::vector<double> radii_in(const std::string& path, const std::string& column,
@@ -180,7 +97,7 @@ NeighbourJob make_job(const NeighbourOptions& options, const Within& within,
                       const std::vector<VertexRange>& vertices, const MeshInput& mesh,
                       std::vector<MeshWarning>& warnings, ProgressLine& progress) {
     NeighbourJob job;
-    if (options.points.empty()) {
+    if (options.source.points.empty()) {
         job.sources = options.among == "sources" && vertices.empty() ? places_of(mesh)
                                                                      : vertices_of(mesh, vertices);
         if (!mesh.face_mask.empty()) {
@@ -188,10 +105,10 @@ NeighbourJob make_job(const NeighbourOptions& options, const Within& within,
         }
     } else {
         const SampleFile file =
-            read_points(options, options.points, within.column, mesh, warnings, progress);
+            options.source.read(options.source.points, within.column, mesh, warnings, progress);
         job.sources.points = samples_of(file.rows);
         if (!within.column.empty()) {
-            job.radii = radii_in(options.points, within.column, file);
+            job.radii = radii_in(options.source.points, within.column, file);
         }
     }
     if (within.length) {
@@ -199,7 +116,7 @@ NeighbourJob make_job(const NeighbourOptions& options, const Within& within,
     }
     if (const std::string path = options.searched(); !path.empty()) {
         job.kind = NeighbourKind::points;
-        job.points = samples_of(read_points(options, path, {}, mesh, warnings, progress).rows);
+        job.points = samples_of(options.source.read(path, {}, mesh, warnings, progress).rows);
     } else if (options.among == "sources") {
         job.kind = NeighbourKind::sources;
     }
@@ -209,20 +126,18 @@ NeighbourJob make_job(const NeighbourOptions& options, const Within& within,
 void run_neighbours(const NeighbourOptions& options) {
     const SampleTarget target = neighbour_target(options.out.output, options.out.format);
     const Within within = parsed_within(options);
-    if (!options.points.empty() && !options.vertices.empty()) {
-        fail_usage("--vertices contradicts POINTS: sources are either");
-    }
-    if (options.mask.is_given() && !(options.points.empty() && options.vertices.empty())) {
+    const std::vector<VertexRange> vertices = options.source.ranges();
+    if (options.mask.is_given() &&
+        !(options.source.points.empty() && options.source.vertices.empty())) {
         fail_usage(options.mask.names() + ": all sources are given by " +
-                   (options.points.empty() ? "--vertices" : "POINTS"));
+                   (options.source.points.empty() ? "--vertices" : "POINTS"));
     }
-    const std::vector<VertexRange> vertices = parsed_vertices(options);
     constexpr double kMax = 0xffffffffp0;
     const double nearest = options.nearest.empty() ? 0 : parse_count("--nearest", options.nearest);
     const double pairs =
         options.max_pairs.empty() ? 0 : parse_count("--most-pairs", options.max_pairs);
     const RunnerOptions runner = options.run.runner();
-    check_tolerance(options.tolerance);
+    check_tolerance(options.source.tolerance);
     check_files(options);
 
     ProgressLine progress(options.out.quiet);
@@ -242,7 +157,7 @@ void run_neighbours(const NeighbourOptions& options) {
                                  job,
                                  result,
                                  options.out.output,
-                                 !options.points.empty(),
+                                 !options.source.points.empty(),
                                  options.searched().empty() ? options.among : "points"};
     write_outputs(options.out, "the neighbours", progress, report,
                   [&](AtomicFile& file) { write_neighbours(file, target, result.table); });
@@ -256,7 +171,7 @@ void add_neighbours_command(Command app) {
                       "source, and their distances");
     const auto options = std::make_shared<NeighbourOptions>();
     add_mesh_argument(command, options->mesh, "Mesh to search");
-    command.add_option("POINTS", options->points, "",
+    command.add_option("POINTS", options->source.points, "",
                        "Sources: samples of MESH, or points of another program,\n"
                        "put on the nearest face; without it all vertices");
     add_output_argument(command, options->out,
@@ -265,7 +180,7 @@ void add_neighbours_command(Command app) {
     command.add_option("--within", options->within, "R",
                        "Distance along the surface: in mesh units, or 1% of the\n"
                        "diagonal, or the column of POINTS that has one for each");
-    command.add_option("--vertices", options->vertices, "LIST",
+    add_source_options(command, options->source,
                        "Sources are only these vertices, such as 0,5,10-20, or @FILE\n"
                        "with such numbers, separated by blanks or lines");
     command.add_option("--among", options->among, "WHAT",
@@ -280,7 +195,6 @@ void add_neighbours_command(Command app) {
     add_mesh_options(command, options->mesh);
     options->mask.lacking = "there are no sources to find neighbours of";
     add_mask_options(command, options->mask, OptionUse::choosing);
-    add_tolerance_option(command, options->tolerance);
     add_json_option(command, options->out);
     command.add_option("--format", options->out.format, "FORMAT",
                        "Write npz or csv, ignoring the extension of OUT");

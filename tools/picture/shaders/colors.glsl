@@ -70,6 +70,12 @@ vec3 distance_color(float q) {
     return scale_color(1.0 - 0.5 * q) * (line < 0.05 ? 0.55 : 1.0);
 }
 
+// From 0, light, to 1, dark, with a line at each twentieth.
+vec3 lined_color(float t) {
+    float line = abs(fract(20.0 * t + 0.5) - 0.5);
+    return scale_color(1.0 - t) * (line < 0.06 ? 0.45 : 1.0);
+}
+
 // Light from one side, from above, and a little from the eye.
 vec3 shade(vec3 matte, vec3 normal, vec3 to_eye, vec3 to_light) {
     float key = max(dot(normal, to_light), 0.0);

@@ -26,11 +26,15 @@ GEODISK_PICTURE_CONSTANT kMaxTilt = 5u;
 GEODISK_PICTURE_CONSTANT kBordersPerRadius = 20u;
 // The edges of a box, beside balls.
 GEODISK_PICTURE_CONSTANT kDrawFrame = 6u;
+// The values of corners, by colour and by lines where they are equal.
+GEODISK_PICTURE_CONSTANT kDrawValues = 7u;
 
-// A corner of a drawn face: where it lies in the scene, and its normal there.
+// A corner of a drawn face: where it lies in the scene, its normal there, and its value, negative
+// where it has none.
 struct CornerRec {
     float x; float y; float z;
     float normal_x; float normal_y; float normal_z;
+    float value;
 };
 
 // A face in the frame of its half-edge `base`: corner base at (0, 0), the next one at (longest, 0),
@@ -66,12 +70,12 @@ struct PushRec {
     float to_clip[16];   // column by column
     float eye_x; float eye_y; float eye_z; // in the scene
     float light_x; float light_y; float light_z; // the direction it comes from
-    float high; // the end of the scale: a point's radius in radii, or a density
+    float high; // the end of the scale: a point's radius in radii, a density, or a value
     uint cuts;  // not 0: without the eighth of the box nearest to the eye
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(CornerRec) == 24 && sizeof(FaceRec) == 32 && sizeof(WindowRec) == 32 &&
+static_assert(sizeof(CornerRec) == 28 && sizeof(FaceRec) == 32 && sizeof(WindowRec) == 32 &&
               sizeof(SampleRec) == 12 && sizeof(BallRec) == 20 && sizeof(PushRec) == 96);
 }
 #endif

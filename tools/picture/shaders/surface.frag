@@ -20,6 +20,7 @@ layout(location = 0) in vec3 place;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec2 in_face;
 layout(location = 3) flat in uint face_index;
+layout(location = 4) in float value;
 
 layout(location = 0) out vec4 color;
 
@@ -81,9 +82,14 @@ void main() {
         color = vec4(kMark, 1);
         return;
     }
-    float density;
-    const Nearest nearest = look_up(face_index, in_face, density);
-    const vec3 matte = surface_color(nearest, density);
+    vec3 matte;
+    if (kDraw == kDrawValues) {
+        matte = value < 0.0 ? kBare : lined_color(value / high);
+    } else {
+        float density;
+        const Nearest nearest = look_up(face_index, in_face, density);
+        matte = surface_color(nearest, density);
+    }
     const vec3 lit = shade(matte, up, to_eye, vec3(light_x, light_y, light_z));
     // A colour that is an amount is left mostly as it is by light and shadow.
     color = vec4(mix(lit, matte, kDraw == kDrawDensity ? 0.6 : 0.0), 1);

@@ -12,6 +12,7 @@ layout(location = 0) out vec3 place;
 layout(location = 1) out vec3 normal;
 layout(location = 2) out vec2 in_face;
 layout(location = 3) flat out uint face_index;
+layout(location = 4) out float value;
 
 invariant gl_Position;
 
@@ -26,5 +27,6 @@ void main() {
                                 : vec2(face.apex_x, face.apex_y);
     place = vec3(at.x, at.y, at.z);
     normal = vec3(at.normal_x, at.normal_y, at.normal_z);
+    value = at.value;
     gl_Position = to_clip * vec4(place, 1);
 }
