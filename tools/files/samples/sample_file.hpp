@@ -137,6 +137,9 @@ struct SampleFile {
 ///         frames, a second node instances a triangle by EXT_mesh_gpu_instancing
 ///   usda  a PointInstancer of USD with a ball, or with frames a triangle, scaled by the radius at
 ///         each sample; columns as primvars, the header in customLayerData
+///   vtp   points of VTK in XML with a cell each, binary or ascii: Normals face_index barycentric
+///         radius polygon_index, and an array of all coordinates where there are more than three;
+///         x y z as in PLY; the header as texts in FieldData
 /// With a `dimension` of more than 3 the coordinates are x0 x1 ..., which PLY and PCD have besides
 /// x y z so that viewers show the first three, and there are no normals; with 0, of a mesh of edge
 /// lengths without coordinates, there are neither. check_dimension() tells which formats take that.

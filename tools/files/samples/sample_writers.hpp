@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "files/samples/sample_layout.hpp"
 
@@ -33,6 +34,13 @@ void write_usd(AtomicFile& file, const SampleHeader& header, std::span<const Sam
                const SampleTarget& target, const SampleLayout& layout);
 
 void write_npz(AtomicFile& file, const SampleHeader& header, std::span<const SampleRow> rows,
+               const SampleTarget& target, const SampleLayout& layout);
+
+/// Begins the comment of a file that write_vtp() writes.
+inline constexpr std::string_view kVtpSamples = "samples of geodisk";
+
+/// Writes points of VTK's XML, each with a cell, binary behind the XML or as text.
+void write_vtp(AtomicFile& file, const SampleHeader& header, std::span<const SampleRow> rows,
                const SampleTarget& target, const SampleLayout& layout);
 
 /// Throws UserError(usage) for faces whose numbers a float does not hold.
