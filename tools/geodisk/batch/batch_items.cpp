@@ -22,6 +22,7 @@
 #include "geodisk/sample_run.hpp"
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
+#include "program/suggestion.hpp"
 
 namespace geodisk::tools {
 namespace {
@@ -122,7 +123,7 @@ std::vector<BatchItem> items_in_folder(const BatchOptions& batch, const Path& fo
                       " skipped: " + skipped.front() + (skipped.size() > 1 ? ", ..." : ""));
     }
     if (items.empty()) {
-        fail_input(folder, "holds no mesh (*.gltf, *.glb, *.obj, *.off, *.ply or *.stl)");
+        fail_input(folder, "holds no mesh (" + listed(mesh_extensions("*."), " or ") + ")");
     }
     return items;
 }

@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <string>
-#include <string_view>
 #include <system_error>
+#include <vector>
 
 #include "files/input_file.hpp"
+#include "files/meshes/mesh_file.hpp"
 #include "program/failure.hpp"
 #include "program/interrupt.hpp"
 
@@ -19,8 +20,8 @@ bool is_hidden(const std::filesystem::path& path) {
 } // namespace
 
 bool is_mesh_file(const std::filesystem::path& path) {
-    constexpr std::string_view kExtensions[] = {".gltf", ".glb", ".obj", ".off", ".ply", ".stl"};
-    return std::ranges::find(kExtensions, lower_extension(path)) != std::ranges::end(kExtensions);
+    static const std::vector<std::string> kExtensions = mesh_extensions();
+    return std::ranges::find(kExtensions, lower_extension(path)) != kExtensions.end();
 }
 
 std::vector<std::filesystem::path> mesh_files_in(const Path& folder, const Path& without) {

@@ -1,0 +1,23 @@
+// In place of the readers of XML, where geodisk is built without pugixml.
+#include "files/meshes/polygon_mesh.hpp"
+#include "program/failure.hpp"
+
+namespace geodisk::tools {
+namespace {
+
+[[noreturn]] void fail_without_xml(const Path& path) {
+    fail_input(path, "is XML, which this build of geodisk does not read (no pugixml); convert it "
+                     "to PLY or OBJ");
+}
+
+} // namespace
+
+PolygonMesh read_vtp(const Path& path, const WantedFields& /*fields*/) {
+    fail_without_xml(path);
+}
+
+PolygonMesh read_gifti(const Path& path, const WantedFields& /*fields*/) {
+    fail_without_xml(path);
+}
+
+} // namespace geodisk::tools
