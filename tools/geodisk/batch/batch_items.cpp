@@ -123,7 +123,7 @@ std::vector<BatchItem> items_in_folder(const BatchOptions& batch, const Path& fo
                       " skipped: " + skipped.front() + (skipped.size() > 1 ? ", ..." : ""));
     }
     if (items.empty()) {
-        fail_input(folder, "holds no mesh (" + listed(mesh_extensions("*."), " or ") + ")");
+        fail_input(folder, "holds no mesh (" + listed(mesh_endings("*."), " or ") + ")");
     }
     return items;
 }
