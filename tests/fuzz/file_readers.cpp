@@ -52,7 +52,7 @@ std::vector<std::string> data_files(const std::string& extension) {
 void read_attributes(const Path& path) {
     MeshSources sources;
     sources.mesh = path.string();
-    sources.fields = {{}, true, true, false, true};
+    sources.fields.all = sources.fields.normals = sources.fields.materials = true;
     try {
         const MeshFile mesh = read_mesh(sources);
         std::vector<SampleRow> rows;
