@@ -290,7 +290,8 @@ void read_as_side_files(const FuzzedFile& file) {
 }
 
 std::vector<std::string> side_seeds(const std::string&) {
-    return {"0 0 0 0.5\n1 0 0 1 # a comment\n", "1 2 0.5\n2 3 1e-3\n", "0.5\n\n1\n"};
+    return {"0 0 0 0.5\n1 0 0 1 # a comment\n", "1 2 0.5\n2 3 1e-3\n", "0.5\n\n1\n",
+            std::string("\xff\xff\xff\0\0\0\1\0\0\0\1\0\0\0\1\x3f\0\0\0", 19)};
 }
 
 void read_as_image(const FuzzedFile& file) {

@@ -1,5 +1,8 @@
 """Meshes that VTK, PyVista and nibabel write, and samples that they read."""
 
+import os
+import subprocess
+
 import numpy as np
 import pytest
 
@@ -110,6 +113,23 @@ def test_surfaces_of_freesurfer_are_read(tmp_path):
     nibabel.freesurfer.write_geometry(tmp_path / "lh.white", vertices, np.asarray(FACES))
     mesh = geodisk.Mesh(tmp_path / "lh.white")
     assert np.array_equal(mesh.vertices, vertices) and np.array_equal(mesh.triangles, FACES)
+
+
+@pytest.mark.skipif("GEODISK_COMMAND" not in os.environ, reason="needs the program")
+@pytest.mark.parametrize("name", ["lh.curv", "lh.shape.gii"])
+def test_values_of_vertices_are_a_density(name, tmp_path):
+    nibabel = pytest.importorskip("nibabel")
+    values = (np.asarray(VERTICES)[:, 0] > 0).astype(np.float32)
+    if name.endswith("gii"):
+        array = nibabel.gifti.GiftiDataArray(values, "NIFTI_INTENT_SHAPE")
+        nibabel.save(nibabel.gifti.GiftiImage(darrays=[array]), tmp_path / name)
+    else:
+        nibabel.freesurfer.write_morph_data(tmp_path / name, values)
+    nibabel.freesurfer.write_geometry(tmp_path / "lh.white", np.asarray(VERTICES), np.asarray(FACES))
+    command = [os.environ["GEODISK_COMMAND"], "sample", "lh.white", "-d", "0.3", "-q", "-o", "a.npz"]
+    subprocess.run([*command, "--density", f"file:{name}"], cwd=tmp_path, check=True)
+    samples = geodisk.read(tmp_path / "a.npz")
+    assert len(samples) > 50 and samples.points[:, 0].min() > -0.5
 
 
 def test_samples_are_points_of_vtk_with_their_columns(sphere, tmp_path):

@@ -1,7 +1,7 @@
 // Surfaces of neuroimaging: GIFTI and FreeSurfer.
 #include "array_facts.hpp"
 #include "files/base64.hpp"
-#include "files/byte_order.hpp"
+#include "files/meshes/sidecar_files.hpp"
 #include "mesh_bytes.hpp"
 #include "png_bytes.hpp"
 #include "test_files.hpp"
@@ -149,7 +149,7 @@ TEST_CASE("FreeSurfer's surfaces are known by their first bytes, or as text by .
     CHECK(mesh_of("lh.white.asc", text).positions == mesh_of("a", freesurfer()).positions);
     geodisk::tools::check_refused("a.white", text, "unknown mesh format");
     geodisk::tools::check_refused("a", freesurfer().replace(2, 1, "\xff"),
-                                  "is a FreeSurfer surface of quads");
+                                  "is a FreeSurfer file of quads or of values");
     geodisk::tools::check_refused("a", freesurfer(2),
                                   "ends after 75 bytes, but 3 vertices and 2 faces end at byte 87");
     geodisk::tools::check_refused("a", freesurfer(0xffffffffu), "no number of faces");
@@ -165,4 +165,32 @@ TEST_CASE("FreeSurfer's surfaces are known by their first bytes, or as text by .
     geodisk::tools::check_refused("a.asc", "#!ascii\n3 -1\n", "line 2: '-1' is neither");
     geodisk::tools::check_refused("a.asc", "#!ascii\n4000000000 4000000000\n",
                                   "the file ends before vertex 0");
+}
+
+TEST_CASE("values of vertices are those of GIFTI and FreeSurfer") {
+    const TemporaryFolder folder;
+    const auto check = [&](std::string_view name, const std::string& bytes) {
+        CHECK(read_values(folder.write(name, bytes)) == std::vector<double>{0.5, -1, 2});
+    };
+    const auto fails = [&](std::string_view name, const std::string& bytes, std::string_view part) {
+        check_fails(ExitCode::bad_input, part, [&] { read_values(folder.write(name, bytes)); });
+    };
+    const auto curv = [](std::uint32_t count, std::uint32_t each) {
+        std::string bytes = "\xff\xff\xff" + big_endian(count) + big_endian(7) + big_endian(each);
+        for (const float value : {0.5f, -1.f, 2.f}) {
+            bytes += big_endian(std::bit_cast<std::uint32_t>(value));
+        }
+        return bytes;
+    };
+    const std::string shape = gifti_array(attributes_of("SHAPE", "FLOAT32", 3, 1), "0.5 -1 2");
+    check("lh.curv", curv(3, 1));
+    check("a.shape.gii", gifti(shape));
+    fails("lh.curv", curv(3, 2), "lh.curv: has 2 values for each vertex; one is read");
+    fails("lh.curv", curv(0xffffffffu, 1), "ends after 3 of 4,294,967,295 values");
+    fails("lh.curv", curv(3, 1).substr(0, 9), "ends within the head");
+    fails("a.gii", gifti(shape + shape), "line 6: <DataArray> is the second array of values");
+    fails("a.gii", gifti(kPoints), "has no array of values");
+    fails("a.gii", gifti(gifti_array(attributes_of("SHAPE", "FLOAT32", 3, 2), "1")),
+          "has 2 values for each vertex");
+    fails("a.gii", "<a/>", "is not the GIFTI");
 }

@@ -169,8 +169,8 @@ PolygonMesh read_freesurfer(const Path& path, const ReadingProgress& progress) {
         return FreeSurferText(path, bytes, progress).read();
     }
     if (bytes.starts_with(kQuadMagic) || bytes.starts_with(kNewQuadMagic)) {
-        fail_input(path, "is a FreeSurfer surface of quads, which is not read; save it as "
-                         "triangles, as by mris_convert");
+        fail_input(path, "is a FreeSurfer file of quads or of values of vertices, not a surface of "
+                         "triangles");
     }
     refuse_other_content(path, bytes);
     refuse_other_mesh(path, bytes, ".asc");

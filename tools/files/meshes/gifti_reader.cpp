@@ -14,6 +14,7 @@
 #include "files/input_file.hpp"
 #include "files/meshes/array_fields.hpp"
 #include "files/meshes/polygon_mesh.hpp"
+#include "files/meshes/value_files.hpp"
 #include "files/meshes/xml_numbers.hpp"
 #include "files/xml_file.hpp"
 #include "program/exact_text.hpp"
@@ -44,35 +45,21 @@ struct Table {
     std::uint64_t rows = 1, columns = 1;
 };
 
-class GiftiReader {
+/// The arrays of a file.
+class GiftiArrays {
   public:
-    GiftiReader(const XmlFile& file, const WantedFields& fields)
-        : file_(file), fields_(file.path(), fields, mesh_) {}
+    explicit GiftiArrays(const XmlFile& file) : file_(file) {}
 
-    PolygonMesh read() && {
-        const pugi::xml_node points = only_array(kPointset), triangles = only_array(kTriangle);
-        mesh_.positions = triples(points);
-        warn_of_transform(points);
-        const std::vector<double> corners = triples(triangles);
-        mesh_.corners.reserve(corners.size());
-        for (std::size_t i = 0; i < corners.size(); ++i) {
-            mesh_.corners.push_back(corner_of(triangles, i / 3, corners[i]));
-            if (i % 3 == 2) {
-                mesh_.face_ends.push_back(i + 1);
-            }
-        }
-        for (const pugi::xml_node array : file_.root().children("DataArray")) {
-            add_attribute(array);
-        }
-        fields_.finish();
-        return std::move(mesh_);
-    }
-
-  private:
     static std::string_view intent_of(const pugi::xml_node& array) {
         std::string_view intent = array.attribute("Intent").value();
         intent.remove_prefix(intent.starts_with(kIntent) ? kIntent.size() : 0);
         return intent;
+    }
+
+    /// Returns true for numbers of vertices or faces.
+    static bool is_of_values(const pugi::xml_node& array) {
+        const std::string_view intent = intent_of(array);
+        return intent != kPointset && intent != kTriangle && intent != kNodeIndex;
     }
 
     pugi::xml_node only_array(std::string_view intent) const {
@@ -146,6 +133,7 @@ class GiftiReader {
         return by_column ? transposed(numbers, table) : numbers;
     }
 
+  private:
     std::string bytes_of_text(const pugi::xml_node& array, std::string_view text, bool is_packed,
                               std::size_t size) const {
         std::optional<std::string> bytes = from_base64(text);
@@ -175,12 +163,41 @@ class GiftiReader {
         return rows;
     }
 
+    const XmlFile& file_;
+};
+
+class GiftiReader {
+  public:
+    GiftiReader(const XmlFile& file, const WantedFields& fields)
+        : file_(file), arrays_(file), fields_(file.path(), fields, mesh_) {}
+
+    PolygonMesh read() && {
+        const pugi::xml_node points = arrays_.only_array(kPointset),
+                             triangles = arrays_.only_array(kTriangle);
+        mesh_.positions = triples(points);
+        warn_of_transform(points);
+        const std::vector<double> corners = triples(triangles);
+        mesh_.corners.reserve(corners.size());
+        for (std::size_t i = 0; i < corners.size(); ++i) {
+            mesh_.corners.push_back(corner_of(triangles, i / 3, corners[i]));
+            if (i % 3 == 2) {
+                mesh_.face_ends.push_back(i + 1);
+            }
+        }
+        for (const pugi::xml_node array : file_.root().children("DataArray")) {
+            add_attribute(array);
+        }
+        fields_.finish();
+        return std::move(mesh_);
+    }
+
+  private:
     std::vector<double> triples(const pugi::xml_node& array) const {
-        if (const Table table = table_of(array); table.columns != 3) {
+        if (const Table table = arrays_.table_of(array); table.columns != 3) {
             file_.fail(array, "has rows of " + counted(table.columns, "number", "numbers") +
                                   " instead of 3");
         }
-        return numbers_in(array);
+        return arrays_.numbers_in(array);
     }
 
     std::uint32_t corner_of(const pugi::xml_node& array, std::size_t face, double corner) const {
@@ -222,17 +239,17 @@ class GiftiReader {
                 return std::string(value);
             }
         }
-        return lower_case(std::string(intent_of(array)));
+        return lower_case(std::string(GiftiArrays::intent_of(array)));
     }
 
     /// Adds an array that has a row for each vertex or each face.
     void add_attribute(const pugi::xml_node& array) {
-        const std::string_view intent = intent_of(array);
-        const NumberType* const type = type_of(array);
+        const std::string_view intent = GiftiArrays::intent_of(array);
+        const NumberType* const type = GiftiArrays::type_of(array);
         if (intent == kPointset || intent == kTriangle || intent == kNodeIndex || type == nullptr) {
             return;
         }
-        const Table table = table_of(array);
+        const Table table = arrays_.table_of(array);
         const bool is_of_vertices = table.rows == mesh_.vertex_count();
         if (!is_of_vertices && table.rows != mesh_.face_ends.size()) {
             return;
@@ -242,23 +259,53 @@ class GiftiReader {
         one.components = table.columns;
         one.is_whole = type->is_whole;
         one.role = intent.starts_with("RGB") ? MeshArray::Role::colours : MeshArray::Role::numbers;
-        fields_.add(one, [&] { return numbers_in(array); });
+        fields_.add(one, [&] { return arrays_.numbers_in(array); });
     }
 
     const XmlFile& file_;
+    GiftiArrays arrays_;
     PolygonMesh mesh_;
     ArrayFields fields_;
 };
+
+void check_root(const XmlFile& file) {
+    if (std::strcmp(file.root().name(), "GIFTI") != 0) {
+        file.fail(file.root(), "is not the GIFTI of a .gii file");
+    }
+}
 
 } // namespace
 
 PolygonMesh read_gifti(const Path& path, const WantedFields& fields) {
     const std::string bytes = read_file(path);
     const XmlFile file(path, bytes);
-    if (std::strcmp(file.root().name(), "GIFTI") != 0) {
-        file.fail(file.root(), "is not the GIFTI of a .surf.gii file");
-    }
+    check_root(file);
     return GiftiReader(file, fields).read();
+}
+
+std::vector<double> read_gifti_values(const Path& path) {
+    const std::string bytes = read_file(path);
+    const XmlFile file(path, bytes);
+    check_root(file);
+    const GiftiArrays arrays(file);
+    pugi::xml_node found;
+    for (const pugi::xml_node array : file.root().children("DataArray")) {
+        if (!GiftiArrays::is_of_values(array)) {
+            continue;
+        }
+        if (found) {
+            file.fail(array, "is the second array of values; one is read");
+        }
+        found = array;
+    }
+    if (!found) {
+        fail_input(path, "has no array of values");
+    }
+    if (const Table table = arrays.table_of(found); table.columns != 1) {
+        file.fail(found, "has " + counted(table.columns, "value", "values") +
+                             " for each vertex; one is read");
+    }
+    return arrays.numbers_in(found);
 }
 
 } // namespace geodisk::tools

@@ -1,13 +1,13 @@
 // In place of the readers of XML, where geodisk is built without pugixml.
 #include "files/meshes/polygon_mesh.hpp"
+#include "files/meshes/value_files.hpp"
 #include "program/failure.hpp"
 
 namespace geodisk::tools {
 namespace {
 
 [[noreturn]] void fail_without_xml(const Path& path) {
-    fail_input(path, "is XML, which this build of geodisk does not read (no pugixml); convert it "
-                     "to PLY or OBJ");
+    fail_input(path, "is XML, which this build of geodisk does not read (no pugixml); convert it");
 }
 
 } // namespace
@@ -17,6 +17,10 @@ PolygonMesh read_vtp(const Path& path, const WantedFields& /*fields*/) {
 }
 
 PolygonMesh read_gifti(const Path& path, const WantedFields& /*fields*/) {
+    fail_without_xml(path);
+}
+
+std::vector<double> read_gifti_values(const Path& path) {
     fail_without_xml(path);
 }
 
