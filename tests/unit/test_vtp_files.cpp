@@ -2,12 +2,16 @@
 #include "array_facts.hpp"
 #include "files/base64.hpp"
 #include "files/byte_order.hpp"
+#include "files/output/output_file.hpp"
+#include "files/samples/sample_file.hpp"
 #include "mesh_bytes.hpp"
 #include "png_bytes.hpp"
 #include "test_files.hpp"
 
 #include <algorithm>
 #include <string>
+#include <type_traits>
+#include <vector>
 
 using namespace geodisk::tools;
 
@@ -240,4 +244,55 @@ TEST_CASE("faults of VTK's XML are told with their line") {
                 [&] { mesh_and_fields("a.vtp", odd, "heat"); });
     CHECK(mesh_and_fields("a.vtp", odd, "all").fields.size() == 2);
     CHECK(mesh_of("a.vtp", odd).triangle_count() == 3);
+}
+
+TEST_CASE("samples are points of VTK with a cell each") {
+    const TemporaryFolder folder;
+    std::vector<SampleRow> rows(2);
+    rows[0] = {{0, 0.5, 1}, {0, 0, 1}, 3, {0.5, 0.25, 0.25}, 0, {}};
+    rows[1] = {{1, 2, 3}, {0, 1, 0}, 4, {1, 0, 0}, 0, {}};
+    const std::vector<ExtraColumn> numbers{{"class", {0, 1}}};
+    const std::vector<SampleField> fields{
+        {"color", {"red", "green", "blue"}, false, true, {1, 0, 0.2, 0, 1, 0}},
+        {"label", {"label"}, true, false, {-7, 8}}};
+    const SampleHeader header{{{"seed", "7"}, {"key", "a"}, {"key", "b<"}}};
+    const auto written = [&](bool is_text) {
+        const Path path = folder / "a.vtp";
+        AtomicFile file(path);
+        write_samples(file, sample_target(path, {}, is_text), header, rows, 3, {numbers, fields});
+        file.commit();
+        return bytes_of(path);
+    };
+    const std::string text = written(true);
+    const auto array = [&](const std::string& type, const std::string& name,
+                           const std::string& components, const std::string& values) {
+        CHECK(contains(text, "<DataArray type=\"" + type + "\" Name=\"" + name +
+                                 "\" NumberOfComponents=\"" + components +
+                                 "\" format=\"ascii\">\n" + values + "</DataArray>\n"));
+    };
+    CHECK(contains(text, "<Array type=\"String\" Name=\"seed\" NumberOfTuples=\"1\" "
+                         "format=\"ascii\">\n55 0\n</Array>\n"));
+    CHECK(contains(text, "Name=\"key\" NumberOfTuples=\"2\" format=\"ascii\">\n97 0\n98 60 0\n"));
+    CHECK(contains(text, "<Piece NumberOfPoints=\"2\" NumberOfVerts=\"2\""));
+    CHECK(contains(text, "<PointData Normals=\"Normals\">"));
+    array("Float32", "Points", "3", "0 0.5 1\n1 2 3\n");
+    array("Int64", "connectivity", "1", "0\n1\n");
+    array("Int64", "offsets", "1", "1\n2\n");
+    array("Float32", "Normals", "3", "0 0 1\n0 1 0\n");
+    array("UInt32", "face_index", "1", "3\n4\n");
+    array("Float32", "barycentric", "3", "0.5 0.25 0.25\n1 0 0\n");
+    array("UInt32", "class", "1", "0\n1\n");
+    array("UInt8", "color", "3", "255 0 51\n0 255 0\n");
+    array("Int32", "label", "1", "-7\n8\n");
+
+    const std::string bytes = written(false);
+    const std::string first = raw_bytes(std::vector<std::uint64_t>{24}, true) +
+                              raw_bytes(std::vector<float>{0, 0.5, 1, 1, 2, 3}, true) +
+                              raw_bytes(std::vector<std::uint64_t>{16}, true);
+    CHECK(contains(bytes, "Name=\"connectivity\" NumberOfComponents=\"1\" format=\"appended\" "
+                          "offset=\"32\"/>"));
+    CHECK(contains(bytes, "<AppendedData encoding=\"raw\">\n_" + first));
+    geodisk::tools::check_refused("a.vtp", bytes, "holds samples, but a mesh is expected");
+    check_fails(ExitCode::usage, "a .vtp file holds coordinates, and these samples have none",
+                [&] { write_samples(folder / "b.vtp", {}, rows, false, 0); });
 }
