@@ -239,6 +239,24 @@ TEST_CASE("faults of VTK's XML are told with their line") {
     check(replaced(packed, std::string("_\x03\0\0\0", 5), std::string("_\x03\0\0\x7f", 5)),
           "cannot have 2,130,706,435 blocks");
     check(replaced(packed, "\x78\x01\x01", "\x78\x01\x07"), "'Points' is damaged in block 0");
+    const auto shared = [](const std::string& offset) {
+        const std::string array =
+            "<DataArray type=\"Int8\" format=\"appended\" offset=\"" + offset + "\" Name=\"";
+        std::string bytes =
+            "<VTKFile type=\"PolyData\"><PolyData><Piece NumberOfPoints=\"3\" "
+            "NumberOfPolys=\"1\"><Points><DataArray type=\"Float32\">0 0 0 1 0 0 0 1 0"
+            "</DataArray></Points><Polys><DataArray type=\"Int8\" Name=\"offsets\">3"
+            "</DataArray><DataArray type=\"Int8\" Name=\"connectivity\">0 1 2"
+            "</DataArray></Polys><PointData>";
+        bytes +=
+            array + "a\"/><DataArray type=\"Int8\" format=\"appended\" offset=\"0\" Name=\"b\"/>";
+        const std::string one = std::string("\3\0\0\0", 4) + "abc";
+        return bytes + "</PointData></Piece></PolyData><AppendedData>_" + one + one;
+    };
+    CHECK(mesh_and_fields("a.vtp", shared("7"), "a,b").fields.size() == 2);
+    check_fails(ExitCode::bad_input, "'b' shares bytes with other arrays", [&] {
+        mesh_and_fields("a.vtp", shared("0").substr(0, shared("0").size() - 3), "a,b");
+    });
     const std::string odd = replaced(text, "1.000000 2.0", "1.000000 x 2.0");
     check_fails(ExitCode::bad_input, "'heat' has 'x', which is not",
                 [&] { mesh_and_fields("a.vtp", odd, "heat"); });

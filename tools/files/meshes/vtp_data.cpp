@@ -84,7 +84,7 @@ const NumberType* VtpData::type_of(const pugi::xml_node& array) {
     return found == kVtpTypes.end() ? nullptr : &found->second;
 }
 
-std::vector<double> VtpData::read(const pugi::xml_node& array, std::uint64_t count) const {
+std::vector<double> VtpData::read(const pugi::xml_node& array, std::uint64_t count) {
     const NumberType* const type = type_of(array);
     if (type == nullptr) {
         file_.fail(array, "has the type " + in_quotes(array.attribute("type").value()) +
@@ -141,21 +141,33 @@ std::uint64_t VtpData::head_at(std::string_view head, std::size_t index) const {
                                                : value_of_bytes<std::uint32_t>(bytes, is_little_);
 }
 
+/// Returns the bytes behind the head of an array.
+std::string VtpData::all_bytes(const pugi::xml_node& array, const Source& source, std::size_t head,
+                               std::size_t count) {
+    std::string bytes = first_bytes(array, source, head + count);
+    if (std::string_view(array.attribute("format").value()) == "appended") {
+        taken_ += bytes.size();
+        if (taken_ > appended_.size()) {
+            file_.fail(array, "shares bytes with other arrays");
+        }
+    }
+    bytes.erase(0, head);
+    return bytes;
+}
+
 std::string VtpData::plain_bytes(const pugi::xml_node& array, const Source& source,
-                                 std::size_t count) const {
+                                 std::size_t count) {
     const std::uint64_t size = head_at(first_bytes(array, source, head_.size), 0);
     if (size != count) {
         file_.fail(array, "has " + grouped(size) + " bytes, not " + grouped(count));
     }
-    std::string bytes = first_bytes(array, source, head_.size + count);
-    bytes.erase(0, head_.size);
-    return bytes;
+    return all_bytes(array, source, head_.size, count);
 }
 
 /// Before the blocks, there are their number, the size of each, that of the last unless it is as
 /// large, and the bytes that each takes.
 std::string VtpData::unpacked_bytes(const pugi::xml_node& array, const Source& source,
-                                    std::size_t count) const {
+                                    std::size_t count) {
     constexpr std::size_t kCounts = 3;
     const std::uint64_t blocks = head_at(first_bytes(array, source, head_.size), 0);
     if (blocks > source.text.size() / head_.size || blocks == 0) {
@@ -170,7 +182,7 @@ std::string VtpData::unpacked_bytes(const pugi::xml_node& array, const Source& s
         file_.fail(array, "has blocks of " + grouped(full) + " and " + grouped(last) +
                               " bytes, which do not make " + grouped(count));
     }
-    std::size_t size = head_size;
+    std::size_t size = 0;
     for (std::size_t i = 0; i < blocks; ++i) {
         const std::uint64_t more = head_at(head, kCounts + i);
         if (more > source.text.size() - std::min(size, source.text.size())) {
@@ -178,9 +190,9 @@ std::string VtpData::unpacked_bytes(const pugi::xml_node& array, const Source& s
         }
         size += more;
     }
-    const std::string packed = first_bytes(array, source, size);
+    const std::string packed = all_bytes(array, source, head_size, size);
     std::string bytes;
-    std::size_t begin = head_size;
+    std::size_t begin = 0;
     for (std::size_t i = 0; i < blocks; ++i) {
         const std::size_t length = head_at(head, kCounts + i);
         const auto block = inflated(file_.path(), std::string_view(packed).substr(begin, length),

@@ -30,8 +30,9 @@ class VtpData {
     /// Returns the type of the numbers of an array, or null if it has none.
     static const NumberType* type_of(const pugi::xml_node& array);
 
-    /// Returns the numbers of an array, which must be `count`.
-    std::vector<double> read(const pugi::xml_node& array, std::uint64_t count) const;
+    /// Returns the numbers of an array, which must be `count`. Arrays may not share bytes: together
+    /// they could be far larger than the file.
+    std::vector<double> read(const pugi::xml_node& array, std::uint64_t count);
 
   private:
     /// Where the bytes of an array are.
@@ -44,15 +45,17 @@ class VtpData {
     std::string first_bytes(const pugi::xml_node& array, const Source& source,
                             std::size_t count) const;
     std::uint64_t head_at(std::string_view head, std::size_t index) const;
-    std::string plain_bytes(const pugi::xml_node& array, const Source& source,
-                            std::size_t count) const;
+    std::string all_bytes(const pugi::xml_node& array, const Source& source, std::size_t head,
+                          std::size_t count);
+    std::string plain_bytes(const pugi::xml_node& array, const Source& source, std::size_t count);
     std::string unpacked_bytes(const pugi::xml_node& array, const Source& source,
-                               std::size_t count) const;
+                               std::size_t count);
 
     const XmlFile& file_;
     std::string_view appended_;
     bool is_little_ = true, is_compressed_ = false, is_appended_base64_ = false;
-    NumberType head_; ///< Type of the counts before the bytes of an array.
+    std::size_t taken_ = 0; ///< Appended bytes of the arrays so far.
+    NumberType head_;       ///< Type of the counts before the bytes of an array.
 };
 
 } // namespace geodisk::tools
