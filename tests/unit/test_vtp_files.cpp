@@ -311,6 +311,34 @@ TEST_CASE("samples are points of VTK with a cell each") {
                           "offset=\"32\"/>"));
     CHECK(contains(bytes, "<AppendedData encoding=\"raw\">\n_" + first));
     geodisk::tools::check_refused("a.vtp", bytes, "holds samples, but a mesh is expected");
+    for (const bool is_text : {false, true}) {
+        written(is_text);
+        const SampleFile read = read_samples(folder / "a.vtp");
+        CHECK(read.rows.size() == 2);
+        CHECK(read.dimension == 3);
+        CHECK(read.rows[1].position[2] == 3);
+        CHECK(read.rows[1].normal[1] == 1);
+        CHECK(read.rows[0].face == 3);
+        CHECK(read.rows[0].bary[2] == 0.25f);
+        CHECK(read.header.entries == header.entries);
+        CHECK(read.extra_values("class")[1] == 1);
+        CHECK(read_samples(folder / "a.vtp", "label").numbers == std::vector<double>{-7, 8});
+    }
+    rows[0].position[3] = 9;
+    write_samples(folder / "four.vtp", header, rows, false, 4);
+    CHECK(read_samples(folder / "four.vtp").dimension == 4);
+    CHECK(read_samples(folder / "four.vtp").rows[0].position[3] == 9);
+    const auto fails = [&](const std::string& content, std::string_view part) {
+        check_fails(ExitCode::bad_input, part,
+                    [&] { read_samples(folder.write("bad.vtp", content)); });
+    };
+    fails(VtpText({}).file(), "has faces, so this is a mesh and no file of samples");
+    fails(replaced(text, "\"Int32\" Name=\"label\"", "\"Int32\" Name=\"radius\""),
+          "point 0: radius is out of range");
+    fails(replaced(text, "face_index", "face"), "face_index");
+    fails(replaced(text, "NumberOfPoints=\"2\"", "NumberOfPoints=\"3\""), "has 6 numbers, not 9");
+    fails(replaced(text, "\n55 0", "\n555 0"), "has '555', which is no character");
+    fails(bytes.substr(0, bytes.size() - 60), "ends after");
     check_fails(ExitCode::usage, "a .vtp file holds coordinates, and these samples have none",
                 [&] { write_samples(folder / "b.vtp", {}, rows, false, 0); });
 }

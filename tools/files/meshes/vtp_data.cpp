@@ -34,6 +34,19 @@ bool is_true_for_this_machine(std::string_view order) {
 
 } // namespace
 
+void check_polydata(const XmlFile& file) {
+    const pugi::xml_node root = file.root();
+    const std::string_view type = root.attribute("type").value();
+    if (std::string_view(root.name()) != "VTKFile") {
+        file.fail(root, "is not the VTKFile of a .vtp file");
+    }
+    if (type != "PolyData") {
+        file.fail(root, "is of type " + in_quotes(type) +
+                            "; only PolyData is read: extract the "
+                            "surface first");
+    }
+}
+
 VtpParts::VtpParts(std::string_view bytes) : xml(bytes) {
     const std::size_t element = bytes.find("<AppendedData");
     const std::size_t end = bytes.find('>', element == bytes.npos ? bytes.size() : element);

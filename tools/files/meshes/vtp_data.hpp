@@ -21,6 +21,9 @@ struct VtpParts {
     explicit VtpParts(std::string_view bytes);
 };
 
+/// Throws UserError(bad_input) unless a file has points and faces of VTK.
+void check_polydata(const XmlFile& file);
+
 /// Reads arrays. Throws UserError(bad_input) with the line of the array.
 class VtpData {
   public:

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cstring>
 #include <limits>
 #include <optional>
 #include <string>
@@ -127,16 +126,7 @@ PolygonMesh read_vtp(const Path& path, const WantedFields& fields) {
     const std::string bytes = read_file(path);
     const VtpParts parts(bytes);
     const XmlFile file(path, parts.xml);
-    const pugi::xml_node root = file.root();
-    const std::string_view type = root.attribute("type").value();
-    if (std::strcmp(root.name(), "VTKFile") != 0) {
-        file.fail(root, "is not the VTKFile of a .vtp file");
-    }
-    if (type != "PolyData") {
-        file.fail(root, "is of type " + in_quotes(type) +
-                            "; only PolyData is read: extract the "
-                            "surface first");
-    }
+    check_polydata(file);
     if (std::string_view(parts.xml).substr(0, 200).find(kVtpSamples) != std::string_view::npos) {
         fail_input(path, kHoldsSamples);
     }

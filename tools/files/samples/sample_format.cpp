@@ -32,7 +32,7 @@ constexpr std::array<FormatFacts, 10> kFormats{{
     {"gltf", kColumns, 3, 3, true, false, false, SceneAxes::y, kLight, write_gltf, nullptr},
     {"glb", kColumns, 3, 3, true, false, false, SceneAxes::y, kLight, write_gltf, nullptr},
     {"usda", kColumns, 3, 3, true, false, false, SceneAxes::y_or_z, kLight, write_usd, nullptr},
-    {"vtp", kColumns, 1, 8, false, false, false, kNoScene, kBytes, write_vtp, nullptr},
+    {"vtp", kColumns, 1, 8, false, false, false, kNoScene, kBytes, write_vtp, read_vtp_samples},
 }};
 
 } // namespace

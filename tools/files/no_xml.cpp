@@ -1,6 +1,7 @@
 // In place of the readers of XML, where geodisk is built without pugixml.
 #include "files/meshes/polygon_mesh.hpp"
 #include "files/meshes/value_files.hpp"
+#include "files/samples/sample_rows.hpp"
 #include "program/failure.hpp"
 
 namespace geodisk::tools {
@@ -17,6 +18,11 @@ PolygonMesh read_vtp(const Path& path, const WantedFields& /*fields*/) {
 }
 
 PolygonMesh read_gifti(const Path& path, const WantedFields& /*fields*/) {
+    fail_without_xml(path);
+}
+
+SampleFile read_vtp_samples(const Path& path, std::string&& /*bytes*/, SampleDomain /*domain*/,
+                            const std::string& /*numbers*/) {
     fail_without_xml(path);
 }
 
