@@ -132,8 +132,8 @@ TEST_CASE("faults of VTK's files are told with their place") {
     geodisk::tools::check_refused("a.vtk", "", "a.vtk: is empty");
     geodisk::tools::check_refused("a.vtk", "v 0 0 0\n", "is not a VTK file");
     geodisk::tools::check_refused("a.vtk", "<?xml version=\"1.0\"?>\n<VTKFile>",
-                                  "by a name that ends in .vtp");
-    geodisk::tools::check_refused("a.off", vtk_text(kSquare), "by a name that ends in .vtk");
+                                  "so its name should end in .vtp");
+    geodisk::tools::check_refused("a.off", vtk_text(kSquare), "if its name ends in .vtk");
     geodisk::tools::check_refused("a.vtk", "# vtk DataFile Version 7.0\n",
                                   "version '7.0' is none of");
     geodisk::tools::check_refused("a.vtk", "# vtk DataFile Version 3.0\n\nHEX\n",

@@ -39,7 +39,7 @@ constexpr std::array kContents{
     Content{"PXR-USDC"sv, "is a USD file; convert it to glTF, OBJ or PLY"},
     Content{"#usda"sv, "is a USD file; convert it to glTF, OBJ or PLY"},
     Content{"# vtk DataFile"sv,
-            "is a VTK file, which is read as a mesh alone, by a name that ends in .vtk"},
+            "is a VTK file, which is read as a mesh only, if its name ends in .vtk"},
     Content{"%PDF-"sv, "is a PDF document, not a mesh"},
 };
 
@@ -47,10 +47,10 @@ constexpr std::array kContents{
 std::string_view xml_message(std::string_view bytes) {
     const std::string_view head = bytes.substr(0, 2000);
     if (head.find("<VTKFile") != head.npos) {
-        return "is a VTK file, which is read as a mesh alone, by a name that ends in .vtp";
+        return "is a VTK file in XML, so its name should end in .vtp";
     }
     if (head.find("<GIFTI") != head.npos) {
-        return "is a GIFTI file, which is read as a mesh alone, by a name that ends in .gii";
+        return "is a GIFTI file, so its name should end in .gii";
     }
     return bytes.starts_with("<?xml")
                ? "is an XML file, as COLLADA, X3D and AMF are; convert it to PLY, OBJ or STL"
