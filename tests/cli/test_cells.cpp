@@ -96,19 +96,23 @@ TEST_CASE("cells: the dual mesh carries attributes") {
     cells("square.ply", "c.csv", "dual.npz", "all");
     CHECK(contains(bytes_of(folder / "dual.npz"), "height.npy"));
     // The dual is a mesh with these attributes.
-    const Outcome sampled =
-        run(folder, {"sample", "dual.ply", "-d", "0.1", "--attributes", "all", "-o", "s.csv"});
-    INFO(sampled.err);
-    REQUIRE(sampled.status == 0);
-    const std::vector<std::string> lines = lines_of(bytes_of(folder / "s.csv"));
-    const auto head = std::ranges::find_if(lines, [](const auto& line) { return line[0] != '#'; });
-    CHECK(head->ends_with(",red,green,blue,height,label"));
-    for (auto line = head + 1; line != lines.end(); ++line) {
-        const double x = std::stod(*line);
-        const std::vector<std::string> cut = cells_of(*line);
-        CHECK(std::abs(std::stod(cut[cut.size() - 5]) - x) < 0.01);
-        CHECK(std::abs(std::stod(cut[cut.size() - 2]) - 2 * x) < 1e-5);
-        CHECK(cut.back() == "3");
+    cells("square.ply", "e.csv", "dual.vtp", "all");
+    for (const std::string file : {"dual.ply", "dual.vtp"}) {
+        const Outcome sampled =
+            run(folder, {"sample", file, "-d", "0.1", "--attributes", "all", "-o", file + ".csv"});
+        INFO(sampled.err);
+        REQUIRE(sampled.status == 0);
+        const std::vector<std::string> lines = lines_of(bytes_of(folder / (file + ".csv")));
+        const auto head =
+            std::ranges::find_if(lines, [](const auto& line) { return line[0] != '#'; });
+        CHECK(head->ends_with(",red,green,blue,height,label"));
+        for (auto line = head + 1; line != lines.end(); ++line) {
+            const double x = std::stod(*line);
+            const std::vector<std::string> cut = cells_of(*line);
+            CHECK(std::abs(std::stod(cut[cut.size() - 5]) - x) < 0.01);
+            CHECK(std::abs(std::stod(cut[cut.size() - 2]) - 2 * x) < 1e-5);
+            CHECK(cut.back() == "3");
+        }
     }
     write_file(folder, "area.ply",
                "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
@@ -186,7 +190,7 @@ TEST_CASE("cells: what cannot be found leaves no file") {
     write_file(folder, "none.csv", "x,y,z\n");
     write_file(folder, "far.csv", "x,y,z\n7,7,7\n");
     const std::string mesh = "builtin:cube:4";
-    check_cells_refused(folder, 2, "the dual graph is written as .obj, .ply or .npz",
+    check_cells_refused(folder, 2, "the dual graph is written as .obj, .ply, .vtp or .npz",
                         {mesh, "corners.csv", "-o", "no.csv", "--dual", "no.stl"});
     check_cells_refused(folder, 3, "has no face that --mask allows, so no cell has an area: 'z' is",
                         {mesh, "corners.csv", "-o", "no.csv", "--mask", "z>9"});

@@ -4,11 +4,14 @@
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include <geodisk/mesh.hpp>
 
 #include "files/archives/npz_arrays.hpp"
+#include "files/base64.hpp"
 #include "files/byte_order.hpp"
 #include "files/images/image.hpp"
 #include "files/meshes/line_file.hpp"
@@ -49,7 +52,7 @@ std::vector<std::string> data_files(const std::string& extension) {
 void read_attributes(const Path& path) {
     MeshSources sources;
     sources.mesh = path.string();
-    sources.fields = {{}, true, true, false, true};
+    sources.fields.all = sources.fields.normals = sources.fields.materials = true;
     try {
         const MeshFile mesh = read_mesh(sources);
         std::vector<SampleRow> rows;
@@ -77,6 +80,97 @@ void read_as_mesh(const FuzzedFile& file) {
     require_in_fuzzer(prepared || !prepared.error().message.empty());
 }
 
+/// Returns meshes of VTK, GIFTI and FreeSurfer, text and binary.
+std::vector<std::string> array_seeds(const std::string& format) {
+    const std::string points = "0 0 0 1 0 0 0 1 0 1 1 0";
+    if (format == "vtk") {
+        const std::string head = "# vtk DataFile Version ",
+                          square = "DATASET POLYDATA\nPOINTS 4 float\n",
+                          data = "POINT_DATA 4\nSCALARS a unsigned_char 3\nLOOKUP_TABLE d\n"
+                                 "1 2 3 4 5 6 7 8 9 1 2 3\nTEXTURE_COORDINATES t 2 float\n"
+                                 "0 0 0 1 1 0 1 1\nCELL_DATA 2\nFIELD f 2\nb 1 2 int\n7 8\n"
+                                 "s 1 1 string\ntext\nNORMALS n float\n0 0 1 0 0 1\n";
+        return {head + "3.0\nt\nASCII\n" + square + points +
+                    "\nPOLYGONS 1 4\n3 0 1 2\nTRIANGLE_STRIPS 1 5\n4 0 1 2 3\n" + data,
+                head + "5.1\nt\nASCII\n" + square + points +
+                    "\nMETADATA\nINFORMATION 0\n\nPOLYGONS 3 6\nOFFSETS vtktypeint64\n0 3 6\n"
+                    "CONNECTIVITY vtktypeint64\n0 1 2 2 1 3\n" +
+                    data,
+                head + "3.0\nt\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 double\n" + points +
+                    "\nCELLS 2 9\n3 0 1 2\n4 0 1 2 3\nCELL_TYPES 2\n5 8\n" + data,
+                head + "2.0\nt\nBINARY\n" + square + std::string(48, '\x3e') + "\nPOLYGONS 1 4\n" +
+                    std::string("\0\0\0\3\0\0\0\0\0\0\0\1\0\0\0\2", 16) +
+                    "\nPOINT_DATA 4\nFIELD f 2\nb 1 4 bit\n\x70\ns 1 1 string\n\xc1t\n"};
+    }
+    if (format == "freesurfer") {
+        std::string bytes = "\xff\xff\xfe"
+                            "t\n\n";
+        bytes += std::string("\0\0\0\3\0\0\0\1", 8) + std::string(36, '\x3e') +
+                 std::string("\0\0\0\0\0\0\0\1\0\0\0\2", 12);
+        return {bytes, "#!ascii\n4 2\n0 0 0 0\n1 0 0 0\n0 1 0 0\n1 1 0 0\n0 1 2 0\n2 1 3 0\n"};
+    }
+    const auto in_base64 = [](std::string_view bytes) {
+        std::string text;
+        append_base64(text, bytes);
+        return text;
+    };
+    std::string corners, head;
+    for (const std::uint32_t corner : {0u, 1u, 2u, 2u, 1u, 3u}) {
+        append_little_endian(corners, corner);
+    }
+    const std::string packed = zlib_bytes(corners);
+    if (format == "gii") {
+        const auto array = [](const std::string& intent, const std::string& type,
+                              const std::string& size, const std::string& encoding,
+                              const std::string& data) {
+            return "<DataArray Intent=\"NIFTI_INTENT_" + intent + "\" DataType=\"NIFTI_TYPE_" +
+                   type + "\" Dimensionality=\"2\" Dim0=\"" + size + "\" Encoding=\"" + encoding +
+                   "\" Endian=\"LittleEndian\"><Data>" + data + "</Data></DataArray>";
+        };
+        const std::string start = "<GIFTI>" +
+                                  array("POINTSET", "FLOAT32", "4\" Dim1=\"3", "ASCII", points) +
+                                  array("SHAPE", "FLOAT32", "4\" Dim1=\"1", "ASCII", "1 2 3 4");
+        std::vector<std::string> seeds;
+        for (const auto& [encoding, data] :
+             {std::pair<std::string, std::string>{"ASCII", "0 1 2 2 1 3"},
+              {"Base64Binary", in_base64(corners)},
+              {"GZipBase64Binary", in_base64(packed)}}) {
+            seeds.push_back(start + array("TRIANGLE", "INT32", "2\" Dim1=\"3", encoding, data) +
+                            "</GIFTI>");
+        }
+        return seeds;
+    }
+    for (const std::size_t count :
+         {std::size_t{1}, corners.size(), std::size_t{0}, packed.size()}) {
+        append_little_endian(head, static_cast<std::uint32_t>(count));
+    }
+    const auto vtp = [&](const std::string& more, const std::string& array,
+                         const std::string& end) {
+        return "<VTKFile type=\"PolyData\"" + more +
+               "><PolyData><Piece NumberOfPoints=\"4\" NumberOfPolys=\"2\"><PointData><DataArray "
+               "type=\"UInt8\" Name=\"c\" NumberOfComponents=\"3\">1 2 3 4 5 6 7 8 9 1 2 "
+               "3</DataArray>"
+               "</PointData><CellData><DataArray type=\"Float32\" Name=\"h\">1 "
+               "2</DataArray></CellData>"
+               "<Points><DataArray type=\"Float32\">" +
+               points +
+               "</DataArray></Points><Polys><DataArray type=\"Int32\" Name=\"offsets\">3 "
+               "6</DataArray>"
+               "<DataArray type=\"UInt32\" Name=\"connectivity\" " +
+               array + "</Polys></Piece></PolyData>" + end + "</VTKFile>";
+    };
+    std::string size;
+    append_little_endian(size, static_cast<std::uint32_t>(corners.size()));
+    const std::string zlib = " compressor=\"vtkZLibDataCompressor\"",
+                      raw = "<AppendedData encoding=\"raw\">_";
+    return {
+        vtp("", ">0 1 2 2 1 3</DataArray>", ""),
+        vtp("", "format=\"binary\">" + in_base64(size + corners) + "</DataArray>", ""),
+        vtp(zlib, "format=\"binary\">" + in_base64(head) + in_base64(packed) + "</DataArray>", ""),
+        vtp("", "format=\"appended\" offset=\"0\"/>", raw + size + corners + "</AppendedData>"),
+        vtp(zlib, "format=\"appended\" offset=\"0\"/>", raw + head + packed + "</AppendedData>")};
+}
+
 std::vector<std::string> mesh_seeds(const std::string& format) {
     std::vector<std::string> seeds = data_files(format);
     if (format == "glb") {
@@ -87,6 +181,8 @@ std::vector<std::string> mesh_seeds(const std::string& format) {
     } else if (format == "off") {
         seeds.emplace_back("COFF\n4 1 0\n0 0 0 255 0 0 255\n1 0 0 0 255 0 255\n1 1 0 9 9 9 9\n"
                            "0 1 0 0 0 0 0\n4 0 1 2 3\n");
+    } else if (format == "vtk" || format == "vtp" || format == "gii" || format == "freesurfer") {
+        return array_seeds(format);
     }
     return seeds;
 }
@@ -194,7 +290,8 @@ void read_as_side_files(const FuzzedFile& file) {
 }
 
 std::vector<std::string> side_seeds(const std::string&) {
-    return {"0 0 0 0.5\n1 0 0 1 # a comment\n", "1 2 0.5\n2 3 1e-3\n", "0.5\n\n1\n"};
+    return {"0 0 0 0.5\n1 0 0 1 # a comment\n", "1 2 0.5\n2 3 1e-3\n", "0.5\n\n1\n",
+            std::string("\xff\xff\xff\0\0\0\1\0\0\0\1\0\0\0\1\x3f\0\0\0", 19)};
 }
 
 void read_as_image(const FuzzedFile& file) {

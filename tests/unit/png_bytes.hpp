@@ -27,6 +27,22 @@ inline std::string png_chunk(std::string_view type, std::string_view data) {
     return big_endian(static_cast<std::uint32_t>(data.size())) + content + big_endian(~crc);
 }
 
+/// Returns `data`, of less than 64 KiB, as zlib stores it.
+inline std::string zlib_bytes(std::string_view data) {
+    std::uint32_t a = 1, b = 0;
+    for (const char c : data) {
+        a = (a + static_cast<unsigned char>(c)) % 65521;
+        b = (b + a) % 65521;
+    }
+    const auto size = static_cast<std::uint32_t>(data.size());
+    std::string stored = "\x78\x01\x01";
+    for (const std::uint32_t word : {size, ~size}) {
+        stored += static_cast<char>(word & 0xffu);
+        stored += static_cast<char>(word >> 8 & 0xffu);
+    }
+    return stored + std::string(data) + big_endian(b << 16 | a);
+}
+
 /// `pixels` holds `bits` (8 or 16, big endian) per pixel and channel, row by row from above;
 /// `color` is PNG's: 0 for grey, 2 for RGB. Less than 64 KiB in all.
 inline std::string png_bytes(std::uint32_t width, std::uint32_t height, std::string_view pixels,
@@ -36,21 +52,9 @@ inline std::string png_bytes(std::uint32_t width, std::uint32_t height, std::str
     for (std::uint32_t y = 0; y < height; ++y) {
         rows += std::string(1, '\0') + std::string(pixels.substr(y * row, row));
     }
-    std::uint32_t a = 1, b = 0;
-    for (const char c : rows) {
-        a = (a + static_cast<unsigned char>(c)) % 65521;
-        b = (b + a) % 65521;
-    }
-    const auto size = static_cast<std::uint32_t>(rows.size());
-    std::string stored = "\x78\x01\x01";
-    for (const std::uint32_t word : {size, ~size}) {
-        stored += static_cast<char>(word & 0xffu);
-        stored += static_cast<char>(word >> 8 & 0xffu);
-    }
-    stored += rows + big_endian(b << 16 | a);
     const std::string header =
         big_endian(width) + big_endian(height) + std::string{bits, color, '\0', '\0', '\0'};
-    return "\x89PNG\r\n\x1a\n" + png_chunk("IHDR", header) + png_chunk("IDAT", stored) +
+    return "\x89PNG\r\n\x1a\n" + png_chunk("IHDR", header) + png_chunk("IDAT", zlib_bytes(rows)) +
            png_chunk("IEND", "");
 }
 

@@ -194,6 +194,25 @@ TEST_CASE("files as other programs write them are read") {
                 [] { read_mesh(case_file("draco.gltf")); });
 }
 
+TEST_CASE("files of VTK and nibabel are read as these mean them") {
+    for (const std::string name : {"vtk_zlib.vtp", "vtk_raw.vtp", "vtk_binary.vtk", "vtk_grid.vtk",
+                                   "nibabel.surf.gii", "nibabel.white"}) {
+        CAPTURE(name);
+        MeshSources sources;
+        sources.mesh = case_file(name);
+        sources.fields.all = true;
+        const MeshFile mesh = read_mesh(sources);
+        CHECK(mesh.positions == std::vector<double>{0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1});
+        CHECK(mesh.triangles == std::vector<std::uint32_t>{0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3});
+        CHECK(mesh.warnings.empty());
+        for (const MeshField& field : mesh.fields) {
+            CHECK(field.values == (field.name == "heat" ? std::vector<double>{1, 2, 3, 4.5}
+                                                        : std::vector<double>{5, 6, 7, 8}));
+        }
+        CHECK(mesh.fields.size() == (name.starts_with("vtk") ? 2 : name.ends_with("gii") ? 1 : 0));
+    }
+}
+
 TEST_CASE("compressed glTF files are read where the libraries are there") {
     // A cube of 8 vertices each.
     for (const char* const name : {"meshopt_cube.gltf", "meshopt_exponential.gltf",

@@ -209,7 +209,7 @@ TEST_CASE("output paths are checked early") {
         check_writable(sample_target(path).path);
     };
     check_fails(ExitCode::usage, ".ply, .csv, .xyz, ", [&] { check(folder / "a.txt"); });
-    check_fails(ExitCode::usage, ".glb and .usda", [&] { check(folder / "a"); });
+    check_fails(ExitCode::usage, ".usda and .vtp", [&] { check(folder / "a"); });
     check_fails(ExitCode::bad_output, "No such file", [&] { check(folder / "missing" / "a.ply"); });
     check_fails(ExitCode::bad_output, "is a folder", [&] { check(folder / "folder.ply"); });
     check(folder / "a.ply");
@@ -248,7 +248,7 @@ TEST_CASE("lines of OBJ may be continued, and comments may follow them") {
 
 TEST_CASE("broken sample files are refused with their line or record") {
     for (const char* const name : {"a.gltf", "a.glb", "a.usda"}) {
-        check_refused(name, "", "does not read them back; use .ply, .csv, .npz or .pcd");
+        check_refused(name, "", "does not read them back; use .ply, .csv, .npz, .pcd or .vtp");
     }
     check_refused("a.csv", "", "no header row");
     check_refused("a.csv", "x,y,z,face_index\n1,2,3,0\n", "no column bary_u");

@@ -38,11 +38,24 @@ constexpr std::array kContents{
     Content{"BLENDER"sv, "is a Blender file; export it as glTF, OBJ or PLY"},
     Content{"PXR-USDC"sv, "is a USD file; convert it to glTF, OBJ or PLY"},
     Content{"#usda"sv, "is a USD file; convert it to glTF, OBJ or PLY"},
-    Content{"# vtk DataFile"sv, "is a VTK file; convert it to PLY, OBJ or STL"},
-    Content{"<?xml"sv,
-            "is an XML file, as COLLADA, X3D and AMF are; convert it to PLY, OBJ or STL"},
+    Content{"# vtk DataFile"sv,
+            "is a VTK file, which is read as a mesh only, if its name ends in .vtk"},
     Content{"%PDF-"sv, "is a PDF document, not a mesh"},
 };
+
+/// Returns what a file of XML is; "" for other files.
+std::string_view xml_message(std::string_view bytes) {
+    const std::string_view head = bytes.substr(0, 2000);
+    if (head.find("<VTKFile") != head.npos) {
+        return "is a VTK file in XML, so its name should end in .vtp";
+    }
+    if (head.find("<GIFTI") != head.npos) {
+        return "is a GIFTI file, so its name should end in .gii";
+    }
+    return bytes.starts_with("<?xml")
+               ? "is an XML file, as COLLADA, X3D and AMF are; convert it to PLY, OBJ or STL"
+               : "";
+}
 
 /// Text of ASCII characters in UTF-16 has a zero in every other byte.
 bool is_wide_ascii(std::string_view bytes) {
@@ -81,6 +94,9 @@ void refuse_other_content(const Path& path, std::string_view bytes) {
         if (bytes.starts_with(content.begin)) {
             fail_input(path, std::string(content.message));
         }
+    }
+    if (const std::string_view message = xml_message(bytes); !message.empty()) {
+        fail_input(path, std::string(message));
     }
     if (is_wide_ascii(bytes)) {
         fail_input(path, "is UTF-16; save it as UTF-8");

@@ -7,7 +7,7 @@
 namespace geodisk::tools {
 
 std::optional<std::string> inflated(const Path& /*path*/, std::string_view compressed,
-                                    std::size_t size) {
+                                    std::size_t size, Wrapping wrapping) {
     constexpr std::size_t kMaxRatio = 1032; // Of DEFLATE; more is damage, which is not to allocate.
     if (compressed.size() > std::numeric_limits<uInt>::max() ||
         size > std::numeric_limits<uInt>::max() || size / kMaxRatio > compressed.size()) {
@@ -16,8 +16,8 @@ std::optional<std::string> inflated(const Path& /*path*/, std::string_view compr
     std::string bytes(size, '\0');
     std::string input(compressed); // Zlib takes no constant bytes.
     z_stream stream{};
-    constexpr int kRaw = -15; // Neither header nor checksum.
-    if (inflateInit2(&stream, kRaw) != Z_OK) {
+    constexpr int kRaw = -15, kEither = 15 + 32; // Bits of the window, and how it is wrapped.
+    if (inflateInit2(&stream, wrapping == Wrapping::none ? kRaw : kEither) != Z_OK) {
         return std::nullopt;
     }
     stream.next_in = reinterpret_cast<Bytef*>(input.data());

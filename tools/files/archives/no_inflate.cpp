@@ -5,9 +5,9 @@
 namespace geodisk::tools {
 
 std::optional<std::string> inflated(const Path& path, std::string_view /*compressed*/,
-                                    std::size_t /*size*/) {
-    fail_input(path, "is compressed, and this geodisk was built without zlib; save it with "
-                     "numpy.savez instead of savez_compressed");
+                                    std::size_t /*size*/, Wrapping /*wrapping*/) {
+    fail_input(path, "is compressed, and this geodisk was built without zlib; save it "
+                     "uncompressed, in numpy by savez");
 }
 
 } // namespace geodisk::tools

@@ -1,30 +1,11 @@
 #include "files/meshes/data_uri.hpp"
 
-#include <algorithm>
-#include <array>
 #include <charconv>
 #include <cstddef>
-#include <cstdint>
+
+#include "files/base64.hpp"
 
 namespace geodisk::tools {
-namespace {
-
-constexpr std::string_view kDigits =
-    "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-constexpr std::uint8_t kNoDigit = 255;
-
-constexpr std::array<std::uint8_t, 256> make_values() {
-    std::array<std::uint8_t, 256> values{};
-    values.fill(kNoDigit);
-    for (std::size_t i = 0; i < kDigits.size(); ++i) {
-        values[static_cast<unsigned char>(kDigits[i])] = static_cast<std::uint8_t>(i);
-    }
-    values['-'] = 62; // As in URLs.
-    values['_'] = 63;
-    return values;
-}
-
-constexpr std::array<std::uint8_t, 256> kValues = make_values();
 
 std::string percent_decoded(std::string_view text) {
     std::string result;
@@ -42,35 +23,6 @@ std::string percent_decoded(std::string_view text) {
     return result;
 }
 
-/// Four digits make three bytes; '=' may fill up the last four.
-std::optional<std::string> from_base64(std::string_view text) {
-    while (text.ends_with('=')) {
-        text.remove_suffix(1);
-    }
-    if (text.size() % 4 == 1) {
-        return std::nullopt;
-    }
-    std::string bytes;
-    bytes.reserve(text.size() / 4 * 3 + 2);
-    std::uint32_t bits = 0;
-    unsigned count = 0;
-    for (const char c : text) {
-        const std::uint8_t value = kValues[static_cast<unsigned char>(c)];
-        if (value == kNoDigit) {
-            return std::nullopt;
-        }
-        bits = bits << 6 | value;
-        count += 6;
-        if (count >= 8) {
-            count -= 8;
-            bytes += static_cast<char>(bits >> count & 0xffu);
-        }
-    }
-    return bytes;
-}
-
-} // namespace
-
 std::optional<std::string> data_of_uri(std::string_view uri) {
     const std::size_t comma = uri.find(',');
     if (comma == std::string_view::npos) {
@@ -83,16 +35,7 @@ std::optional<std::string> data_of_uri(std::string_view uri) {
 
 std::string data_uri(std::string_view bytes) {
     std::string uri = "data:application/octet-stream;base64,";
-    uri.reserve(uri.size() + (bytes.size() + 2) / 3 * 4);
-    for (; !bytes.empty(); bytes.remove_prefix(std::min<std::size_t>(bytes.size(), 3))) {
-        std::uint32_t bits = 0;
-        for (std::size_t i = 0; i < 3; ++i) {
-            bits = bits << 8 | (i < bytes.size() ? static_cast<unsigned char>(bytes[i]) : 0u);
-        }
-        for (std::size_t i = 0; i < 4; ++i) {
-            uri += i <= bytes.size() ? kDigits[bits >> (18 - 6 * i) & 63] : '=';
-        }
-    }
+    append_base64(uri, bytes);
     return uri;
 }
 

@@ -8,6 +8,9 @@
 
 namespace geodisk::tools {
 
+/// Returns `text` with characters for "%20" and the like.
+std::string percent_decoded(std::string_view text);
+
 /// Returns the bytes of a URI that begins with "data:", or nothing if they are not as they should
 /// be.
 std::optional<std::string> data_of_uri(std::string_view uri);

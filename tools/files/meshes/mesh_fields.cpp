@@ -510,6 +510,15 @@ MeshField make_uvs() {
     return field;
 }
 
+bool lists_name(const PolygonMesh& polygons, std::string_view name) {
+    const auto has_name = [&](const MeshField& field) {
+        return field.name == name ||
+               std::ranges::find(field.components, name) != field.components.end();
+    };
+    return std::ranges::any_of(polygons.fields, has_name) ||
+           std::ranges::any_of(polygons.own_columns, has_name);
+}
+
 void scale_colours(MeshField& colours) {
     constexpr double kMaxByte = 255;
     if (std::ranges::any_of(colours.values, [](double x) { return x > 1; })) {

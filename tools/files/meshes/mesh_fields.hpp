@@ -11,6 +11,8 @@
 
 namespace geodisk::tools {
 
+struct PolygonMesh;
+
 /// Names of attributes that several formats have.
 inline constexpr std::string_view kColourField = "color", kUvField = "uv";
 
@@ -50,10 +52,11 @@ MeshField make_colours(MeshField::Of of, std::size_t components, const std::stri
 /// Returns texture coordinates, whose values are PolygonMesh::uvs.
 MeshField make_uvs();
 
+/// Returns true if an attribute of `polygons`, a component or an own column has this name.
+bool lists_name(const PolygonMesh& polygons, std::string_view name);
+
 /// Divides colours by 255 if some are larger than 1.
 void scale_colours(MeshField& colours);
-
-struct PolygonMesh;
 
 /// Warns that an attribute is left out because of `error`.
 void warn_left_out(const Path& path, std::string_view name, const UserError& error,

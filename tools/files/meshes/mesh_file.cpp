@@ -18,6 +18,7 @@
 #include "program/exact_text.hpp"
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
+#include "program/suggestion.hpp"
 #include "shapes/builtin_shapes.hpp"
 
 namespace geodisk::tools {
@@ -339,6 +340,88 @@ std::string extension_of(const Path& path, const std::string& format) {
     return format.empty() ? lower_extension(path) : '.' + format;
 }
 
+struct MeshFormat {
+    std::string_view name; ///< "obj", of files named *.obj.
+    PolygonMesh (*read)(const Path& path, const MeshSources& sources);
+    bool has_places_alone = false; ///< Vertices have no numbers.
+};
+
+PolygonMesh read_ply_of(const Path& path, const MeshSources& sources) {
+    const bool has_other_source = !sources.coordinates.empty() || !sources.edge_lengths.empty();
+    return read_ply(path, {!has_other_source, sources.fields},
+                    FileScope(path, sources.allows_outside), sources.progress);
+}
+
+PolygonMesh read_obj_of(const Path& path, const MeshSources& sources) {
+    return read_obj(path, sources.fields, FileScope(path, sources.allows_outside),
+                    sources.progress);
+}
+
+PolygonMesh read_stl_of(const Path& path, const MeshSources& sources) {
+    return read_stl(path, sources.progress);
+}
+
+PolygonMesh read_gltf_of(const Path& path, const MeshSources& sources) {
+    return read_gltf(path, sources.fields, FileScope(path, sources.allows_outside));
+}
+
+PolygonMesh read_freesurfer_of(const Path& path, const MeshSources& sources) {
+    return read_freesurfer(path, sources.progress);
+}
+
+template <PolygonMesh (*kRead)(const Path&, const WantedFields&)>
+PolygonMesh read_fields_of(const Path& path, const MeshSources& sources) {
+    return kRead(path, sources.fields);
+}
+
+template <PolygonMesh (*kRead)(const Path&, const WantedFields&, const ReadingProgress&)>
+PolygonMesh read_records_of(const Path& path, const MeshSources& sources) {
+    return kRead(path, sources.fields, sources.progress);
+}
+
+/// Lists are in this order.
+constexpr std::array kMeshFormats{
+    MeshFormat{"gltf", read_gltf_of},
+    MeshFormat{"glb", read_gltf_of},
+    MeshFormat{"obj", read_obj_of},
+    MeshFormat{"off", read_records_of<read_off>},
+    MeshFormat{"ply", read_ply_of},
+    MeshFormat{"stl", read_stl_of, true},
+    MeshFormat{"vtk", read_records_of<read_vtk>},
+    MeshFormat{"vtp", read_fields_of<read_vtp>},
+    MeshFormat{"gii", read_fields_of<read_gifti>},
+    MeshFormat{"asc", read_freesurfer_of},
+};
+
+/// Files have no extension that tells them.
+constexpr MeshFormat kByMagic{"freesurfer", read_freesurfer_of};
+
+/// Throws UserError for a format that is unknown.
+const MeshFormat& format_of(const MeshSources& sources) {
+    const Path path = sources.mesh;
+    const auto find = [](const std::string& extension) {
+        return std::ranges::find_if(kMeshFormats, [&](const MeshFormat& format) {
+            return extension == '.' + std::string(format.name);
+        });
+    };
+    if (const auto found = find(extension_of(path, sources.format)); found != kMeshFormats.end()) {
+        return *found;
+    }
+    if (sources.format == kByMagic.name) {
+        return kByMagic;
+    }
+    if (!sources.format.empty()) {
+        fail_usage("--mesh-format: " + in_quotes(sources.format) + " is none of " +
+                   listed(mesh_formats()));
+    }
+    check_no_folder(path);
+    if (begins_as_freesurfer(path)) {
+        return kByMagic;
+    }
+    fail_input(path, "unknown mesh format; known are " + listed(mesh_extensions(), ", ") +
+                         ", surfaces of FreeSurfer and builtin:NAME, or give --mesh-format");
+}
+
 } // namespace
 
 MeshFile split_into_triangles(const MeshSources& sources, PolygonMesh&& polygons) {
@@ -371,34 +454,11 @@ MeshFile read_mesh(const MeshSources& sources) {
         }
         return mesh;
     }
-    const FileScope scope(path, sources.allows_outside);
-    const std::string extension = extension_of(path, sources.format);
-    if (extension == ".obj") {
-        return to_triangles(sources, read_obj(path, sources.fields, scope, sources.progress));
-    }
-    if (extension == ".ply") {
-        const bool has_other_source = !sources.coordinates.empty() || !sources.edge_lengths.empty();
-        const PlyWanted wanted{!has_other_source, sources.fields};
-        return to_triangles(sources, read_ply(path, wanted, scope, sources.progress));
-    }
-    if (extension == ".off") {
-        return to_triangles(sources, read_off(path, sources.fields, sources.progress));
-    }
-    if (extension == ".stl") {
+    const MeshFormat& format = format_of(sources);
+    if (format.has_places_alone) {
         check_no_numbers(sources);
-        return to_triangles(sources, read_stl(path, sources.progress), true);
     }
-    if (has_y_up(path, sources.format)) {
-        return to_triangles(sources, read_gltf(path, sources.fields, scope));
-    }
-    if (!sources.format.empty()) {
-        fail_usage("--mesh-format: " + in_quotes(sources.format) +
-                   " is none of gltf, glb, obj, off, "
-                   "ply and stl");
-    }
-    check_no_folder(path);
-    fail_input(path, "unknown mesh format; known are .gltf, .glb, .obj, .off, .ply, .stl and "
-                     "builtin:NAME, or give --mesh-format");
+    return to_triangles(sources, format.read(path, sources), format.has_places_alone);
 }
 
 bool has_y_up(const Path& path, const std::string& format) {
@@ -407,7 +467,17 @@ bool has_y_up(const Path& path, const std::string& format) {
 }
 
 std::vector<std::string> mesh_formats() {
-    return {"gltf", "glb", "obj", "off", "ply", "stl"};
+    std::vector<std::string> names = mesh_extensions("");
+    names.emplace_back(kByMagic.name);
+    return names;
+}
+
+std::vector<std::string> mesh_extensions(const std::string& before) {
+    std::vector<std::string> names;
+    for (const MeshFormat& format : kMeshFormats) {
+        names.push_back(before + std::string(format.name));
+    }
+    return names;
 }
 
 MeshFile read_mesh(const std::string& path) {

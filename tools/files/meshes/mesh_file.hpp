@@ -16,8 +16,7 @@ namespace geodisk::tools {
 
 /// The files that make up a mesh.
 struct MeshSources {
-    std::string mesh;         ///< `*.gltf`, `*.glb`, `*.obj`, `*.off`, `*.ply`, `*.stl` or
-                              ///< `builtin:NAME[:RESOLUTION]`.
+    std::string mesh;         ///< File of one of mesh_formats(), or `builtin:NAME[:RESOLUTION]`.
     std::string format;       ///< "obj", or "" for that of the extension.
     std::string coordinates;  ///< See read_coordinates(); they replace those of the mesh. Or "".
     std::string edge_lengths; ///< See EdgeLengths, numbered as the mesh is. Or "".
@@ -25,7 +24,7 @@ struct MeshSources {
     /// Join vertices no farther apart; with a length of 0, those in one place,
     /// as of STL in any case.
     std::optional<Length> weld = std::nullopt;
-    ReadingProgress progress = {}; ///< Progress of reading the mesh file; not for glTF.
+    ReadingProgress progress = {}; ///< Progress of reading the mesh file; not for glTF and XML.
     /// Leave border edges apart that lie exactly on others. They are joined otherwise, unless
     /// `weld` or `edge_lengths` is given.
     bool keep_seams = false;
@@ -52,6 +51,8 @@ MeshFile split_into_triangles(const MeshSources& sources, PolygonMesh&& polygons
 
 /// The names of all formats: "obj".
 std::vector<std::string> mesh_formats();
+/// The extensions that tell a format, behind `before`: ".obj".
+std::vector<std::string> mesh_extensions(const std::string& before = ".");
 
 /// Returns true for the formats in which y points up: glTF. `format` is "" for that of the
 /// extension.

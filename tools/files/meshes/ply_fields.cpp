@@ -121,7 +121,7 @@ void PlyFieldReader::find() {
 void PlyFieldReader::find_own() {
     for (const std::string& name : wanted_.numbers) {
         const std::optional<std::size_t> column = element_.find_scalar(name);
-        if (column && !is_known(name)) {
+        if (column && !lists_name(mesh_, name)) {
             columns_.push_back({&PolygonMesh::own_columns, mesh_.own_columns.size(), {*column}});
             mesh_.own_columns.push_back(
                 make_field(name, of_faces_ ? MeshField::Of::faces : MeshField::Of::vertices));
@@ -146,16 +146,7 @@ void PlyFieldReader::find_uvs(std::vector<bool>& used) {
 }
 
 std::string PlyFieldReader::prefix_for(std::string_view name) const {
-    return is_known(name) ? element_.name + '_' : "";
-}
-
-bool PlyFieldReader::is_known(std::string_view name) const {
-    const auto has_name = [&](const MeshField& field) {
-        return field.name == name ||
-               std::ranges::find(field.components, name) != field.components.end();
-    };
-    return std::ranges::any_of(mesh_.fields, has_name) ||
-           std::ranges::any_of(mesh_.own_columns, has_name);
+    return lists_name(mesh_, name) ? element_.name + '_' : "";
 }
 
 void PlyFieldReader::list(MeshField field, const std::vector<std::size_t>& columns) {

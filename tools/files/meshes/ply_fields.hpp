@@ -61,7 +61,6 @@ class PlyFieldReader {
     void find_uvs(std::vector<bool>& used);
     void find_own();
     void list(MeshField field, const std::vector<std::size_t>& columns);
-    bool is_known(std::string_view name) const;
     std::string prefix_for(std::string_view name) const;
     template <class Fail>
     void lose_uvs(const Fail& fail);

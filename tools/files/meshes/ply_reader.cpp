@@ -1,13 +1,13 @@
 #include <algorithm>
 #include <limits>
 #include <optional>
-#include <utility>
 #include <vector>
 
 #include "files/meshes/ply_fields.hpp"
 #include "files/meshes/ply_materials.hpp"
 #include "files/meshes/polygon_mesh.hpp"
 #include "files/meshes/sidecar_files.hpp"
+#include "files/meshes/triangle_strip.hpp"
 #include "files/ply_file.hpp"
 #include "files/samples/told_samples.hpp"
 #include "geometry/mesh.hpp"
@@ -124,26 +124,18 @@ void read_faces(PlyFile& file, const PlyElement& element, const PlyWanted& wante
     fields.finish();
 }
 
-/// Strips of triangles: each vertex makes one with the two before it, every other one turned; -1
-/// ends a strip.
+/// Reads strips of triangles; -1 ends one.
 void read_strips(PlyFile& file, const PlyElement& element, PolygonMesh& mesh) {
     const std::size_t column = index_column(file, element);
+    TriangleStrip strip(mesh);
     file.read_records(element, [&](std::uint64_t index, const PlyRecord& record) {
-        std::size_t length = 0;
-        std::uint32_t before = 0, last = 0;
+        strip.restart();
         for (const double value : record.lists[column]) {
             if (value == -1) {
-                length = 0;
-                continue;
+                strip.restart();
+            } else {
+                strip.add(to_corner(file, element, index, value));
             }
-            const std::uint32_t corner = to_corner(file, element, index, value);
-            if (++length >= 3) {
-                const bool is_turned = length % 2 == 0;
-                mesh.corners.insert(mesh.corners.end(),
-                                    {is_turned ? last : before, is_turned ? before : last, corner});
-                mesh.face_ends.push_back(mesh.corners.size());
-            }
-            before = std::exchange(last, corner);
         }
     });
 }

@@ -99,4 +99,24 @@ struct PlyWanted {
 PolygonMesh read_ply(const Path& path, PlyWanted wanted, const FileScope& scope,
                      const ReadingProgress& progress);
 
+/// Reads polygons and strips of triangles of VTK's legacy format, version 1 to 5, text or binary:
+/// of polygonal data, and of an unstructured grid of such cells alone. Cells of other kinds are
+/// refused by name if they have a volume, and ignored if they have no area.
+PolygonMesh read_vtk(const Path& path, const WantedFields& fields, const ReadingProgress& progress);
+
+/// Reads the same of VTK's XML format (`.vtp`), whose arrays are text, base64 or appended, also
+/// compressed by zlib. Without pugixml, this and read_gifti() throw UserError(bad_input).
+PolygonMesh read_vtp(const Path& path, const WantedFields& fields);
+
+/// Reads the surface of a GIFTI file (`.surf.gii`). Coordinates are as the file has them: a warning
+/// tells of a transform to another space.
+PolygonMesh read_gifti(const Path& path, const WantedFields& fields);
+
+/// Reads triangles of FreeSurfer, binary or text (`.asc`).
+PolygonMesh read_freesurfer(const Path& path, const ReadingProgress& progress);
+
+/// Returns true for binary surfaces of FreeSurfer, whose files have no common extension. Reads no
+/// stream.
+bool begins_as_freesurfer(const Path& path);
+
 } // namespace geodisk::tools

@@ -5,6 +5,8 @@
 #include <string>
 #include <string_view>
 
+#include "files/input_file.hpp"
+#include "files/meshes/value_files.hpp"
 #include "files/text_file.hpp"
 #include "files/text_lines.hpp"
 #include "geometry/mesh.hpp"
@@ -21,8 +23,7 @@ namespace {
 
 /// Calls visit(line, tokens) for every line that holds any.
 template <typename Visit>
-void for_each_line(const Path& path, const Visit& visit) {
-    const std::string bytes = read_text(path);
+void for_each_line(std::string_view bytes, const Visit& visit) {
     std::vector<std::string_view> tokens;
     TextLines lines(bytes);
     for (std::string_view line; lines.next(line);) {
@@ -57,7 +58,8 @@ std::string edge_text(std::uint32_t a, std::uint32_t b, std::uint32_t first_vert
 
 Coordinates read_coordinates(const Path& path) {
     Coordinates result;
-    for_each_line(path, [&](std::size_t line, const std::vector<std::string_view>& tokens) {
+    const std::string bytes = read_text(path);
+    for_each_line(bytes, [&](std::size_t line, const std::vector<std::string_view>& tokens) {
         if (result.dimension == 0) {
             if (tokens.size() < kFewestCoordinates || tokens.size() > kMaxCoordinates) {
                 fail_line(path, line,
@@ -82,8 +84,16 @@ Coordinates read_coordinates(const Path& path) {
 }
 
 std::vector<double> read_values(const Path& path) {
+    if (lower_extension(path) == ".gii") {
+        return read_gifti_values(path);
+    }
+    const std::string bytes = read_file(path);
+    if (is_freesurfer_values(bytes)) {
+        return read_freesurfer_values(path, bytes);
+    }
+    refuse_other_content(path, bytes);
     std::vector<double> values;
-    for_each_line(path, [&](std::size_t line, const std::vector<std::string_view>& tokens) {
+    for_each_line(bytes, [&](std::size_t line, const std::vector<std::string_view>& tokens) {
         if (tokens.size() != 1) {
             fail_line(path, line,
                       "has " + std::to_string(tokens.size()) + " numbers instead of one");
@@ -104,7 +114,8 @@ EdgeLengths::EdgeLengths(const Path& path, std::uint32_t first_vertex)
         }
         return *vertex - first_vertex_;
     };
-    for_each_line(path_, [&](std::size_t line, const std::vector<std::string_view>& tokens) {
+    const std::string bytes = read_text(path_);
+    for_each_line(bytes, [&](std::size_t line, const std::vector<std::string_view>& tokens) {
         if (tokens.size() != 3) {
             fail_line(path_, line, "an edge reads 'VERTEX VERTEX LENGTH'");
         }

@@ -20,7 +20,7 @@ struct Coordinates {
 /// UserError(bad_input) naming the file and the line, like the next two.
 Coordinates read_coordinates(const Path& path);
 
-/// Reads one finite number per line.
+/// Reads one finite number per line, or the values of vertices in a file of value_files.hpp.
 std::vector<double> read_values(const Path& path);
 
 /// Lengths by edge. Vertices are numbered from 0 here, whatever the file does.

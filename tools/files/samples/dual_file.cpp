@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <ranges>
+#include <cstdint>
 
 #include "files/archives/npz_arrays.hpp"
 #include "files/archives/zip_writer.hpp"
@@ -10,6 +10,7 @@
 #include "files/output/block_writer.hpp"
 #include "files/samples/row_format.hpp"
 #include "files/samples/sample_writers.hpp"
+#include "files/samples/vtp_arrays.hpp"
 #include "program/exact_text.hpp"
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
@@ -126,6 +127,27 @@ void write_npz_dual(AtomicFile& file, const DualMesh& mesh) {
     zip.finish();
 }
 
+void write_vtp_dual(AtomicFile& file, const DualMesh& mesh) {
+    const std::size_t samples = mesh.points.size() / 3;
+    VtpArrays arrays(file, false);
+    file.write("<Piece NumberOfPoints=\"" + std::to_string(samples) + "\" NumberOfPolys=\"" +
+               std::to_string(mesh.triangles.size()) + "\">\n<Points>\n");
+    arrays.add("Points", samples, 3,
+               [&](std::size_t i, std::size_t k) { return mesh.points[3 * i + k]; });
+    file.write("</Points>\n<Polys>\n");
+    arrays.add("connectivity", 3 * mesh.triangles.size(), 1, [&](std::size_t i, std::size_t) {
+        return std::int64_t{mesh.triangles[i / 3][i % 3]};
+    });
+    arrays.add("offsets", mesh.triangles.size(), 1,
+               [](std::size_t i, std::size_t) { return static_cast<std::int64_t>(3 * i + 3); });
+    file.write("</Polys>\n<PointData>\n");
+    for (const SampleField& field : mesh.fields) {
+        arrays.add_field(field, samples);
+    }
+    file.write("</PointData>\n</Piece>\n");
+    arrays.finish();
+}
+
 } // namespace
 
 DualFormat dual_format(const Path& path) {
@@ -139,16 +161,23 @@ DualFormat dual_format(const Path& path) {
     if (extension == ".npz") {
         return DualFormat::npz;
     }
-    fail_usage(path.string() + ": the dual graph is written as .obj, .ply or .npz");
+    if (extension == ".vtp") {
+        return DualFormat::vtp;
+    }
+    fail_usage(path.string() + ": the dual graph is written as .obj, .ply, .vtp or .npz");
 }
 
 void check_dual(DualFormat format, std::uint32_t dimension, std::span<const MeshField> fields) {
     if (format != DualFormat::npz && dimension != 3) {
-        fail_usage(std::string("--dual: .") + (format == DualFormat::obj ? "obj" : "ply") +
+        fail_usage(std::string("--dual: .") +
+                   (format == DualFormat::obj   ? "obj"
+                    : format == DualFormat::ply ? "ply"
+                                                : "vtp") +
                    " has vertices of three coordinates, but the mesh has " +
                    std::to_string(dimension) + "; write .npz");
     }
-    for (const std::string& name : std::views::transform(fields, &MeshField::name)) {
+    for (const MeshField& field : fields) {
+        const std::string& name = field.name;
         if (format == DualFormat::obj && name != kColourField && name != kUvField) {
             fail_usage("--dual: .obj has no attribute " + in_quotes(name) +
                        ", just color and uv; write .ply or .npz");
@@ -168,6 +197,9 @@ void write_dual(AtomicFile& file, DualFormat format, const DualMesh& mesh) {
         return;
     case DualFormat::ply:
         write_ply_dual(file, mesh);
+        return;
+    case DualFormat::vtp:
+        write_vtp_dual(file, mesh);
         return;
     case DualFormat::npz:
         write_npz_dual(file, mesh);

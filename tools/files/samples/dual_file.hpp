@@ -14,7 +14,7 @@
 
 namespace geodisk::tools {
 
-enum class DualFormat : std::uint8_t { obj, ply, npz };
+enum class DualFormat : std::uint8_t { obj, ply, npz, vtp };
 
 /// Returns the format of that extension. Throws UserError(usage) for another one.
 DualFormat dual_format(const Path& path);
@@ -29,10 +29,10 @@ struct DualMesh {
 };
 
 /// Throws UserError(usage) for coordinates and attributes that the format does not hold, naming
-/// --dual: OBJ and PLY hold three coordinates, OBJ the attributes color and uv alone.
+/// --dual: OBJ, PLY and VTP hold three coordinates, OBJ the attributes color and uv alone.
 void check_dual(DualFormat format, std::uint32_t dimension, std::span<const MeshField> fields);
 
-/// Writes vertices and triangles as OBJ or PLY, with attributes of the vertices, or the arrays
+/// Writes vertices and triangles as OBJ, PLY or VTP, with attributes of the vertices, or the arrays
 /// points, edges, triangles and those of attributes as an .npz archive. Coordinates read back as
 /// they are.
 void write_dual(AtomicFile& file, DualFormat format, const DualMesh& mesh);

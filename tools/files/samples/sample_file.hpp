@@ -137,6 +137,9 @@ struct SampleFile {
 ///         frames, a second node instances a triangle by EXT_mesh_gpu_instancing
 ///   usda  a PointInstancer of USD with a ball, or with frames a triangle, scaled by the radius at
 ///         each sample; columns as primvars, the header in customLayerData
+///   vtp   points of VTK in XML with a cell each, binary or ascii: Normals face_index barycentric
+///         radius polygon_index, and an array of all coordinates where there are more than three;
+///         x y z as in PLY; the header as texts in FieldData
 /// With a `dimension` of more than 3 the coordinates are x0 x1 ..., which PLY and PCD have besides
 /// x y z so that viewers show the first three, and there are no normals; with 0, of a mesh of edge
 /// lengths without coordinates, there are neither. check_dimension() tells which formats take that.
@@ -174,12 +177,13 @@ void check_dimension(const SampleTarget& target, std::uint32_t dimension);
 /// The same for samples in a box.
 void check_box_dimension(const SampleTarget& target, std::uint32_t dimension);
 
-/// Reads a sample file: PLY, PCD, OBJ (points alone), and tables of text such as CSV and XYZ, with
-/// or without a row of names. Columns may come in any order and type. face_index bary_u bary_v
-/// bary_w must be there, or none of them; and either x0 x1 ... or x y z, which may lack where faces
-/// are. The others are 0 if absent, unknown ones are skipped. A format without an extension is told
-/// by how it begins. Throws UserError(bad_input) naming the file and the line or record, also for a
-/// file that is cut short, and for one without the column `numbers`, if that is not "".
+/// Reads a sample file: PLY, PCD, NPZ, VTP, OBJ (points alone), and tables of text such as CSV and
+/// XYZ, with or without a row of names. Columns may come in any order and type. face_index bary_u
+/// bary_v bary_w must be there, or none of them; and either x0 x1 ... or x y z, which may lack
+/// where faces are. The others are 0 if absent, unknown ones are skipped. A format without an
+/// extension is told by how it begins. Throws UserError(bad_input) naming the file and the line or
+/// record, also for a file that is cut short, and for one without the column `numbers`, if that is
+/// not "".
 SampleFile read_samples(const Path& path, const std::string& numbers = {});
 
 /// The same for samples in a box, which need have neither faces nor weights, and coordinates x0 x1

@@ -21,7 +21,7 @@ constexpr auto kSrgb = ColourEncoding::srgb, kBytes = ColourEncoding::bytes,
                kPacked = ColourEncoding::packed, kLight = ColourEncoding::light;
 
 /// By SampleFormat; lists are in this order.
-constexpr std::array<FormatFacts, 9> kFormats{{
+constexpr std::array<FormatFacts, 10> kFormats{{
     // name, content, coordinates, floats, programs, comments, scene, colours, writer, reader
     {"ply", kColumns, 0, 8, false, false, true, kNoScene, kBytes, write_by_row, read_ply_samples},
     {"csv", kColumns, 0, 8, false, true, true, kNoScene, kSrgb, write_by_row, read_table_samples},
@@ -32,6 +32,7 @@ constexpr std::array<FormatFacts, 9> kFormats{{
     {"gltf", kColumns, 3, 3, true, false, false, SceneAxes::y, kLight, write_gltf, nullptr},
     {"glb", kColumns, 3, 3, true, false, false, SceneAxes::y, kLight, write_gltf, nullptr},
     {"usda", kColumns, 3, 3, true, false, false, SceneAxes::y_or_z, kLight, write_usd, nullptr},
+    {"vtp", kColumns, 1, 8, false, false, false, kNoScene, kBytes, write_vtp, read_vtp_samples},
 }};
 
 } // namespace

@@ -23,7 +23,7 @@ struct SampleLayout;
 struct SampleRow;
 struct SampleTarget;
 
-enum class SampleFormat { ply, csv, xyz, npz, pcd, obj, gltf, glb, usda };
+enum class SampleFormat { ply, csv, xyz, npz, pcd, obj, gltf, glb, usda, vtp };
 
 /// What a format holds of each sample; each holds what those before it do.
 enum class SampleContent { points, normals, columns };
@@ -53,7 +53,7 @@ struct FormatFacts {
     bool has_columns() const { return content == SampleContent::columns; }
     bool is_scene() const { return axes != SceneAxes::none; }
     /// Returns true for columns of any numbers and any number of coordinates.
-    bool holds_all() const { return has_columns() && !has_floats; }
+    bool holds_all() const { return has_columns() && !has_floats && min_dimension == 0; }
     /// Returns true if samples read back with all that they are.
     bool is_read_back() const { return has_columns() && read != nullptr; }
 };
@@ -81,7 +81,7 @@ std::string listed_formats(const IsFormat& is, const std::string& before = ".",
 struct SampleTarget {
     Path path;
     SampleFormat format = SampleFormat::ply;
-    bool is_text = false;       ///< True for PLY and PCD as text rather than binary.
+    bool is_text = false;       ///< True for PLY, PCD and VTP as text rather than binary.
     bool has_header = true;     ///< Write the header's comments, where the format has comments.
     Up up = Up::y;              ///< Axis of the samples that points up in scenes.
     double metres_per_unit = 1; ///< Unit of lengths in scenes.

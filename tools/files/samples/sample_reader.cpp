@@ -109,6 +109,9 @@ SampleFile read_in(const Path& path, SampleDomain domain, const std::string& num
     if (is_of_numpy(bytes)) {
         return read_numpy_samples(path, std::move(bytes), domain, numbers);
     }
+    if (named == SampleFormat::vtp) {
+        return read_vtp_samples(path, std::move(bytes), domain, numbers);
+    }
     refuse_other_content(path, bytes);
     if (named == SampleFormat::npz || lower_extension(path) == ".npy") {
         fail_input(path, "is no file of numpy; write it with numpy.save or numpy.savez");

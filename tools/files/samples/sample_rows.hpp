@@ -150,6 +150,9 @@ SampleFile read_obj_points(const Path& path, std::string&& bytes, SampleDomain d
 SampleFile read_numpy_samples(const Path& path, std::string&& bytes, SampleDomain domain,
                               const std::string& numbers);
 
+SampleFile read_vtp_samples(const Path& path, std::string&& bytes, SampleDomain domain,
+                            const std::string& numbers);
+
 SampleFile read_gltf_lines(const Path& path, const FileScope& scope);
 
 /// Returns true for the bytes of an .npy or an .npz file.

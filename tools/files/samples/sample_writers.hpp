@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "files/samples/sample_layout.hpp"
 
@@ -37,6 +38,13 @@ class ZipWriter;
 void add_field(ZipWriter& zip, const SampleField& field);
 
 void write_npz(AtomicFile& file, const SampleHeader& header, std::span<const SampleRow> rows,
+               const SampleTarget& target, const SampleLayout& layout);
+
+/// Begins the comment of a file that write_vtp() writes.
+inline constexpr std::string_view kVtpSamples = "samples of geodisk";
+
+/// Writes points of VTK's XML, each with a cell, binary behind the XML or as text.
+void write_vtp(AtomicFile& file, const SampleHeader& header, std::span<const SampleRow> rows,
                const SampleTarget& target, const SampleLayout& layout);
 
 /// Throws UserError(usage) for faces whose numbers a float does not hold.

@@ -6,6 +6,7 @@
 
 #include "files/input_file.hpp"
 #include "files/samples/sample_file.hpp"
+#include "files/samples/sample_writers.hpp"
 #include "files/stream_path.hpp"
 
 namespace geodisk::tools {
@@ -41,6 +42,9 @@ bool begins_as_samples(const Path& path) {
     }
     if (extension == ".glb" || extension == ".gltf") {
         return has(R"("generator":"geodisk")") || has(R"("generator": "geodisk")");
+    }
+    if (extension == ".vtp") {
+        return has(kVtpSamples);
     }
     return false;
 }

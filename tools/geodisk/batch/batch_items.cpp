@@ -22,6 +22,7 @@
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
 #include "program/interrupt.hpp"
+#include "program/suggestion.hpp"
 
 namespace geodisk::tools {
 namespace {
@@ -30,14 +31,32 @@ bool is_hidden(const std::filesystem::path& path) {
     return path.filename().string().starts_with('.');
 }
 
-/// Returns true if the extension is that of a mesh format.
+/// Returns true if the file is to be read as a mesh: by its extension, or as a binary surface of
+/// FreeSurfer.
 bool is_mesh_file(const std::filesystem::path& path) {
-    constexpr std::string_view kExtensions[] = {".gltf", ".glb", ".obj", ".off", ".ply", ".stl"};
-    return std::ranges::find(kExtensions, lower_extension(path)) != std::ranges::end(kExtensions);
+    const std::vector<std::string> extensions = mesh_extensions();
+    return std::ranges::find(extensions, lower_extension(path)) != extensions.end() ||
+           begins_as_freesurfer(path);
 }
 
-/// Relative paths of all files in `folder`, and in folders in it, whose extension is that of a mesh
-/// format, in the order of their names. What begins with a dot is passed over, and so is the folder
+/// Returns the endings of names that only meshes have, behind `before`: ".obj", ".surf.gii".
+std::vector<std::string> mesh_endings(const std::string& before = ".") {
+    std::vector<std::string> endings = mesh_extensions(before);
+    std::erase(endings, before + "asc"); // Tables and maps have it too.
+    std::ranges::replace(endings, before + "gii", before + "surf.gii");
+    return endings;
+}
+
+/// Returns true if a folder of meshes may have `path` for one of them.
+bool is_mesh_in_folder(const std::filesystem::path& path) {
+    static const std::vector<std::string> kEndings = mesh_endings();
+    const std::string name = lower_case(path.filename().string());
+    return std::ranges::any_of(kEndings,
+                               [&](const std::string& ending) { return name.ends_with(ending); });
+}
+
+/// Relative paths of all files in `folder`, and in folders in it, that have one of mesh_endings(),
+/// in the order of their names. What begins with a dot is passed over, and so is the folder
 /// `without`, where results may be. Throws UserError(bad_input) for a folder that cannot be read.
 std::vector<std::filesystem::path> mesh_files_in(const Path& folder, const Path& without) {
     std::vector<std::filesystem::path> files;
@@ -50,7 +69,7 @@ std::vector<std::filesystem::path> mesh_files_in(const Path& folder, const Path&
                 std::filesystem::equivalent(at->path(), without, ignored)) {
                 at.disable_recursion_pending();
             }
-        } else if (!is_hidden(at->path()) && is_mesh_file(at->path())) {
+        } else if (!is_hidden(at->path()) && is_mesh_in_folder(at->path())) {
             files.push_back(at->path().lexically_relative(folder));
         }
     }
@@ -157,7 +176,7 @@ std::vector<BatchItem> items_in_folder(const BatchOptions& batch, const Path& fo
                       " skipped: " + skipped.front() + (skipped.size() > 1 ? ", ..." : ""));
     }
     if (items.empty()) {
-        fail_input(folder, "holds no mesh (*.gltf, *.glb, *.obj, *.off, *.ply or *.stl)");
+        fail_input(folder, "holds no mesh (" + listed(mesh_endings("*."), " or ") + ")");
     }
     return items;
 }

@@ -166,9 +166,9 @@ void add_cells_command(Command app) {
                         wrapped("File to write: the samples with a column `area`, as " +
                                 listed_formats(&FormatFacts::has_columns, "*.")));
     command.add_option("--dual", options->dual, "FILE",
-                       "Write the dual graph too: *.obj or *.ply (samples as vertices, a\n"
-                       "triangle where three cells meet) or *.npz (arrays points,\n"
-                       "edges, triangles)");
+                       "Write the dual graph too: *.obj, *.ply or *.vtp (samples as\n"
+                       "vertices, a triangle where three cells meet) or *.npz (arrays\n"
+                       "points, edges, triangles)");
     add_attributes_option(command, options->out.record);
     add_mesh_options(command, options->mesh);
     options->mask.lacking = "no cell has an area";

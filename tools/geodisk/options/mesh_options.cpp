@@ -6,6 +6,8 @@
 #include "files/meshes/mesh_file.hpp"
 #include "program/command.hpp"
 #include "program/failure.hpp"
+#include "program/human_text.hpp"
+#include "program/suggestion.hpp"
 #include "shapes/builtin_shapes.hpp"
 
 namespace geodisk::tools {
@@ -13,7 +15,11 @@ namespace {
 
 constexpr const char* kSurfaceGroup = "Surface";
 
-constexpr const char* kMeshFormats = ":\n*.gltf, *.glb, *.obj, *.off, *.ply, *.stl or builtin:NAME";
+/// What a mesh may be, behind what an argument is for.
+std::string mesh_kinds() {
+    return ":\n" + wrapped(listed(mesh_extensions("*."), ", ") +
+                           ", a surface of FreeSurfer or builtin:NAME");
+}
 
 /// What bare --weld means, in headers.
 constexpr const char* kExact = "exact";
@@ -82,14 +88,14 @@ HeaderEntries MeshOptions::additions() const {
 
 void add_mesh_argument(Command command, MeshOptions& options, const std::string& summary,
                        const std::string& name) {
-    command.add_option(name, options.mesh, "", summary + kMeshFormats)
+    command.add_option(name, options.mesh, "", summary + mesh_kinds())
         .offers(builtin_names("builtin:"))
         .required();
 }
 
 void add_mesh_arguments(Command command, std::vector<std::string>& meshes,
                         const std::string& summary) {
-    command.add_option("MESH", meshes, "", summary + kMeshFormats)
+    command.add_option("MESH", meshes, "", summary + mesh_kinds())
         .offers(builtin_names("builtin:"))
         .required();
 }
@@ -111,8 +117,8 @@ void add_sidecar_options(Command command, MeshOptions& options, const std::strin
 void add_reader_options(Command command, MeshOptions& options, const std::string& suffix) {
     command
         .add_option("--mesh-format" + suffix, options.format, "NAME",
-                    "Read the mesh as gltf, glb, obj, off, ply or stl, ignoring its\n"
-                    "extension; MESH may then be - for standard input",
+                    wrapped("Read the mesh as " + listed(mesh_formats(), " or ") +
+                            ", ignoring its extension; MESH may then be - for standard input"),
                     kSurfaceGroup)
         .offers(mesh_formats());
     command.add_flag("--allow-outside" + suffix, options.allows_outside,

@@ -72,7 +72,7 @@ void add_quiet_option(Command command, OutputOptions& options, const std::string
 }
 
 void add_text_options(Command command, OutputOptions& options) {
-    command.add_flag("--ascii", options.ascii, "Write PLY or PCD as text");
+    command.add_flag("--ascii", options.ascii, "Write PLY, PCD or VTP as text");
     command.add_flag("--no-header", options.no_header,
                      "Write no comments with mesh, seed and so on, for programs that\n"
                      "read plain CSV; geodisk verify then needs --min-distance");

@@ -51,7 +51,8 @@ class Mesh:
         others), ``"material"``, ``"group"``, and for glTF ``"mesh"``, ``"primitive"`` and
         ``"node"``; 4294967295 for none. Samples have them as well.
     mesh_format : str, optional
-        Read the file as gltf, glb, obj, off, ply or stl, ignoring its extension.
+        Read the file as gltf, glb, obj, off, ply, stl, vtk, vtp, gii, asc or freesurfer, ignoring
+        its extension.
     allow_outside : bool
         Read files that the mesh names outside of its folder too, such as buffers and images.
 
@@ -86,8 +87,8 @@ class Mesh:
 
     Notes
     -----
-    Files are read as the program reads them: *.gltf, *.glb, *.obj, *.off, *.ply, *.stl and
-    ``builtin:NAME``.
+    Files are read as the program reads them: *.gltf, *.glb, *.obj, *.off, *.ply, *.stl,
+    *.vtk, *.vtp, *.gii, *.asc, binary surfaces of FreeSurfer and ``builtin:NAME``.
 
     float32 and float64 coordinates are read in place, also as a part of wider arrays; other types
     are copied first. The mesh and samples on it keep references to the arrays, for :func:`verify`

@@ -479,7 +479,7 @@ class Samples:
         path : str or path-like
             ``*.npz`` for ``numpy.load``, ``*.csv``, or ``*.ply`` for viewers. :func:`read` reads
             all of them, ``geodisk verify`` and the other commands CSV and PLY. Also ``*.pcd``,
-            ``*.obj`` and ``*.xyz`` for point clouds, and ``*.glb``, ``*.gltf`` and ``*.usda`` for
+            ``*.obj`` and ``*.xyz`` for point clouds, ``*.vtp`` for VTK, and ``*.glb``, ``*.gltf`` and ``*.usda`` for
             scenes, as the program writes them.
 
         Raises

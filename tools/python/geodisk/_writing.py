@@ -168,7 +168,7 @@ def write_csv(file: BinaryIO, samples: Samples, header: Header) -> None:
 
 
 #: Formats that the library writes.
-OTHER_FORMATS = (".pcd", ".obj", ".xyz", ".glb", ".gltf", ".usda")
+OTHER_FORMATS = (".pcd", ".obj", ".xyz", ".glb", ".gltf", ".usda", ".vtp")
 
 
 def bytes_as(suffix: str, samples: Samples) -> bytes:

@@ -1,0 +1,152 @@
+"""Meshes that VTK, PyVista and nibabel write, and samples that they read."""
+
+import os
+import subprocess
+
+import numpy as np
+import pytest
+
+import geodisk
+from meshes import FACES, VERTICES
+
+
+@pytest.fixture(scope="module")
+def sphere():
+    """A sphere of PyVista with attributes of points and cells, in single precision."""
+    pyvista = pytest.importorskip("pyvista")
+    mesh = pyvista.Sphere(theta_resolution=12, phi_resolution=9).triangulate()
+    mesh.point_data["heat"] = mesh.points[:, 2].astype(np.float64)
+    mesh.point_data["wind"] = mesh.points * np.float32(2)
+    mesh.point_data["RGB"] = ((mesh.points + 0.5) * 255).astype(np.uint8)
+    mesh.cell_data["region"] = np.arange(mesh.n_cells, dtype=np.int64)
+    return mesh
+
+
+def check_surface(path, mesh):
+    """Requires the points, triangles and attributes of `mesh`."""
+    read = geodisk.Mesh(path, attributes="all")
+    assert np.allclose(read.vertices, mesh.points, atol=1e-6)
+    assert np.array_equal(read.triangles, mesh.faces.reshape(-1, 4)[:, 1:])
+    assert np.allclose(read.attributes["heat"], mesh.point_data["heat"], atol=1e-6)
+    assert np.allclose(read.attributes["wind"], mesh.point_data["wind"], atol=1e-6)
+    assert np.allclose(read.attributes["color"], mesh.point_data["RGB"] / 255)
+    assert np.array_equal(read.attributes["region"], mesh.cell_data["region"])
+
+
+@pytest.mark.parametrize("order", ["LittleEndian", "BigEndian"])
+@pytest.mark.parametrize("head", [32, 64])
+@pytest.mark.parametrize("packed", [False, True])
+@pytest.mark.parametrize("mode", ["ascii", "binary", "raw", "base64"])
+def test_files_of_vtk_in_xml_are_read(mode, packed, head, order, sphere, tmp_path):
+    vtk = pytest.importorskip("vtk")
+    writer = vtk.vtkXMLPolyDataWriter()
+    writer.SetInputData(sphere)
+    writer.SetFileName(str(tmp_path / "a.vtp"))
+    writer.SetDataMode({"ascii": 0, "binary": 1}.get(mode, 2))
+    writer.SetEncodeAppendedData(mode == "base64")
+    writer.SetCompressorType(1 if packed else 0)  # ZLIB or NONE.
+    writer.SetBlockSize(1024)
+    writer.SetHeaderType(head)
+    writer.SetByteOrder(1 if order == "LittleEndian" else 0)
+    assert writer.Write() == 1
+    check_surface(tmp_path / "a.vtp", sphere)
+
+
+@pytest.mark.parametrize("version", [42, 51])
+@pytest.mark.parametrize("binary", [False, True])
+@pytest.mark.parametrize("kind", ["PolyData", "UnstructuredGrid"])
+def test_legacy_files_of_vtk_are_read(kind, binary, version, sphere, tmp_path):
+    vtk = pytest.importorskip("vtk")
+    writer = getattr(vtk, f"vtk{kind}Writer")()
+    writer.SetInputData(sphere if kind == "PolyData" else sphere.cast_to_unstructured_grid())
+    writer.SetFileName(str(tmp_path / "a.vtk"))
+    writer.SetFileType(2 if binary else 1)
+    writer.SetFileVersion(version)
+    assert writer.Write() == 1
+    check_surface(tmp_path / "a.vtk", sphere)
+
+
+@pytest.mark.parametrize("name", ["a.vtp", "a.vtk"])
+def test_strips_of_vtk_have_the_area_of_their_triangles(name, sphere, tmp_path):
+    vtk = pytest.importorskip("vtk")
+    pyvista = pytest.importorskip("pyvista")
+    stripper = vtk.vtkStripper()
+    stripper.SetInputData(sphere)
+    stripper.Update()
+    strips = pyvista.wrap(stripper.GetOutput())
+    assert strips.GetNumberOfStrips() > 0
+    strips.save(tmp_path / name)
+    mesh = geodisk.Mesh(tmp_path / name)
+    assert len(mesh.triangles) == sphere.n_cells
+    assert mesh.area == pytest.approx(sphere.area, rel=1e-5)
+
+
+def test_a_grid_with_volumes_is_refused_by_name(tmp_path):
+    pyvista = pytest.importorskip("pyvista")
+    pyvista.ImageData(dimensions=(3, 3, 3)).cast_to_unstructured_grid().save(tmp_path / "a.vtk")
+    with pytest.raises(geodisk.MeshRejected, match="cell 0 is a (voxel|hexahedron)"):
+        geodisk.Mesh(tmp_path / "a.vtk")
+
+
+@pytest.mark.parametrize("endian", ["little", "big"])
+@pytest.mark.parametrize("encoding", ["ASCII", "B64BIN", "B64GZ"])
+def test_surfaces_of_gifti_are_read(encoding, endian, tmp_path):
+    nibabel = pytest.importorskip("nibabel")
+    gifti = nibabel.gifti
+    vertices, faces = np.asarray(VERTICES, np.float32), np.asarray(FACES, np.int32)
+
+    def array(values, intent, **more):
+        code = f"GIFTI_ENCODING_{encoding}"
+        return gifti.GiftiDataArray(values, f"NIFTI_INTENT_{intent}", encoding=code, endian=endian, **more)
+
+    heat = array(vertices[:, 0].copy(), "SHAPE", meta=gifti.GiftiMetaData(Name="heat"))
+    image = gifti.GiftiImage(darrays=[array(vertices, "POINTSET"), array(faces, "TRIANGLE"), heat])
+    nibabel.save(image, tmp_path / "a.surf.gii")
+    mesh = geodisk.Mesh(tmp_path / "a.surf.gii", attributes=["heat"])
+    assert np.allclose(mesh.vertices, vertices) and np.array_equal(mesh.triangles, faces)
+    assert np.allclose(mesh.attributes["heat"], vertices[:, 0])
+
+
+def test_surfaces_of_freesurfer_are_read(tmp_path):
+    nibabel = pytest.importorskip("nibabel")
+    vertices = np.asarray(VERTICES, np.float32)
+    nibabel.freesurfer.write_geometry(tmp_path / "lh.white", vertices, np.asarray(FACES))
+    mesh = geodisk.Mesh(tmp_path / "lh.white")
+    assert np.array_equal(mesh.vertices, vertices) and np.array_equal(mesh.triangles, FACES)
+
+
+@pytest.mark.skipif("GEODISK_COMMAND" not in os.environ, reason="needs the program")
+@pytest.mark.parametrize("name", ["lh.curv", "lh.shape.gii"])
+def test_values_of_vertices_are_a_density(name, tmp_path):
+    nibabel = pytest.importorskip("nibabel")
+    values = (np.asarray(VERTICES)[:, 0] > 0).astype(np.float32)
+    if name.endswith("gii"):
+        array = nibabel.gifti.GiftiDataArray(values, "NIFTI_INTENT_SHAPE")
+        nibabel.save(nibabel.gifti.GiftiImage(darrays=[array]), tmp_path / name)
+    else:
+        nibabel.freesurfer.write_morph_data(tmp_path / name, values)
+    nibabel.freesurfer.write_geometry(tmp_path / "lh.white", np.asarray(VERTICES), np.asarray(FACES))
+    command = [os.environ["GEODISK_COMMAND"], "sample", "lh.white", "-d", "0.3", "-q", "-o", "a.npz"]
+    subprocess.run([*command, "--density", f"file:{name}"], cwd=tmp_path, check=True)
+    samples = geodisk.read(tmp_path / "a.npz")
+    assert len(samples) > 50 and samples.points[:, 0].min() > -0.5
+
+
+def test_samples_are_points_of_vtk_with_their_columns(sphere, tmp_path):
+    pyvista = pytest.importorskip("pyvista")
+    sphere.save(tmp_path / "a.vtp")
+    samples = geodisk.sample(
+        tmp_path / "a.vtp", min_distance=0.1, seed=3, attributes=["heat", "wind", "color"]
+    )
+    samples.save(tmp_path / "samples.vtp")
+    read = pyvista.read(tmp_path / "samples.vtp")
+    assert read.n_points == read.GetNumberOfVerts() == len(samples)
+    assert np.allclose(read.points, samples.points, atol=1e-6)
+    assert np.allclose(read.point_data.active_normals, samples.normals, atol=1e-6)
+    assert np.array_equal(read["face_index"], samples.face_index)
+    assert np.allclose(read["barycentric"], samples.barycentric)
+    assert np.allclose(read["wind"], samples.attributes["wind"], atol=1e-6)
+    assert np.array_equal(read["color"], np.rint(samples.attributes["color"] * 255))
+    assert float(read.field_data["min_distance"][0]) == 0.1
+    with pytest.raises(geodisk.MeshRejected, match="holds samples"):
+        geodisk.Mesh(tmp_path / "samples.vtp")
