@@ -12,6 +12,7 @@
 #include "files/file_identity.hpp"
 #include "files/input_file.hpp"
 #include "files/meshes/mesh_file.hpp"
+#include "files/meshes/polygon_mesh.hpp"
 #include "files/output/files_in_use.hpp"
 #include "files/samples/sample_format.hpp"
 #include "files/samples/told_samples.hpp"
