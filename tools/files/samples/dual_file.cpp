@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <ranges>
 
 #include "files/archives/npz_arrays.hpp"
 #include "files/archives/zip_writer.hpp"
@@ -148,7 +147,8 @@ void check_dual(DualFormat format, std::uint32_t dimension, std::span<const Mesh
                    " has vertices of three coordinates, but the mesh has " +
                    std::to_string(dimension) + "; write .npz");
     }
-    for (const std::string& name : std::views::transform(fields, &MeshField::name)) {
+    for (const MeshField& field : fields) {
+        const std::string& name = field.name;
         if (format == DualFormat::obj && name != kColourField && name != kUvField) {
             fail_usage("--dual: .obj has no attribute " + in_quotes(name) +
                        ", just color and uv; write .ply or .npz");
