@@ -1,8 +1,6 @@
 // Classes of samples that were read from a file.
 #pragma once
 
-#include <string>
-
 #include "files/samples/sample_file.hpp"
 #include "geodisk/options/class_options.hpp"
 #include "geodisk/options/constraint_options.hpp"

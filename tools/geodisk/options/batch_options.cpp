@@ -1,7 +1,6 @@
 #include "geodisk/options/batch_options.hpp"
 
 #include <optional>
-#include <utility>
 
 #include "files/meshes/mesh_file.hpp"
 #include "files/samples/sample_format.hpp"
