@@ -207,8 +207,8 @@ def test_report_of_radii_and_a_mask(properties, tmp_path):
     ({"g": 2.0}, ["--radius-factor", "g"], 3, "the radius factor g of vertex 0 (from 0) is 2"),
     ({"g": math.nan}, ["--mask", "g<1"], 3, "has no face that --mask allows"),
     ({"g": 0.5}, ["--mask", "x>9"], 3, "has no face that --mask allows"),
-    ({"g": 0.5}, ["--mask", "f>9"], 3, "has no scalar property 'f' of faces or vertices"),
-    ({"g": 0.5}, ["--density", "f"], 3, "element vertex has no property 'f'"),
+    ({"g": 0.5}, ["--mask", "f>9"], 3, "has no attribute 'f'; it has g"),
+    ({"g": 0.5}, ["--density", "f"], 3, "has no attribute 'f'; it has g"),
     ({"g": 0.5}, ["--mask", "x7>9"], 2, "the mesh has 3 coordinates per vertex"),
 ])
 def test_bad_radii_and_masks_are_told_once(tmp_path, of_vertices, arguments, code, message):

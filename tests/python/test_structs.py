@@ -7,6 +7,7 @@ import subprocess
 
 import pytest
 
+from geodisk import _library as c
 from geodisk import _structs
 from geodisk._existing import POINT
 
@@ -53,3 +54,9 @@ def test_fields_lie_where_they_do_in_c(layouts, name):
 def test_points_lie_as_they_do_in_c(layouts):
     fields = [(name, offset, kind.itemsize) for name, (kind, offset) in POINT.fields.items()]
     assert (POINT.itemsize, fields) == layouts["geodisk_surface_point"]
+
+
+def test_each_function_has_its_types():
+    headers = c.ask("geodisk_python_headers").decode()
+    text = _structs._COMMENT.sub("", headers)
+    assert len(_structs._FUNCTION.findall(text)) == text.count("GEODISK_C_API ") > 100

@@ -58,13 +58,12 @@ DrawnPicture draw_samples(const RenderOptions& options, const MeshInput& mesh,
                           const SampleFile& samples, std::vector<MeshWarning>& warnings,
                           const OpenContext& open, ProgressLine& progress);
 
-/// The same of samples in a box, which their header tells. `path` names them in errors.
-DrawnPicture draw_box(const RenderOptions& options, const std::string& path, const BoxParams& box,
-                      const SampleFile& samples, const OpenContext& open, ProgressLine& progress);
+/// The same of samples in a box, which their header tells.
+DrawnPicture draw_box(const RenderOptions& options, const BoxParams& box, const SampleFile& samples,
+                      const OpenContext& open, ProgressLine& progress);
 
 /// Returns the box of samples to draw. Throws UserError for one that has not 2 or 3 dimensions.
-BoxParams box_to_draw(const RenderOptions& options, const std::string& path,
-                      const SampleFile& samples);
+BoxParams box_to_draw(const RenderOptions& options, const SampleFile& samples);
 
 /// Writes a picture, and reports it as `options` ask for. Throws UserError.
 void write_picture(const RenderOptions& options, const PictureSubject& subject,

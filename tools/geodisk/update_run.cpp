@@ -88,17 +88,16 @@ void check_edit(const SampleJob& job, const MeshInput& before, const MeshInput& 
 
 /// Returns the frame in which samples of a mesh were decided: that of their header, or else that of
 /// a run over the mesh at their distance.
-JobFrame frame_of_samples(const SampleFile& file, const std::string& path, const MeshInput& mesh,
-                          SampleParams params) {
+JobFrame frame_of_samples(const SampleFile& file, const MeshInput& mesh, SampleParams params) {
     if (const std::string* const text = file.header.find(kJobFrame)) {
-        return job_frame_of_text(*text, path);
+        return job_frame_of_text(*text, file.path);
     }
-    params.min_distance = header_distance(path, file.header) / mesh.distance_part;
-    return take(frame_of(mesh.prepared, params), path);
+    params.min_distance = header_distance(file) / mesh.distance_part;
+    return take(frame_of(mesh.prepared, params), file.path);
 }
 
 /// Checks that samples are of a kind that can be updated.
-void check_kind(const SampleFile& file, const std::string& path) {
+void check_kind(const SampleFile& file) {
     const SampleHeader& header = file.header;
     const std::pair<std::string_view, const char*> kinds[] = {
         {"darts", "--method darts"}, {"classes", "--classes"},
@@ -107,30 +106,31 @@ void check_kind(const SampleFile& file, const std::string& path) {
         {"avoid", "--avoid"},        {"metric", "--metric"}};
     for (const auto& [key, option] : kinds) {
         if (header.find(key) != nullptr) {
-            fail_input(path, std::string("has samples of ") + option +
-                                 ", which cannot be updated; sample the mesh again");
+            fail_input(file.path, std::string("has samples of ") + option +
+                                      ", which cannot be updated; sample the mesh again");
         }
     }
     if (const std::string other = other_sampling_text(header); !other.empty()) {
-        fail_input(path, other + "; sample the mesh again");
+        fail_input(file.path, other + "; sample the mesh again");
     }
     if (const std::string* const options = header.find("options")) {
         std::vector<std::string_view> names;
         split_tokens(*options, names);
         if (std::ranges::find(names, "selection") != names.end()) {
-            fail_input(path, "has only a selection of the samples of a run, made in Python, so the "
-                             "others are not known; give a file with all samples");
+            fail_input(file.path,
+                       "has only a selection of the samples of a run, made in Python, so the "
+                       "others are not known; give a file with all samples");
         }
-        fail_input(path, "was made in Python with " + *options +
-                             ", which cannot be updated; sample the mesh again");
+        fail_input(file.path, "was made in Python with " + *options +
+                                  ", which cannot be updated; sample the mesh again");
     }
     if (header.find("kept_of") != nullptr) {
-        fail_input(path, "has just the first samples of --order farthest, so the others are "
-                         "not known; give a file with all samples");
+        fail_input(file.path, "has just the first samples of --order farthest, so the others are "
+                              "not known; give a file with all samples");
     }
     if (!fits_digest(file)) {
-        fail_input(path, std::string("has other samples than its digest is of: ") + kOtherRows +
-                             "; give the file as geodisk sample wrote it");
+        fail_input(file.path, std::string("has other samples than its digest is of: ") +
+                                  kOtherRows + "; give the file as geodisk sample wrote it");
     }
 }
 
@@ -182,7 +182,7 @@ void check_job(const SampleFile& file, const SampleJob& job, const MeshInput& me
         }
     });
     // Distances relative to the mesh may round in another way.
-    const double of_file = header_distance(job.update, file.header);
+    const double of_file = header_distance(file);
     if (!(std::abs(of_file - min_distance) <= 1e-12 * min_distance)) {
         fail("minimum distance", exact_text(of_file), exact_text(min_distance));
     }
@@ -222,10 +222,10 @@ UpdateRun::UpdateRun(const SampleJob& job, const MeshInput& mesh, ProgressLine& 
         fail_input(job.update, "has no faces and weights, so its samples cannot be updated; give "
                                "a file of geodisk with them");
     }
-    check_kind(file, job.update);
+    check_kind(file);
     check_job(file, job, mesh_, distance_on_mesh(*job.min_distance, before_.prepared.statistics()));
     print_warnings(warnings);
-    if (!decide_alike(frame_of_samples(file, job.update, before_, params_), plain)) {
+    if (!decide_alike(frame_of_samples(file, before_, params_), plain)) {
         decide_all(job.update + " was decided with other tolerances than a run over " + job.from +
                    " has");
         return;

@@ -113,6 +113,7 @@ struct SampleFile {
     /// Lines between two rows each; only read_points_and_lines() reads them all.
     std::vector<std::array<std::uint32_t, 2>> segments{};
     std::vector<MeshWarning> warnings{}; ///< Oddities of the file.
+    std::string path{};                  ///< Names it in messages.
 
     /// The values of a column of `extra`; empty without it.
     std::span<const std::uint32_t> extra_values(std::string_view name) const;

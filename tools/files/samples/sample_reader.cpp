@@ -132,11 +132,14 @@ SampleFile read_in(const Path& path, SampleDomain domain, const std::string& num
 SampleFile read_samples(const Path& path, const std::string& numbers) {
     SampleFile samples = read_in(path, SampleDomain::surface, numbers);
     check_digest(path, samples.header);
+    samples.path = path.string();
     return samples;
 }
 
 SampleFile read_box_samples(const Path& path) {
-    return read_in(path, SampleDomain::box, {});
+    SampleFile samples = read_in(path, SampleDomain::box, {});
+    samples.path = path.string();
+    return samples;
 }
 
 } // namespace geodisk::tools

@@ -132,17 +132,8 @@ std::string from_anywhere(const std::string& path) {
 
 /// The same job with names of files from any folder.
 SampleOptions from_anywhere(SampleOptions options) {
-    for (std::string* const path : {&options.mesh.mesh, &options.mesh.coordinates,
-                                    &options.mesh.edge_lengths, &options.out.output}) {
-        *path = from_anywhere(*path);
-    }
-    if (!options.out.record.image().empty()) {
-        options.out.record.texture = from_anywhere(options.out.record.texture);
-    }
-    options.density.place_files([](const std::string& file) { return from_anywhere(file); });
-    options.mask.place_files([](const std::string& file) { return from_anywhere(file); });
-    options.constraints.place_files([](const std::string& file) { return from_anywhere(file); });
-    place_class_file(options.classes, [](const std::string& file) { return from_anywhere(file); });
+    place_files(options, [](const std::string& file) { return from_anywhere(file); });
+    options.out.output = from_anywhere(options.out.output);
     return options;
 }
 

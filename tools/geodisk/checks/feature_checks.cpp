@@ -64,8 +64,7 @@ class FeaturePlaces {
 
 } // namespace
 
-std::vector<std::uint32_t> wrong_features(const std::string& samples_path,
-                                          const SampleFile& samples, const MeshInput& mesh) {
+std::vector<std::uint32_t> wrong_features(const SampleFile& samples, const MeshInput& mesh) {
     std::vector<std::uint32_t> wrong;
     const std::string* const text = samples.header.find("features");
     const auto marks = samples.extra_values(kFeatureColumn);
@@ -73,7 +72,7 @@ std::vector<std::uint32_t> wrong_features(const std::string& samples_path,
         mesh.dimension() == 0) {
         return wrong;
     }
-    const FeaturePlaces places(features_in(samples_path, *text, mesh), mesh.prepared);
+    const FeaturePlaces places(features_in(samples.path, *text, mesh), mesh.prepared);
     const auto existing = samples.extra_values(kExistingColumn);
     bool marks_follow = false;
     for (std::size_t i = samples.rows.size(); i-- > 0;) {

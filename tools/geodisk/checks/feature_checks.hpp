@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <string>
 #include <vector>
 
 #include "files/samples/sample_file.hpp"
@@ -14,7 +13,6 @@ namespace geodisk::tools {
 /// that are not on such a feature of the mesh, and samples without a mark on a corner or before
 /// marked ones. Returns none without that column, and without an angle in the header. Throws
 /// UserError(bad_input) for an angle out of range.
-std::vector<std::uint32_t> wrong_features(const std::string& samples_path,
-                                          const SampleFile& samples, const MeshInput& mesh);
+std::vector<std::uint32_t> wrong_features(const SampleFile& samples, const MeshInput& mesh);
 
 } // namespace geodisk::tools

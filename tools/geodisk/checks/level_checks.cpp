@@ -46,8 +46,8 @@ std::vector<double> distances_in(const std::string& path, const std::string& tex
 
 /// Checks the numbers of samples up to the end of each level, where the header has them. A file may
 /// hold just the first samples.
-void check_ends(const std::string& path, const SampleFile& samples,
-                std::span<const std::uint32_t> levels, std::size_t count) {
+void check_ends(const SampleFile& samples, std::span<const std::uint32_t> levels,
+                std::size_t count) {
     const std::string* const text = samples.header.find(kLevelSamples);
     if (text == nullptr) {
         return;
@@ -55,16 +55,17 @@ void check_ends(const std::string& path, const SampleFile& samples,
     std::vector<std::string_view> words;
     split_tokens(*text, words);
     if (words.size() != count) {
-        fail_input(path, "its header has " + counted(count, "level", "levels") +
-                             ", but the samples of " + std::to_string(words.size()));
+        fail_input(samples.path, "its header has " + counted(count, "level", "levels") +
+                                     ", but the samples of " + std::to_string(words.size()));
     }
     for (std::uint32_t level = 0; level < count; ++level) {
         const std::size_t end = end_of(levels, level);
         const auto told = parse_integer<std::size_t>(words[level]);
         if (!told || std::min(*told, samples.rows.size()) != end) {
-            fail_input(path, "its header has " + in_quotes(words[level]) + " samples up to level " +
-                                 std::to_string(level) + ", the column " +
-                                 std::string(kLevelColumn) + " " + std::to_string(end));
+            fail_input(samples.path, "its header has " + in_quotes(words[level]) +
+                                         " samples up to level " + std::to_string(level) +
+                                         ", the column " + std::string(kLevelColumn) + " " +
+                                         std::to_string(end));
         }
     }
 }
@@ -91,19 +92,18 @@ void check_column(const std::string& path, std::span<const std::uint32_t> levels
 
 } // namespace
 
-std::vector<LevelSpacing> check_levels(const std::string& samples_path, const SampleFile& samples,
-                                       const MeshInput& mesh, std::span<const double> radii,
-                                       const SpacingResult& last, ProgressLine& progress,
-                                       const NotePairs& note) {
+std::vector<LevelSpacing> check_levels(const SampleFile& samples, const MeshInput& mesh,
+                                       std::span<const double> radii, const SpacingResult& last,
+                                       ProgressLine& progress, const NotePairs& note) {
     const std::string* const text = samples.header.find(kLevelDistances);
     std::vector<LevelSpacing> found;
     if (text == nullptr) {
         return found;
     }
-    const std::vector<double> distances = distances_in(samples_path, *text);
+    const std::vector<double> distances = distances_in(samples.path, *text);
     const auto levels = samples.extra_values(kLevelColumn);
-    check_column(samples_path, levels, samples.rows.size(), distances.size());
-    check_ends(samples_path, samples, levels, distances.size());
+    check_column(samples.path, levels, samples.rows.size(), distances.size());
+    check_ends(samples, levels, distances.size());
     const auto existing = samples.extra_values(kExistingColumn);
     for (std::uint32_t level = 0; level < distances.size(); ++level) {
         const std::size_t end = end_of(levels, level);

@@ -26,10 +26,9 @@ struct LevelSpacing {
 /// distances. `radii` are those of the last level, and `last` is what a check with them found.
 /// Pairs are found by `note`. Throws UserError(bad_input) where header and column contradict each
 /// other, or samples are not in the order of their levels.
-std::vector<LevelSpacing> check_levels(const std::string& samples_path, const SampleFile& samples,
-                                       const MeshInput& mesh, std::span<const double> radii,
-                                       const SpacingResult& last, ProgressLine& progress,
-                                       const NotePairs& note);
+std::vector<LevelSpacing> check_levels(const SampleFile& samples, const MeshInput& mesh,
+                                       std::span<const double> radii, const SpacingResult& last,
+                                       ProgressLine& progress, const NotePairs& note);
 
 /// A line for each level. `has_existing` tells whether pairs of existing samples were left out.
 std::string level_lines(const std::vector<LevelSpacing>& levels, bool has_existing);

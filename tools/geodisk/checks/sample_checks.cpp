@@ -44,11 +44,11 @@ std::string face_fault(const SampleRow& row, const MeshInput& mesh) {
 }
 
 /// Returns the distance of the closest pair, with a warning.
-double closest_distance(const std::string& path, const SampleFile& samples, const MeshInput& mesh,
+double closest_distance(const SampleFile& samples, const MeshInput& mesh,
                         std::vector<MeshWarning>& warnings, ProgressLine& progress) {
     const std::optional<ClosePair> closest = find_closest(mesh, samples.rows, progress);
     if (!closest || !(closest->distance > 0)) {
-        fail_usage(path + ": its header has no minimum distance, and " +
+        fail_usage(samples.path + ": its header has no minimum distance, and " +
                    (closest ? "samples " + std::to_string(closest->row_a) + " and " +
                                   std::to_string(closest->row_b) + " lie at one place"
                             : "no path joins two of its samples") +
@@ -58,42 +58,40 @@ double closest_distance(const std::string& path, const SampleFile& samples, cons
         {"closest_distance", 1, "",
          "its header has no minimum distance, so that of the closest pair is used, " +
              rounded(closest->distance, 6) + "; give --min-distance for another",
-         path});
+         samples.path});
     return closest->distance;
 }
 
 } // namespace
 
-double header_distance(const std::string& samples_path, const SampleHeader& header) {
-    const std::string* const value = header.find("min_distance");
+double header_distance(const SampleFile& samples) {
+    const std::string* const value = samples.header.find("min_distance");
     if (value == nullptr) {
-        fail_usage(samples_path + ": its header has no minimum distance; give --min-distance");
+        fail_usage(samples.path + ": its header has no minimum distance; give --min-distance");
     }
     const std::optional<double> distance = parse_real(trimmed(*value));
     if (!distance || !(*distance > 0) || !std::isfinite(*distance)) {
-        fail_input(samples_path, "its header has the minimum distance " + in_quotes(*value) +
+        fail_input(samples.path, "its header has the minimum distance " + in_quotes(*value) +
                                      ", not a positive number; give --min-distance");
     }
     return *distance;
 }
 
-void check_dimensions(const std::string& samples_path, const SampleFile& samples,
-                      const MeshInput& mesh) {
+void check_dimensions(const SampleFile& samples, const MeshInput& mesh) {
     if (samples.dimension != mesh.dimension()) {
-        fail_input(samples_path, "its samples have " + coordinates_text(samples.dimension) +
+        fail_input(samples.path, "its samples have " + coordinates_text(samples.dimension) +
                                      ", the vertices of " + mesh.path + " have " +
                                      coordinates_text(mesh.dimension()));
     }
 }
 
-void check_rows(const std::string& samples_path, const SampleFile& samples, const MeshInput& mesh,
-                const std::string& noun) {
+void check_rows(const SampleFile& samples, const MeshInput& mesh, const std::string& noun) {
     constexpr double kTolerance = 1e-5; // Of weights that other programs rounded.
     for (std::uint32_t i = 0; i < samples.rows.size(); ++i) {
         const SampleRow& row = samples.rows[i];
         if (const std::string fault = face_fault(row, mesh); !fault.empty()) {
             fail_input(
-                samples_path,
+                samples.path,
                 std::string(noun).append(" ").append(std::to_string(i)).append(": ").append(fault));
         }
         double sum = 0;
@@ -103,7 +101,7 @@ void check_rows(const std::string& samples_path, const SampleFile& samples, cons
             least = std::min(least, weight);
         }
         if (!(least >= -kTolerance && std::abs(sum - 1) <= kTolerance)) {
-            fail_input(samples_path, noun + " " + std::to_string(i) +
+            fail_input(samples.path, noun + " " + std::to_string(i) +
                                          ": its weights do not name a point in a triangle");
         }
     }
@@ -186,8 +184,8 @@ std::string other_sampling_text(const SampleHeader& header) {
                      ", in which a seed gives other sets";
 }
 
-void warn_of_other_surface(const std::string& samples_path, const SampleFile& samples,
-                           const MeshInput& mesh, std::vector<MeshWarning>& warnings) {
+void warn_of_other_surface(const SampleFile& samples, const MeshInput& mesh,
+                           std::vector<MeshWarning>& warnings) {
     const auto options_of = [](const auto& entries) {
         std::string text;
         for (const auto& [key, value] : entries) {
@@ -206,7 +204,7 @@ void warn_of_other_surface(const std::string& samples_path, const SampleFile& sa
     warnings.push_back(
         {"other_surface", 1, "",
          "made with" + used + ", but this command has other options; distances may differ",
-         samples_path});
+         samples.path});
 }
 
 bool fits_digest(const SampleFile& samples) {
@@ -214,39 +212,36 @@ bool fits_digest(const SampleFile& samples) {
     return digest == nullptr || !samples.has_faces || trimmed(*digest) == digest_of(samples.rows);
 }
 
-SampleDisks sample_disks(const std::string& samples_path, const SampleFile& samples,
-                         const MeshInput& mesh, const std::optional<Length>& min_distance,
+SampleDisks sample_disks(const SampleFile& samples, const MeshInput& mesh,
+                         const std::optional<Length>& min_distance,
                          std::vector<MeshWarning>& warnings, ProgressLine& progress) {
     std::vector<MeshWarning> found;
-    SampleDisks disks =
-        sample_disks_silently(samples_path, samples, mesh, min_distance, found, progress);
+    SampleDisks disks = sample_disks_silently(samples, mesh, min_distance, found, progress);
     print_warnings(found);
     warnings.insert(warnings.end(), found.begin(), found.end());
     return disks;
 }
 
-SampleDisks sample_disks_silently(const std::string& samples_path, const SampleFile& samples,
-                                  const MeshInput& mesh, const std::optional<Length>& min_distance,
+SampleDisks sample_disks_silently(const SampleFile& samples, const MeshInput& mesh,
+                                  const std::optional<Length>& min_distance,
                                   std::vector<MeshWarning>& warnings, ProgressLine& progress) {
     if (min_distance) {
         return disks_of(samples.rows,
                         distance_on_mesh(*min_distance, mesh.prepared.statistics()) / 2);
     }
-    const ClassTable classes = classes_in_header(samples_path, samples);
+    const ClassTable classes = classes_in_header(samples);
     if (classes.count > 1) {
-        check_classes(samples_path, samples, classes.count);
+        check_classes(samples, classes.count);
         return disks_of(samples.rows, classes, samples.extra_values(kClassColumn),
-                        classes.distances.empty() ? header_distance(samples_path, samples.header)
-                                                  : classes.largest());
+                        classes.distances.empty() ? header_distance(samples) : classes.largest());
     }
     if (has_radii(samples.rows) || samples.rows.empty()) {
         return disks_of(samples.rows, 0);
     }
-    return disks_of(samples.rows,
-                    (samples.header.find("min_distance") != nullptr
-                         ? header_distance(samples_path, samples.header)
-                         : closest_distance(samples_path, samples, mesh, warnings, progress)) /
-                        2);
+    return disks_of(samples.rows, (samples.header.find("min_distance") != nullptr
+                                       ? header_distance(samples)
+                                       : closest_distance(samples, mesh, warnings, progress)) /
+                                      2);
 }
 
 SampleDisks disks_of(std::span<const SampleRow> rows, double radius) {

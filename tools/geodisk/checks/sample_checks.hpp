@@ -22,16 +22,14 @@ struct StrayRow {
 };
 
 /// The minimum distance that the header tells. Throws UserError if it tells none, or nonsense.
-double header_distance(const std::string& samples_path, const SampleHeader& header);
+double header_distance(const SampleFile& samples);
 
 /// Throws UserError(bad_input) if the samples have not as many coordinates as the mesh.
-void check_dimensions(const std::string& samples_path, const SampleFile& samples,
-                      const MeshInput& mesh);
+void check_dimensions(const SampleFile& samples, const MeshInput& mesh);
 
 /// The rows must at least name points of the mesh. Throws UserError(bad_input) naming the first
 /// that does not, a `noun`.
-void check_rows(const std::string& samples_path, const SampleFile& samples, const MeshInput& mesh,
-                const std::string& noun);
+void check_rows(const SampleFile& samples, const MeshInput& mesh, const std::string& noun);
 
 /// The samples whose positions differ from those of their faces and weights by more than a sample
 /// file rounds. The rows must have passed check_rows(); without coordinates there are none.
@@ -46,8 +44,8 @@ std::string other_sampling_text(const SampleHeader& header);
 
 /// Adds a warning where the samples' header tells of another --lift, --weld or --keep-seams than
 /// the mesh here: samples of another surface would show as violations, or worse, would not.
-void warn_of_other_surface(const std::string& samples_path, const SampleFile& samples,
-                           const MeshInput& mesh, std::vector<MeshWarning>& warnings);
+void warn_of_other_surface(const SampleFile& samples, const MeshInput& mesh,
+                           std::vector<MeshWarning>& warnings);
 
 /// Why rows may differ from those of a digest.
 inline constexpr const char* kOtherRows = "samples of the run are missing, others were added, or "
@@ -60,13 +58,13 @@ bool fits_digest(const SampleFile& samples);
 /// class, else its own, else half of the header's distance, else half the distance of the closest
 /// pair, which is a warning. Throws UserError if no distance follows from that either, for samples
 /// without the classes of their header, and as header_distance() and distance_on_mesh().
-SampleDisks sample_disks(const std::string& samples_path, const SampleFile& samples,
-                         const MeshInput& mesh, const std::optional<Length>& min_distance,
+SampleDisks sample_disks(const SampleFile& samples, const MeshInput& mesh,
+                         const std::optional<Length>& min_distance,
                          std::vector<MeshWarning>& warnings, ProgressLine& progress);
 
 /// The same, but leaves the warnings to the caller to print.
-SampleDisks sample_disks_silently(const std::string& samples_path, const SampleFile& samples,
-                                  const MeshInput& mesh, const std::optional<Length>& min_distance,
+SampleDisks sample_disks_silently(const SampleFile& samples, const MeshInput& mesh,
+                                  const std::optional<Length>& min_distance,
                                   std::vector<MeshWarning>& warnings, ProgressLine& progress);
 
 /// The disk of each row, of this radius in mesh units, or of the row's own where that is 0.

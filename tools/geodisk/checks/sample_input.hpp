@@ -36,17 +36,14 @@ SampleInput read_samples_on(const std::string& path, const MeshInput& mesh,
                             ProgressLine& progress, const ReadAs& as = {});
 
 /// Does this with samples that were read, but prints no warnings.
-void put_on_mesh(const std::string& path, const MeshInput& mesh, const std::string& tolerance,
-                 SampleInput& input, std::vector<MeshWarning>& warnings, ProgressLine& progress,
-                 const ReadAs& as = {});
+void put_on_mesh(const MeshInput& mesh, const std::string& tolerance, SampleInput& input,
+                 std::vector<MeshWarning>& warnings, ProgressLine& progress, const ReadAs& as = {});
 
 /// Returns the samples. Throws UserError(bad_input) for strays.
-SampleFile without_strays(const std::string& path, const MeshInput& mesh, SampleInput input,
-                          const ReadAs& as = {});
+SampleFile without_strays(const MeshInput& mesh, SampleInput input, const ReadAs& as = {});
 
 /// Warns of a file without samples.
-void warn_of_no_samples(const std::string& path, const SampleFile& file,
-                        std::vector<MeshWarning>& warnings);
+void warn_of_no_samples(const SampleFile& file, std::vector<MeshWarning>& warnings);
 
 /// As read_samples_on(), and throws UserError(bad_input) for strays: samples of another mesh would
 /// land anywhere.

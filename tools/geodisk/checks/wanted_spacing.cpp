@@ -16,7 +16,7 @@ namespace {
 double distance_of(const VerifyOptions& options, const SampleFile& samples, const MeshInput& mesh) {
     const double given =
         options.min_distance.empty()
-            ? header_distance(options.samples, samples.header)
+            ? header_distance(samples)
             : distance_on_mesh(parse_length("--min-distance", options.min_distance),
                                mesh.prepared.statistics());
     return given / mesh.distance_part;
@@ -27,8 +27,7 @@ ClassTable classes_of(const VerifyOptions& options, const SampleFile& samples) {
     if (!options.classes.empty()) {
         return parse_classes(options.classes);
     }
-    return options.min_distance.empty() ? classes_in_header(options.samples, samples)
-                                        : ClassTable{};
+    return options.min_distance.empty() ? classes_in_header(samples) : ClassTable{};
 }
 
 constexpr double kSame = 1e-6; // Radii that other programs rounded.
@@ -45,7 +44,7 @@ WantedSpacing wanted_spacing(const VerifyOptions& options, const SampleFile& sam
     WantedSpacing spacing;
     spacing.classes = classes_of(options, samples);
     if (spacing.classes.is_given()) {
-        check_classes(options.samples, samples, spacing.classes.count);
+        check_classes(samples, spacing.classes.count);
         spacing.min_distance = spacing.classes.distances.empty()
                                    ? distance_of(options, samples, mesh)
                                    : spacing.classes.largest() / mesh.distance_part;

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <bit>
-#include <cmath>
 #include <memory>
 #include <optional>
 #include <string>
@@ -108,14 +107,14 @@ SetAnalysis analyze_set(const AnalyzeOptions& options, const std::string& path,
     if (samples.rows.empty()) {
         fail_input(path, "has no samples to analyze");
     }
-    check_class_options(path, samples, options.mask, {});
+    check_class_options(samples, options.mask, {});
     if (const auto masked = masked_samples(samples, mesh); !masked.empty()) {
         fail_input(path, counted(masked.size(), "sample is", "samples are") + " on faces that " +
                              options.mask.names() + " left out, first sample " +
                              std::to_string(masked.front()));
     }
     const SampleDisks disks =
-        sample_disks(path, samples, mesh, options.distance.parsed(), warnings, progress);
+        sample_disks(samples, mesh, options.distance.parsed(), warnings, progress);
 
     SetAnalysis set =
         analyze_disks(mesh, disks, options.probes, parse_seed("--seed", options.seed), progress);

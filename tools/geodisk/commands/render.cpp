@@ -70,9 +70,7 @@ DrawnPicture draw_samples(const RenderOptions& options, const MeshInput& mesh,
     const picture::PictureParams params = surface_picture(options);
     check_visible(mesh);
     std::vector<SurfaceDisk> disks =
-        sample_disks_silently(options.samples, samples, mesh, options.distance.parsed(), warnings,
-                              progress)
-            .disks;
+        sample_disks_silently(samples, mesh, options.distance.parsed(), warnings, progress).disks;
     if (disks.empty()) {
         fail_input(options.samples, "has no samples to show");
     }

@@ -77,29 +77,29 @@ DrawnPicture draw_balls(const PictureParams& params, const BoxParams& box,
 
 } // namespace
 
-BoxParams box_to_draw(const RenderOptions& options, const std::string& path,
-                      const SampleFile& samples) {
+BoxParams box_to_draw(const RenderOptions& options, const SampleFile& samples) {
     const std::optional<Length> distance = options.distance.parsed();
-    BoxParams box = box_of(path, distance ? "1" : "", samples);
+    BoxParams box = box_of(distance ? "1" : "", samples);
     if (distance) {
         box.min_distance = distance->in_mesh_units(diagonal_of(box));
     }
     if (box.extents.size() != 2 && box.extents.size() != 3) {
-        fail_input(path, "its box has " + counted(box.extents.size(), "dimension", "dimensions") +
-                             "; a picture needs 2 or 3");
+        fail_input(samples.path, "its box has " +
+                                     counted(box.extents.size(), "dimension", "dimensions") +
+                                     "; a picture needs 2 or 3");
     }
     return box;
 }
 
-DrawnPicture draw_box(const RenderOptions& options, const std::string& path, const BoxParams& box,
-                      const SampleFile& samples, const OpenContext& open, ProgressLine& progress) {
+DrawnPicture draw_box(const RenderOptions& options, const BoxParams& box, const SampleFile& samples,
+                      const OpenContext& open, ProgressLine& progress) {
     PictureParams params = parse_picture(options);
     const bool is_flat = box.extents.size() == 2;
     if (is_flat && params.cuts) {
         fail_usage("--cut is for samples in a box of 3 dimensions");
     }
     if (samples.rows.empty()) {
-        fail_input(path, "has no samples to show");
+        fail_input(samples.path, "has no samples to show");
     }
     params.up = params.up.value_or(picture::Up::y);
     for (std::optional<picture::View>& view : params.views) {
@@ -116,13 +116,13 @@ void render_box(const RenderOptions& options) {
     progress.begin_stage("reading the samples");
     const std::string& path = options.mesh.mesh;
     const SampleFile samples = read_box_samples(path);
-    const BoxParams box = box_to_draw(options, path, samples);
+    const BoxParams box = box_to_draw(options, samples);
     const PictureSubject subject{
         path,
         "box           " + box_text(box) + '\n',
         {{"box", {{"extents", box.extents}, {"periodic", box.is_periodic}}}}};
     const DrawnPicture drawn = draw_box(
-        options, path, box, samples, [&] { return open_device(options.device, true, progress); },
+        options, box, samples, [&] { return open_device(options.device, true, progress); },
         progress);
     write_picture(options, subject, drawn, progress);
 }

@@ -79,7 +79,7 @@ SurfaceSets read_sets(const SpectrumOptions& options, const MeshInput& mesh,
         }
         PlacedSamples& places = result.sets.emplace_back();
         const SampleDisks samples =
-            sample_disks(path, file, mesh, options.distance.parsed(), warnings, progress);
+            sample_disks(file, mesh, options.distance.parsed(), warnings, progress);
         for (const SurfaceDisk& disk : samples.disks) {
             // All classes together have the largest distance for a unit.
             const double min_distance = samples.classes.count > 0

@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <optional>
 #include <string>
 #include <utility>
@@ -48,13 +47,13 @@ void check_box_spectrum_path(const Path& path) {
     check_writable(path);
 }
 
-BoxParams read_box(const std::string& path, const SampleFile& samples) {
-    BoxParams box = box_of(path, "", samples);
+BoxParams read_box(const SampleFile& samples) {
+    BoxParams box = box_of("", samples);
     if (box.extents.size() < 2) {
-        fail_input(path, "its box has one dimension; a spectrum needs 2 or more");
+        fail_input(samples.path, "its box has one dimension; a spectrum needs 2 or more");
     }
     if (samples.rows.empty()) {
-        fail_input(path, "has no samples");
+        fail_input(samples.path, "has no samples");
     }
     return box;
 }
@@ -79,7 +78,7 @@ BoxSpectrum compute(const SpectrumOptions& options, double reach, ProgressLine& 
     for (const std::string& path : options.samples) {
         progress.begin_stage("reading the samples");
         const SampleFile samples = read_box_samples(path);
-        const BoxParams box = read_box(path, samples);
+        const BoxParams box = read_box(samples);
         if (!result) {
             if (box.extents.size() != 2 && lower_extension(options.out.output) == ".png") {
                 fail_usage(options.out.output + ": pictures are of spectra in two dimensions; " +

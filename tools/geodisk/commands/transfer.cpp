@@ -232,7 +232,7 @@ void run_transfer(const TransferOptions& options) {
     SampleFile& samples = done.samples;
     samples = read_samples_exactly_on(options.samples, done.from, options.tolerance,
                                       done.from.warnings, progress, {.compares_surface = false});
-    warn_of_no_samples(options.samples, samples, done.from.warnings);
+    warn_of_no_samples(samples, done.from.warnings);
     if (options.is_farthest()) {
         done.farthest = put_farthest_first(options, runner, order, to, samples, progress);
     }

@@ -110,8 +110,7 @@ SampleCheck check_samples(const VerifyOptions& options, const MeshInput& mesh,
     }
     std::vector<LevelSpacing> levels;
     if (options.min_distance.empty() && spacing.is_known) {
-        levels = check_levels(options.samples, samples, mesh, spacing.radii, found.others, progress,
-                              note);
+        levels = check_levels(samples, mesh, spacing.radii, found.others, progress, note);
     }
     return {options,
             samples,
@@ -127,7 +126,7 @@ SampleCheck check_samples(const VerifyOptions& options, const MeshInput& mesh,
             std::move(intrusions),
             gaps,
             std::move(levels),
-            wrong_features(options.samples, samples, mesh)};
+            wrong_features(samples, mesh)};
 }
 
 void verify_samples(const VerifyOptions& options, const NotePairs& note) {
@@ -142,9 +141,9 @@ void verify_samples(const VerifyOptions& options, const NotePairs& note) {
     std::vector<MeshWarning> warnings = mesh.warnings;
     auto [samples, strays] =
         read_samples_on(options.samples, mesh, options.tolerance, warnings, progress);
-    warn_of_no_samples(options.samples, samples, warnings);
+    warn_of_no_samples(samples, warnings);
     warn_of_other_rows(options, samples, warnings);
-    check_class_options(options.samples, samples, options.mask, options.constraints);
+    check_class_options(samples, options.mask, options.constraints);
     WantedSpacing spacing = wanted_spacing(options, samples, mesh);
     if (!spacing.is_known && !options.is_maximal) {
         warn_of_unknown_spacing(options, warnings);

@@ -37,11 +37,11 @@ struct BoxCheck {
 
 /// Checks samples in the box of their header, with `min_distance` as for box_of(). Throws
 /// UserError.
-BoxCheck check_box(const std::string& path, const std::string& min_distance,
-                   const SampleFile& samples, ProgressLine& progress);
+BoxCheck check_box(const std::string& min_distance, const SampleFile& samples,
+                   ProgressLine& progress);
 
 /// One JSON object and a line break.
-std::string report_json(const std::string& path, const SampleFile& samples, const BoxCheck& check);
+std::string report_json(const SampleFile& samples, const BoxCheck& check);
 
 /// Checks samples and publishes what it finds; pairs of samples on a mesh are found by `note`.
 /// Throws UserError, that of violations among them.

@@ -30,11 +30,12 @@ std::size_t count_outside(const BoxParams& box, const SampleFile& samples) {
         }));
 }
 
-std::string result_text(const std::string& path, const SampleFile& samples, const BoxCheck& check) {
+std::string result_text(const SampleFile& samples, const BoxCheck& check) {
     const auto& [box, outside, result] = check;
     std::ostringstream out;
     out << "box           " << box_text(box) << '\n'
-        << "samples       " << grouped(samples.rows.size()) << " in " << one_line(path) << '\n'
+        << "samples       " << grouped(samples.rows.size()) << " in " << one_line(samples.path)
+        << '\n'
         << "min distance  " << rounded(box.min_distance, 9) << '\n'
         << "smallest      " << smallest_text(result, box.min_distance) << '\n';
     print_violations(out, samples, result, "");
@@ -46,17 +47,17 @@ std::string result_text(const std::string& path, const SampleFile& samples, cons
 
 } // namespace
 
-BoxCheck check_box(const std::string& path, const std::string& min_distance,
-                   const SampleFile& samples, ProgressLine& progress) {
-    const BoxParams box = box_of(path, min_distance, samples);
+BoxCheck check_box(const std::string& min_distance, const SampleFile& samples,
+                   ProgressLine& progress) {
+    const BoxParams box = box_of(min_distance, samples);
     return {box, count_outside(box, samples), check_box_spacing(box, samples.rows, progress)};
 }
 
-std::string report_json(const std::string& path, const SampleFile& samples, const BoxCheck& check) {
+std::string report_json(const SampleFile& samples, const BoxCheck& check) {
     const auto& [box, outside, result] = check;
     return text_of(Json{{"version", GEODISK_VERSION_STRING},
                         {"box", {{"extents", box.extents}, {"periodic", box.is_periodic}}},
-                        {"samples_file", path},
+                        {"samples_file", samples.path},
                         {"samples", samples.rows.size()},
                         {"min_distance", box.min_distance},
                         {"cut", result.cut * box.min_distance},
@@ -73,9 +74,9 @@ void verify_box(const std::string& path, const std::string& min_distance,
     progress.begin_stage("reading the samples");
     const SampleFile samples = read_box_samples(path);
     progress.clear();
-    const BoxCheck check = check_box(path, min_distance, samples, progress);
+    const BoxCheck check = check_box(min_distance, samples, progress);
     const auto& [box, outside, result] = check;
-    publish(out, report_json(path, samples, check), result_text(path, samples, check));
+    publish(out, report_json(samples, check), result_text(samples, check));
     std::string message = violation_text(result, rounded(box.min_distance, 9));
     if (outside > 0) {
         message += (message.empty() ? "" : ", and ") + counted(outside, "sample", "samples") +

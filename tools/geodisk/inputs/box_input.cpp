@@ -33,31 +33,30 @@ std::vector<double> parse_sides(std::string_view text) {
 
 } // namespace
 
-BoxParams box_of(const std::string& path, const std::string& min_distance,
-                 const SampleFile& samples) {
+BoxParams box_of(const std::string& min_distance, const SampleFile& samples) {
     const std::string* const sides = samples.header.find("box");
     if (sides == nullptr) {
-        fail_input(path, "its header has no box; for samples on a mesh, give MESH SAMPLES");
+        fail_input(samples.path, "its header has no box; for samples on a mesh, give MESH SAMPLES");
     }
     BoxParams box;
     box.extents = parse_sides(*sides);
     if (box.extents.empty() || box.extents.size() > kMaxBoxDimensions) {
-        fail_input(path, "its header has the box " + in_quotes(*sides) +
-                             ", which is not 1 to 6 positive sides");
+        fail_input(samples.path, "its header has the box " + in_quotes(*sides) +
+                                     ", which is not 1 to 6 positive sides");
     }
     if (box.extents.size() > samples.dimension) {
-        fail_input(path, "has " + std::to_string(samples.dimension) +
-                             " coordinates, but its box has " + std::to_string(box.extents.size()) +
-                             " sides");
+        fail_input(samples.path, "has " + std::to_string(samples.dimension) +
+                                     " coordinates, but its box has " +
+                                     std::to_string(box.extents.size()) + " sides");
     }
     const std::string* const kind = samples.header.find("sides");
     if (kind == nullptr || (*kind != "open" && *kind != "periodic")) {
-        fail_input(path, "its header does not say whether the box is open or periodic");
+        fail_input(samples.path, "its header does not say whether the box is open or periodic");
     }
     box.is_periodic = *kind == "periodic";
     box.min_distance =
         min_distance.empty()
-            ? header_distance(path, samples.header)
+            ? header_distance(samples)
             : parse_length("--min-distance", min_distance).in_mesh_units(diagonal_of(box));
     return box;
 }

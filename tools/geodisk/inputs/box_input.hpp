@@ -9,9 +9,8 @@
 
 namespace geodisk::tools {
 
-/// Returns the box that the header of the file `path` describes, with `min_distance` of the command
+/// Returns the box that the header of a file describes, with `min_distance` of the command
 /// line instead of the header's, unless it is "". Throws UserError.
-BoxParams box_of(const std::string& path, const std::string& min_distance,
-                 const SampleFile& samples);
+BoxParams box_of(const std::string& min_distance, const SampleFile& samples);
 
 } // namespace geodisk::tools

@@ -53,27 +53,27 @@ void take_avoided(const Avoided& avoided, const MeshInput& mesh, bool keeps_samp
 }
 
 /// Says that a file of points of an option has none.
-void warn_if_empty(const SampleFile& file, const std::string& path, const char* message,
+void warn_if_empty(const SampleFile& file, const char* message,
                    std::vector<MeshWarning>& warnings) {
     if (file.rows.empty()) {
-        warnings.push_back({"no_points", 1, "", message, path});
+        warnings.push_back({"no_points", 1, "", message, file.path});
     }
 }
 
 /// Returns the classes of samples to keep: those of the file, or 0.
-std::vector<std::uint8_t> classes_in(const std::string& path, const SampleFile& file,
-                                     std::size_t count, std::vector<MeshWarning>& warnings) {
+std::vector<std::uint8_t> classes_in(const SampleFile& file, std::size_t count,
+                                     std::vector<MeshWarning>& warnings) {
     const auto values = file.extra_values(kClassColumn);
     std::vector<std::uint8_t> classes(file.rows.size(), 0);
     if (values.empty()) {
         warnings.push_back({"no_classes", file.rows.size(), "",
-                            "has no column class; its samples get class 0", path});
+                            "has no column class; its samples get class 0", file.path});
     }
     for (std::size_t i = 0; i < values.size(); ++i) {
         if (values[i] >= count) {
-            fail_input(path, "sample " + std::to_string(i) + ": its class is " +
-                                 std::to_string(values[i]) + ", but --classes has " +
-                                 std::to_string(count) + ", numbered from 0");
+            fail_input(file.path, "sample " + std::to_string(i) + ": its class is " +
+                                      std::to_string(values[i]) + ", but --classes has " +
+                                      std::to_string(count) + ", numbered from 0");
         }
         classes[i] = static_cast<std::uint8_t>(values[i]);
     }
@@ -88,7 +88,7 @@ void avoid_file(const AvoidOption& option, const std::string& tolerance, const M
     const SampleFile file =
         read_samples_silently_on(path, mesh, tolerance, warnings, progress,
                                  {"point", option.column, true, of_mesh.allows_outside});
-    warn_if_empty(file, path, "has no points to avoid, so --avoid does nothing", warnings);
+    warn_if_empty(file, "has no points to avoid, so --avoid does nothing", warnings);
     const std::size_t first = avoided.disks.size();
     for (std::size_t i = 0; i < file.rows.size(); ++i) {
         const double radius = option.radius
@@ -158,14 +158,13 @@ ExistingInput load_existing(const SampleJob& job, const MeshInput& mesh, Progres
     }
     const SampleFile file = read_samples_silently_on(options.existing, mesh, options.tolerance,
                                                      existing.warnings, progress);
-    warn_if_empty(file, options.existing, "has no samples to keep, so --existing does nothing",
-                  existing.warnings);
+    warn_if_empty(file, "has no samples to keep, so --existing does nothing", existing.warnings);
     check_count(job, file.rows.size());
     for (const SampleRow& row : file.rows) {
         existing.samples.push_back(mesh.sampled_of(row));
     }
     if (job.classes.count > 1 && !file.rows.empty()) {
-        existing.classes = classes_in(options.existing, file, job.classes.count, existing.warnings);
+        existing.classes = classes_in(file, job.classes.count, existing.warnings);
     }
     return existing;
 }

@@ -1,7 +1,6 @@
 #include "geodisk/options/batch_options.hpp"
 
 #include <optional>
-#include <utility>
 
 #include "files/meshes/mesh_file.hpp"
 #include "files/samples/sample_format.hpp"
@@ -78,6 +77,14 @@ void drop_replaced(SampleOptions& common, const SampleOptions& line) {
     }
     if (!line.mask.only.empty()) {
         common.mask.only.clear();
+    }
+}
+
+/// Takes a value if the line gives it.
+template <class Value>
+void take_given(Value& of_all, const Value& of_line) {
+    if (!of_line.empty()) {
+        of_all = of_line;
     }
 }
 
@@ -160,45 +167,24 @@ LineOptions parse_line(const SampleOptions& common, const std::vector<std::strin
     LineOptions line{common, alone.sample.mesh.mesh, {}};
     drop_replaced(line.sample, alone.sample);
     parse_words(words, line);
+    place_files(alone.sample,
+                [&folder](const std::string& name) { return seen_from(folder, name); });
     SampleOptions& sample = line.sample;
-    sample.mesh.mesh = seen_from(folder, sample.mesh.mesh);
-    for (const auto& [path, given] :
-         {std::pair{&sample.mesh.coordinates, &alone.sample.mesh.coordinates},
-          {&sample.mesh.edge_lengths, &alone.sample.mesh.edge_lengths}}) {
-        if (!given->empty()) {
-            *path = seen_from(folder, *given);
-        }
+    const SampleOptions& own = alone.sample;
+    take_given(sample.mesh.mesh, own.mesh.mesh);
+    take_given(sample.mesh.coordinates, own.mesh.coordinates);
+    take_given(sample.mesh.edge_lengths, own.mesh.edge_lengths);
+    take_given(sample.out.record.texture, own.out.record.texture);
+    if (!own.density.given().empty()) {
+        sample.density = own.density;
     }
-    if (const std::string image = alone.sample.out.record.image(); !image.empty()) {
-        sample.out.record.texture = seen_from(folder, image);
-    }
-    if (!alone.sample.density.given().empty()) {
-        sample.density.place_files(
-            [&folder](const std::string& name) { return seen_from(folder, name); });
-    }
-    MaskOptions& mask = alone.sample.mask;
-    mask.place_files([&folder](const std::string& name) { return seen_from(folder, name); });
-    for (std::vector<std::string> MaskOptions::*const values :
-         {&MaskOptions::masks, &MaskOptions::class_masks, &MaskOptions::class_densities}) {
-        if (!(mask.*values).empty()) {
-            sample.mask.*values = mask.*values;
-        }
-    }
-    ConstraintOptions& own = alone.sample.constraints;
-    own.place_files([&folder](const std::string& name) { return seen_from(folder, name); });
-    if (!own.existing.empty()) {
-        sample.constraints.existing = own.existing;
-    }
-    if (!own.avoid.empty()) {
-        sample.constraints.avoid = own.avoid;
-    }
-    if (!own.class_avoid.empty()) {
-        sample.constraints.class_avoid = own.class_avoid;
-    }
-    if (!alone.sample.classes.empty()) {
-        place_class_file(sample.classes,
-                         [&folder](const std::string& name) { return seen_from(folder, name); });
-    }
+    take_given(sample.mask.masks, own.mask.masks);
+    take_given(sample.mask.class_masks, own.mask.class_masks);
+    take_given(sample.mask.class_densities, own.mask.class_densities);
+    take_given(sample.constraints.existing, own.constraints.existing);
+    take_given(sample.constraints.avoid, own.constraints.avoid);
+    take_given(sample.constraints.class_avoid, own.constraints.class_avoid);
+    take_given(sample.classes, own.classes);
     return line;
 }
 

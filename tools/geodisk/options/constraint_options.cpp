@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <utility>
 
 #include "geodisk/options/class_options.hpp"
 #include "geodisk/options/distance_options.hpp"

@@ -56,12 +56,10 @@ void take_classes(const SampleOptions& options, SampleJob& job) {
     }
 }
 
-/// Takes the mesh and the samples before an edit. Samples of other kinds are not updated.
-void take_edit(const SampleOptions& options, SampleJob& job) {
-    job.from = options.from;
-    job.update = options.update;
-    if (job.from.empty()) {
-        if (!job.update.empty()) {
+/// Checks the mesh and the samples before an edit. Samples of other kinds are not updated.
+void check_edit_options(const SampleOptions& options) {
+    if (options.from.empty()) {
+        if (!options.update.empty()) {
             fail_usage("--update needs the mesh of the samples; add --from OLD_MESH");
         }
         return;
@@ -115,17 +113,30 @@ GivenFields given_fields(const SampleOptions& options, const ClassTable& classes
     return given;
 }
 
+void place_files(SampleOptions& options,
+                 const std::function<std::string(const std::string&)>& place) {
+    for (std::string* const path :
+         {&options.mesh.mesh, &options.mesh.coordinates, &options.mesh.edge_lengths}) {
+        *path = path->empty() ? "" : place(*path);
+    }
+    if (!options.out.record.image().empty()) {
+        options.out.record.texture = place(options.out.record.texture);
+    }
+    if (!options.density.given().empty()) {
+        options.density.place_files(place);
+    }
+    options.mask.place_files(place);
+    options.constraints.place_files(place);
+    place_class_file(options.classes, place);
+}
+
 std::string metric_name(const std::optional<Metric>& metric) {
     return !metric ? "geodesic" : *metric == Metric::euclidean ? "euclidean" : "approximate";
 }
 
 SampleJob parse_job(const SampleOptions& options) {
     SampleJob job;
-    job.mesh = options.mesh;
-    job.density = options.density;
-    job.mask = options.mask;
-    job.constraints = options.constraints;
-    job.out = options.out;
+    static_cast<SampleInputs&>(job) = options;
     job.columns = parse_part_columns(options.out.columns);
     if (!job.columns.empty() && !job.out.output.empty()) {
         check_columns(job.out.target(), job.columns);
@@ -138,10 +149,7 @@ SampleJob parse_job(const SampleOptions& options) {
         job.out.record.check(job.out.target());
     }
     job.out.check_scene(!options.picture.empty());
-    job.run = options.run;
     job.metric = parse_metric(options.metric);
-    job.picture = options.picture;
-    job.legend = options.legend;
     if (job.legend && job.picture.empty()) {
         fail_usage("--legend is for pictures; add --picture FILE");
     }
@@ -173,7 +181,7 @@ SampleJob parse_job(const SampleOptions& options) {
         fail_usage("--dry-run estimates the sampling alone, so it takes no --order farthest");
     }
     check_metric(options, job);
-    take_edit(options, job);
+    check_edit_options(options);
     job.constraints.check();
     job.constraints.check_classes(job.classes.count);
     job.mesh.parsed_lifts(); // Wrong ones are known before a mesh is read.

@@ -1,6 +1,7 @@
 // The options of `geodisk sample` and of what else samples a mesh, and the job that they ask for.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,22 +20,31 @@
 
 namespace geodisk::tools {
 
-/// As given on the command line.
-struct SampleOptions {
+/// Options that a job has as they are given.
+struct SampleInputs {
     MeshOptions mesh;
     DensityOptions density;
     MaskOptions mask;
     ConstraintOptions constraints;
     OutputOptions out;
     RunOptions run;
+    std::string picture; ///< File for one, or empty.
+    bool legend = false; ///< On the picture.
+    std::string from;    ///< Mesh before an edit, in whose frame this one is sampled; or "".
+    std::string update;  ///< Its samples, or "".
+};
+
+/// As given on the command line.
+struct SampleOptions : SampleInputs {
     MethodOptions method;
     std::string min_distance, radius, count;
     std::string classes, features;
     std::string metric = "geodesic";
-    std::string picture;
-    bool legend = false;
-    std::string from, update;
 };
+
+/// Puts `place(name)` for each file that is read but those before an edit.
+void place_files(SampleOptions& options,
+                 const std::function<std::string(const std::string&)>& place);
 
 /// Adds all options of the command but the mesh; `options` must outlive the parsing. `unnamed` says
 /// which file is written without -o, if any may be.
@@ -51,28 +61,18 @@ void add_subject_options(Command command, SampleOptions& options);
 void add_job_options(Command command, SampleOptions& options);
 
 /// Job that is asked for, checked as far as that is possible without the mesh.
-struct SampleJob {
-    MeshOptions mesh;
-    DensityOptions density;
-    MaskOptions mask;
-    ConstraintOptions constraints;
+struct SampleJob : SampleInputs {
     ClassTable classes;
     std::string classes_option;       ///< As given.
     std::optional<double> features;   ///< Degrees from which on edges are features.
     std::vector<float> class_factors; ///< SampleParams::class_factors.
-    OutputOptions out;
     std::vector<std::string> columns; ///< Columns of the samples, besides those that all have.
-    RunOptions run;
-    std::optional<Metric> metric; ///< Through space; without it, distances are geodesic.
+    std::optional<Metric> metric;     ///< Through space; without it, distances are geodesic.
     Method method;
     std::optional<Length> min_distance; ///< Without it, wanted_count tells the distance.
     WantedCount wanted_count;
     SampleParams params; ///< All but the distance, radii, classes, darts and existing samples.
     RunnerOptions runner;
-    std::string picture; ///< File for one, or empty.
-    bool legend = false; ///< On the picture.
-    std::string from;    ///< Mesh before an edit, in whose frame this one is sampled; or "".
-    std::string update;  ///< Its samples, or "".
 
     bool is_geodesic() const { return !metric; }
 };

@@ -1,7 +1,6 @@
 #include "geodisk/options/verify_options.hpp"
 
 #include <optional>
-#include <string_view>
 
 #include "files/input_file.hpp"
 #include "files/samples/sample_format.hpp"

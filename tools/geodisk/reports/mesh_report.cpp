@@ -1,6 +1,5 @@
 #include "geodisk/reports/mesh_report.hpp"
 
-#include <algorithm>
 #include <optional>
 
 #include "geodisk/reports/json.hpp"

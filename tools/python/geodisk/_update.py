@@ -11,7 +11,7 @@ from ctypes import byref
 from typing import Any, Mapping, Sequence
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from . import _errors as e
 from . import _library as c

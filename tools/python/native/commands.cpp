@@ -104,6 +104,7 @@ SampleFile sample_file(const geodisk_task& task, const Json& options) {
         kSamplesName, is_on_surface ? SampleDomain::surface : SampleDomain::box, place_of);
     ExtraReader extra(kSamplesName, place_of, "");
     SampleFile samples;
+    samples.path = kSamplesName;
     samples.dimension = places.dimension();
     samples.has_faces = places.has_faces;
     for (std::size_t i = 0; i < options.at("count").get<std::size_t>(); ++i) {
@@ -128,7 +129,7 @@ SampleInput samples_on(const MeshInput& mesh, RunningTask& run) {
     check_tolerance(tolerance);
     SampleInput input{sample_file(run.task, run.options), {}};
     std::vector<MeshWarning> warnings; // Python has its own.
-    put_on_mesh(kSamplesName, mesh, tolerance, input, warnings, run.progress);
+    put_on_mesh(mesh, tolerance, input, warnings, run.progress);
     return input;
 }
 
@@ -184,9 +185,7 @@ void verify(RunningTask& run) {
     const geodisk_task& task = run.task;
     if (task.mesh == nullptr) {
         const SampleFile samples = sample_file(task, run.options);
-        run.hand_over(
-            report_json(kSamplesName, samples,
-                        check_box(kSamplesName, options.min_distance, samples, run.progress)));
+        run.hand_over(report_json(samples, check_box(options.min_distance, samples, run.progress)));
         return;
     }
     MeshInput mesh = mesh_input(*task.mesh);
@@ -201,12 +200,13 @@ void verify(RunningTask& run) {
     avoided.points = run.options.at("avoided");
     avoided.classes.assign(avoided.points, kAllClasses);
     SampleFile places;
+    places.path = "avoid";
     for (std::size_t i = 0; i < avoided.points; ++i) {
         avoided.disks.push_back({c::sample_of(task.avoid[i]), task.avoid_radii[i]});
         places.rows.emplace_back().face = task.avoid[i].face;
         std::ranges::copy(task.avoid[i].weights, places.rows.back().bary);
     }
-    check_rows("avoid", places, mesh, "point");
+    check_rows(places, mesh, "point");
     auto [samples, strays] = samples_on(mesh, run);
     run.hand_over(report_json(check_samples(options, mesh, samples, std::move(strays),
                                             wanted_spacing(options, samples, mesh), avoided, {},
@@ -216,7 +216,7 @@ void verify(RunningTask& run) {
 /// Returns the samples on their mesh, after handing over where that is.
 SampleFile place(RunningTask& run) {
     const MeshInput mesh = mesh_input(*run.task.mesh);
-    SampleFile samples = without_strays(kSamplesName, mesh, samples_on(mesh, run));
+    SampleFile samples = without_strays(mesh, samples_on(mesh, run));
     std::vector<std::uint32_t> faces;
     std::vector<float> weights;
     for (const SampleRow& row : samples.rows) {
@@ -340,11 +340,11 @@ void render(RunningTask& run) {
     DrawnPicture drawn;
     if (run.task.mesh == nullptr) {
         const SampleFile samples = sample_file(run.task, run.options);
-        const BoxParams box = box_to_draw(options, kSamplesName, samples);
-        drawn = draw_box(options, kSamplesName, box, samples, open, run.progress);
+        const BoxParams box = box_to_draw(options, samples);
+        drawn = draw_box(options, box, samples, open, run.progress);
     } else {
         const MeshInput mesh = mesh_input(*run.task.mesh);
-        const SampleFile samples = without_strays(kSamplesName, mesh, samples_on(mesh, run));
+        const SampleFile samples = without_strays(mesh, samples_on(mesh, run));
         std::vector<MeshWarning> warnings;
         drawn = draw_samples(options, mesh, samples, warnings, open, run.progress);
     }
