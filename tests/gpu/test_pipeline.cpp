@@ -17,8 +17,9 @@ namespace geodisk::test {
 namespace {
 
 /// The run returns what the float twin returns, and the truth differs by replayed ties at most.
-SampleSet check_against_reference(const PreparedMesh& mesh, const SampleParams& params) {
-    SampleSet set = sample(mesh, params);
+SampleSet check_against_reference(const PreparedMesh& mesh, const SampleParams& params,
+                                  const RunnerOptions& options = {}) {
+    SampleSet set = sample(mesh, params, options);
     const double bound = set.report.plan.error_bound;
     CHECK(points_of(set) == float_set(mesh, params, bound));
     if (points_of(set) != double_set(mesh, params, bound)) {
@@ -92,13 +93,16 @@ TEST_SUITE("pipeline") {
                 SampleParams params;
                 params.min_distance = c.min_distance;
                 params.radii = radii;
-                const SampleSet base = check_against_reference(mesh, params);
+                RunnerOptions by_lanes; // As on a CPU: no disk is left to a work group.
+                by_lanes.plan.disks_by = DisksBy::lanes;
+                by_lanes.plan.large_after = ~std::uint32_t{0};
+                const SampleSet base = check_against_reference(mesh, params, by_lanes);
                 CHECK(base.report.plan.trims);
-                RunnerOptions few;
+                RunnerOptions few = by_lanes;
                 few.plan.slots = 8;
                 few.plan.lanes = 2;
                 few.plan.step_budget = 7;
-                RunnerOptions from_the_start;
+                RunnerOptions from_the_start = by_lanes;
                 from_the_start.plan.trims = true;
                 from_the_start.plan.slots = 500;
                 from_the_start.plan.window_capacity = 2;

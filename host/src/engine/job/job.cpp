@@ -110,6 +110,7 @@ Result<Done> Job::Impl::choose_kernels(KernelVariant wanted, const RunPlan& for_
 
 void Job::Impl::apply_plan(const RunPlan& new_plan) {
     plan = new_plan;
+    is_pool_divided = true;
     const bool by_groups = plan.disks_by == DisksBy::groups;
     push.slots = plan.slots;
     // Very large disks leave only the slots that disks of equal order need. Disks beyond the groups

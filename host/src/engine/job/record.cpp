@@ -295,8 +295,10 @@ bool record_begin(VkCommandBuffer commands, Job::Impl& job, Budget& budget) {
         }
         recorder.fill_below(kAccepted);
     });
-    recorder.clear(BufferRole::pool,
-                   push.first_stage == 0 ? VkDeviceSize{push.first_list_row} * 16 : 0);
+    // Another plan divides the pool in another way: rows of tables would be taken for those of
+    // later disks.
+    const bool is_used = push.first_stage > 0 && !job.is_pool_divided;
+    recorder.clear(BufferRole::pool, is_used ? 0 : VkDeviceSize{push.first_list_row} * 16);
     if (job.stages.is_drawn()) {
         draw_candidates(recorder, job);
     }
@@ -305,7 +307,9 @@ bool record_begin(VkCommandBuffer commands, Job::Impl& job, Budget& budget) {
         recorder.pass_over_candidates(Kernel::drop, 32 * gpu::kWideLanes, push);
     }
     job.is_end_changed = false;
-    return recorder.is_complete();
+    const bool is_complete = recorder.is_complete();
+    job.is_pool_divided = job.is_pool_divided && !is_complete;
+    return is_complete;
 }
 
 bool record_count(VkCommandBuffer commands, Job::Impl& job, Budget& budget) {
@@ -448,6 +452,7 @@ void Sampler::record_rewind(VkCommandBuffer commands, Job& job) const noexcept {
     recorder.change([&] { recorder.fill_generation(); });
     // No lane has a slot, and no row of a table a disk.
     recorder.clear(BufferRole::pool, VkDeviceSize{push.first_list_row} * 16);
+    job.impl_->is_pool_divided = false;
     recorder.pass(Kernel::rewind, job.impl_->max_slots, impl_->choices.tuning.slot_local_size,
                   push);
     recorder.change([&] {

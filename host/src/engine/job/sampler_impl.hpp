@@ -107,6 +107,7 @@ struct Job::Impl {
     bool awaits_cut = false;
     std::optional<OrderCut> cut;
     std::uint64_t end_order = kAllOrders; ///< Order given to Job::set_end_order().
+    bool is_pool_divided = true;          ///< By a plan, since the pool was cleared.
     bool is_end_changed = false;          ///< Rounds recorded next go on to another push.end_order.
     bool is_count_due = false;            ///< record_count().
     bool is_stop_counted = false;         ///< It has counted up to the last sample.
