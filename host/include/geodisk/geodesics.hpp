@@ -46,11 +46,12 @@ struct GeodesicDistances {
 };
 
 /// Computes the exact distances along the surface, which only the rounding of double precision
-/// limits: about 1e-12 of the longest. Windows of straight paths cross the faces nearest first, and
-/// windows of one edge are trimmed against each other (Mitchell, Mount and Papadimitriou 1987;
-/// Xin and Wang 2009). Takes time by the number of windows: 10 to 25 per face on scans, and with
-/// the square root of the faces on smooth convex surfaces. Each source is computed by one thread.
-/// The result does not depend on them.
+/// limits: about 1e-12 of the longest. (A Sample places a point in a face by single precision.)
+/// Windows of straight paths cross the faces nearest first, and windows of one edge are trimmed
+/// against each other (Mitchell, Mount and Papadimitriou 1987; Xin and Wang 2009). Takes time by
+/// the number of windows: 10 to 25 per face on scans, and with the square root of the faces on
+/// smooth convex surfaces. Each source is computed by one thread. The result does not depend on
+/// them.
 ///
 /// Progress counts vertices as candidates, and with DistanceQuery::each sources. It may be called
 /// by any of the threads, by one at a time; returns `cancelled` if it asks to stop.

@@ -1,8 +1,11 @@
 #include <geodisk/geodesics.hpp>
 
+#include <algorithm>
 #include <atomic>
+#include <iterator>
 #include <mutex>
 #include <string>
+#include <vector>
 
 #include "engine/neighbours/check_query.hpp"
 #include "geodesics/wavefront.hpp"
@@ -97,6 +100,9 @@ Result<GeodesicDistances> geodesic_distances(const PreparedMesh& mesh, const Dis
         const std::size_t width =
             query.targets.empty() ? mesh.vertex_count() : query.targets.size();
         const auto count = static_cast<std::uint32_t>(query.sources.size());
+        std::vector<PathPoint> sources, targets;
+        std::ranges::transform(query.sources, std::back_inserter(sources), geodesics::precise);
+        std::ranges::transform(query.targets, std::back_inserter(targets), geodesics::precise);
         SharedRun run(progress);
         GeodesicDistances result;
         if (query.each) {
@@ -107,8 +113,8 @@ Result<GeodesicDistances> geodesic_distances(const PreparedMesh& mesh, const Dis
                     return;
                 }
                 Wavefront front(mesh, query.within);
-                front.aim_at(query.targets);
-                front.add(query.sources[row], 0);
+                front.aim_at(targets);
+                front.add(sources[row], 0);
                 if (run.check(front.spread([&](std::uint32_t) { return run.tell(done, count); }))) {
                     copy_paths(front, joined,
                                std::span(result.distances).subspan(row * width, width), {});
@@ -119,9 +125,9 @@ Result<GeodesicDistances> geodesic_distances(const PreparedMesh& mesh, const Dis
             result.distances.resize(width);
             result.nearest.resize(width);
             Wavefront front(mesh, query.within);
-            front.aim_at(query.targets);
+            front.aim_at(targets);
             for (std::uint32_t i = 0; i < count; ++i) {
-                front.add(query.sources[i], i);
+                front.add(sources[i], i);
             }
             run.check(front.spread(
                 [&](std::uint32_t reached) { return run.tell(reached, mesh.vertex_count()); }));

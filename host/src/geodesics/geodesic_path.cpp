@@ -29,10 +29,6 @@ PathPoint point_at(const PreparedMesh& mesh, std::uint32_t vertex) {
     return point_on(mesh, mesh.corners()[mesh.fans()[vertex].first_corner], 0);
 }
 
-PathPoint point_of(const Sample& sample) {
-    return {sample.face, {sample.weights[0], sample.weights[1], sample.weights[2]}};
-}
-
 /// Follows paths back along the windows of a wavefront.
 class Backtrack {
   public:
@@ -98,33 +94,37 @@ Result<GeodesicPath> geodesic_path(const PreparedMesh& mesh, const Sample& from,
     return guarded([&]() -> Result<GeodesicPath> {
         const std::array ends{from, to};
         GEODISK_TRY(check_points(mesh, "end", ends));
+        const PathPoint begin = precise(from), end = precise(to);
+        const std::uint32_t vertex = vertex_at(mesh, end);
         Wavefront front(mesh, kFar);
-        front.aim_at(std::span(&to, 1));
+        if (vertex != kNone) {
+            front.aim_at(vertex);
+        } else {
+            front.aim_at(std::span(&end, 1));
+        }
         front.record_trails();
-        front.add(from, 0);
+        front.add(begin, 0);
         GEODISK_TRY(front.spread([](std::uint32_t) { return true; }));
-        const Arrival& target = front.targets().front();
-        if (target.distance == kFar) {
+        const Arrival* path =
+            vertex != kNone ? &front.vertices()[vertex] : &front.targets().front();
+        if (path->distance == kFar) {
             return invalid("no path leads from one end to the other");
         }
         const Backtrack backtrack(mesh, front);
-        GeodesicPath result{target.distance, {point_of(to)}};
-        const std::uint32_t vertex = vertex_at(mesh, to);
-        const Arrival* path = &target;
-        if (vertex == kNone && path->half_edge != kNone) {
-            backtrack.follow(
-                *path, point_in(mesh.half_edges()[path->half_edge], path->half_edge, to.weights),
-                result.points);
-        } else if (vertex != kNone) {
-            path = &front.vertices()[vertex];
+        GeodesicPath result{path->distance, {end}};
+        if (vertex != kNone) {
             backtrack.follow(*path, result.points);
+        } else if (path->half_edge != kNone) {
+            backtrack.follow(
+                *path, point_in(mesh.half_edges()[path->half_edge], path->half_edge, end.weights),
+                result.points);
         }
         while (path->root < mesh.vertex_count() && front.vertices()[path->root].distance > 0) {
             result.points.push_back(point_at(mesh, path->root));
             path = &front.vertices()[path->root];
             backtrack.follow(*path, result.points);
         }
-        result.points.push_back(point_of(from));
+        result.points.push_back(begin);
         std::ranges::reverse(result.points);
         return result;
     });

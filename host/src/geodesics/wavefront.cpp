@@ -1,6 +1,7 @@
 #include "geodesics/wavefront.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <numeric>
@@ -43,7 +44,13 @@ void for_around(std::span<const HalfEdge> edges, std::uint32_t edge, const Visit
 
 } // namespace
 
-std::uint32_t vertex_at(const PreparedMesh& mesh, const Sample& point) {
+PathPoint precise(const Sample& point) {
+    const double second = point.weights[1], third = point.weights[2];
+    const double sum = double{point.weights[0]} + second + third;
+    return {point.face, {1 - (second + third) / sum, second / sum, third / sum}};
+}
+
+std::uint32_t vertex_at(const PreparedMesh& mesh, const PathPoint& point) {
     for (std::uint32_t corner = 0; corner < 3; ++corner) {
         if (point.weights[corner] == 1) {
             return mesh.half_edges()[std::size_t{3} * point.face + corner].origin;
@@ -53,17 +60,18 @@ std::uint32_t vertex_at(const PreparedMesh& mesh, const Sample& point) {
 }
 
 Wavefront::Wavefront(const PreparedMesh& mesh, double within)
-    : mesh_(mesh), edges_(mesh.half_edges()), within_(within), vertices_(mesh.vertex_count()),
+    : mesh_(mesh), edges_(mesh.half_edges()), within_(within),
+      is_in_space_(mesh.statistics().diagonal > 0), vertices_(mesh.vertex_count()),
       waiting_(edges_.size()), nearest_(edges_.size(), kFar) {}
 
-void Wavefront::aim_at(std::span<const Sample> targets) {
+void Wavefront::aim_at(std::span<const PathPoint> targets) {
     targets_ = targets;
     arrivals_.assign(targets.size(), {});
     by_face_.resize(targets.size());
     std::iota(by_face_.begin(), by_face_.end(), 0u);
     std::ranges::stable_sort(by_face_, {}, [&](std::uint32_t i) { return targets[i].face; });
     has_targets_.assign(targets.empty() ? 0 : mesh_.face_count(), false);
-    for (const Sample& target : targets) {
+    for (const PathPoint& target : targets) {
         has_targets_[target.face] = true;
     }
 }
@@ -80,28 +88,27 @@ void Wavefront::for_targets_in(std::uint32_t face, const Visit& visit) const {
     }
 }
 
-void Wavefront::add(const Sample& source, std::uint32_t index) {
-    const std::uint32_t first = 3 * source.face;
+void Wavefront::add(const PathPoint& point, std::uint32_t index) {
+    const std::uint32_t first = 3 * point.face;
     const Arrival here{0, mesh_.vertex_count() + index, index};
-    if (const std::uint32_t vertex = vertex_at(mesh_, source); vertex != kNone) {
+    if (const std::uint32_t vertex = vertex_at(mesh_, point); vertex != kNone) {
         reach(vertex, here);
         queue_.push({0, vertex, true});
         return;
     }
-    PathPoint point{source.face, {source.weights[0], source.weights[1], source.weights[2]}};
     begin_in_face(point, here);
     for (std::uint32_t h = first; h < first + 3; ++h) {
-        if (source.weights[previous_in_face(h) % 3] ==
-            0) { // On an edge, of all of whose faces it is.
-            for_around(edges_, h, [&](std::uint32_t other, bool same_way) {
-                const double begin = point.weights[h % 3];
-                const double end = point.weights[next_in_face(h) % 3];
-                PathPoint same{other / 3, {}};
-                same.weights[other % 3] = same_way ? begin : end;
-                same.weights[next_in_face(other) % 3] = same_way ? end : begin;
-                begin_in_face(same, here);
-            });
+        if (point.weights[previous_in_face(h) % 3] != 0) {
+            continue;
         }
+        // On an edge, of all of whose faces it is.
+        const double begin = point.weights[h % 3], end = point.weights[next_in_face(h) % 3];
+        for_around(edges_, h, [&](std::uint32_t other, bool same_way) {
+            PathPoint same{other / 3, {}};
+            same.weights[other % 3] = same_way ? begin : end;
+            same.weights[next_in_face(other) % 3] = same_way ? end : begin;
+            begin_in_face(same, here);
+        });
     }
 }
 
@@ -155,6 +162,9 @@ void Wavefront::reach(std::uint32_t vertex, const Arrival& path) {
     known = path;
     if ((mesh_.fans()[vertex].flags & gpu::kFanBends) != 0) {
         queue_.push({path.distance, vertex, true});
+    }
+    if (vertex == aimed_) {
+        within_ = path.distance;
     }
     if (!targets_.empty()) {
         const VertexFan& fan = mesh_.fans()[vertex];
@@ -241,7 +251,7 @@ void Wavefront::cross_face(std::uint32_t h) {
     const std::uint32_t left = previous_in_face(h), right = next_in_face(h);
     const HalfEdge& edge = edges_[h];
     for (const Window& window : crossing_) {
-        if (is_beaten_at_ends(h, window)) {
+        if ((is_in_space_ && window.remembered == h / 3) || is_beaten_at_ends(h, window)) {
             continue;
         }
         const double middle = window.crossing_to(edge.apex_x, edge.apex_y);
@@ -278,6 +288,11 @@ void Wavefront::cross_to(std::uint32_t child, std::uint32_t h, const Window& win
     const double low = along(from_corner(near));
     const double high = far == kToApex ? length : along(from_corner(far));
     Window next = window;
+    // A window that winds around a needle returns to a face: one that is remembered since its chain
+    // was last a power of two finds every cycle (Brent 1980).
+    if (++next.chain >= gpu::kFirstRemembered && std::has_single_bit(next.chain)) {
+        next.remembered = h / 3;
+    }
     next.x = x * cosine - y * sine;
     next.y = x * sine + y * cosine;
     next.begin = low;

@@ -40,8 +40,11 @@ struct Trail {
     std::uint32_t half_edge, from;
 };
 
+/// Returns the same point, with weights that sum to 1 in double precision.
+PathPoint precise(const Sample& point);
+
 /// Returns the vertex that a point is at; kNone if it is at none.
-std::uint32_t vertex_at(const PreparedMesh& mesh, const Sample& point);
+std::uint32_t vertex_at(const PreparedMesh& mesh, const PathPoint& point);
 
 /// Computes exact distances by continuous Dijkstra: the half-edge with the nearest window is next,
 /// and all its windows cross the face behind it.
@@ -52,13 +55,16 @@ class Wavefront {
 
     /// Finds the shortest paths to these points too, which must outlive it. With one, it stops
     /// where no path to it can be shorter.
-    void aim_at(std::span<const Sample> targets);
+    void aim_at(std::span<const PathPoint> targets);
+
+    /// Stops where no path to this vertex can be shorter.
+    void aim_at(std::uint32_t vertex) { aimed_ = vertex; }
 
     /// Records the trails of windows.
     void record_trails() { records_ = true; }
 
     /// Adds a source.
-    void add(const Sample& source, std::uint32_t index);
+    void add(const PathPoint& point, std::uint32_t index);
 
     /// Spreads the sources. Asks from time to time whether to go on, and tells how many vertices it
     /// reached. Errors: `cancelled` if not; `mesh_rejected` if windows become too many.
@@ -100,6 +106,7 @@ class Wavefront {
     const PreparedMesh& mesh_;
     std::span<const HalfEdge> edges_;
     double within_;
+    bool is_in_space_; ///< So that no way around a face is shorter than through it.
     std::vector<Arrival> vertices_;
     std::vector<WindowList> waiting_; ///< By the half-edge of the face that they enter.
     std::vector<double> nearest_;     ///< Nearest window that came to each half-edge since.
@@ -109,7 +116,8 @@ class Wavefront {
     std::uint32_t reached_ = 0;                         ///< Vertices.
     std::uint64_t made_ = 0;                            ///< Windows.
 
-    std::span<const Sample> targets_;
+    std::uint32_t aimed_ = kNone; ///< Vertex.
+    std::span<const PathPoint> targets_;
     std::vector<std::uint32_t> by_face_; ///< Targets in the order of their faces.
     std::vector<bool> has_targets_;      ///< By face; empty without targets.
     std::vector<Arrival> arrivals_;      ///< Of targets.

@@ -19,9 +19,12 @@ inline double square(double v) {
 struct Window {
     double x, y; ///< y >= 0.
     double begin, end;
-    double sigma;        ///< Length of the shortest path to the root.
-    std::uint32_t root;  ///< A vertex, or a source: see Wavefront.
-    std::uint32_t trail; ///< How it came here, where that is recorded.
+    double sigma;            ///< Length of the shortest path to the root.
+    std::uint32_t root;      ///< A vertex, or a source: see Wavefront.
+    std::uint32_t trail;     ///< How it came here, where that is recorded.
+    std::uint32_t chain = 0; ///< Edges that its paths have crossed.
+    /// A face that they have crossed, of a long chain. Shortest paths do not return to it.
+    std::uint32_t remembered = ~std::uint32_t{0};
 
     bool is_empty() const { return !(begin < end); }
 

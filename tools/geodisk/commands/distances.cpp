@@ -157,6 +157,9 @@ DistanceTable measure(const DistanceCommand& options, const std::optional<Length
     });
     progress.clear();
     check_interrupted();
+    if (!found && found.error().status == Status::mesh_rejected) {
+        fail_input(options.mesh.mesh, found.error().message);
+    }
     GeodesicDistances distances = take(std::move(found));
     for (std::uint32_t& nearest : distances.nearest) {
         nearest = nearest == GeodesicDistances::kNone ? nearest : sources.numbers[nearest];
