@@ -3,6 +3,9 @@
 namespace geodisk::geodesics {
 namespace {
 
+/// Part of the length of an edge below which a root is close to it.
+constexpr double kClose = 1e-3;
+
 /// Angle between rays, in radians, that counts.
 constexpr double kAngle = 1e-9;
 
@@ -62,9 +65,13 @@ bool are_of_one_root(const Window& a, const Window& b, double tie) {
 /// close to the edge sends rays of all directions through a part as small as rounding.
 double end_of_loss(const Window& loser, const Window& winner, double end, double other,
                    double tie) {
+    const double square_way = loser.square_to(end);
+    if (square_way > square(kClose * (other - end)) || !(square_way > 0)) {
+        return end;
+    }
     const double loss = gain(loser, winner, end);
-    const double way = std::sqrt(loser.square_to(end));
-    if (loss > tie || !(way > 0) || are_of_one_root(loser, winner, tie)) {
+    const double way = std::sqrt(square_way);
+    if (loss > tie || are_of_one_root(loser, winner, tie)) {
         return end;
     }
     const double slope =
