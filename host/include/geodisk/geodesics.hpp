@@ -25,7 +25,7 @@ struct DistanceQuery {
     std::span<const Sample> targets{};
     /// Measures from each source on its own, instead of from the nearest one.
     bool each = false;
-    /// What is farther away gets infinity. Positive; infinity for no limit.
+    /// Largest distance to measure; farther targets get infinity. Positive, or infinity for all.
     double within = std::numeric_limits<double>::infinity();
     /// WeldedMesh::vertices if the caller joined vertices; empty for
     /// PreparedMesh::joined_vertices(). Vertices that are joined have the same distance.

@@ -46,9 +46,7 @@ Result<Done> find_distances(const Mesh& mesh, const geodisk_distance_params& par
     if (params.targets != nullptr && params.target_count == 0) {
         return Done{};
     }
-    const std::span<const std::uint32_t> joined =
-        params.joined == nullptr ? std::span<const std::uint32_t>(mesh.joined)
-                                 : std::span(params.joined, mesh.prepared.vertex_count());
+    const auto joined = joined_of(mesh, params.joined);
     const auto sources =
         sources_of(mesh, params.sources, params.source_vertices, params.source_count, joined);
     GEODISK_TRY(sources);

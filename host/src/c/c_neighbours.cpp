@@ -23,11 +23,6 @@ struct geodisk_neighbours {
 namespace geodisk::c {
 namespace {
 
-std::span<const std::uint32_t> joined_of(const Mesh& mesh, const geodisk_neighbour_params& params) {
-    return params.joined == nullptr ? std::span<const std::uint32_t>(mesh.joined)
-                                    : std::span(params.joined, mesh.prepared.vertex_count());
-}
-
 Result<NeighbourKind> kind_of(geodisk_neighbour_kind kind) {
     switch (kind) {
     case GEODISK_AMONG_VERTICES:
@@ -42,6 +37,11 @@ Result<NeighbourKind> kind_of(geodisk_neighbour_kind kind) {
 }
 
 } // namespace
+
+std::span<const std::uint32_t> joined_of(const Mesh& mesh, const std::uint32_t* given) {
+    return given == nullptr ? std::span<const std::uint32_t>(mesh.joined)
+                            : std::span(given, mesh.prepared.vertex_count());
+}
 
 Result<NeighbourSources> sources_of(const Mesh& mesh, const geodisk_surface_point* points,
                                     const std::uint32_t* vertices, std::size_t count,
@@ -78,9 +78,9 @@ Result<std::shared_ptr<NeighbourSearch>> search_for(const geodisk_mesh& mesh,
     // Other sources at the place of a source would be its nearest.
     const bool are_places =
         params.kind == GEODISK_AMONG_SOURCES && params.source_vertices == nullptr;
-    auto sources =
-        sources_of(*mesh.shared, params.sources, params.source_vertices, params.source_count,
-                   are_places ? std::span<const std::uint32_t>() : joined_of(*mesh.shared, params));
+    auto sources = sources_of(
+        *mesh.shared, params.sources, params.source_vertices, params.source_count,
+        are_places ? std::span<const std::uint32_t>() : joined_of(*mesh.shared, params.joined));
     GEODISK_TRY(sources);
     if (params.points == nullptr && params.point_count != 0) {
         return wrong("params->points is NULL");
@@ -93,7 +93,7 @@ Result<std::shared_ptr<NeighbourSearch>> search_for(const geodisk_mesh& mesh,
     if (params.radii != nullptr) {
         search->radii.assign(params.radii, params.radii + count);
     }
-    const auto joined = joined_of(*mesh.shared, params);
+    const auto joined = joined_of(*mesh.shared, params.joined);
     search->joined.assign(joined.begin(), joined.end());
     NeighbourQuery& query = search->query;
     query.sources = search->sources.points;

@@ -19,6 +19,9 @@ struct NeighbourSources {
     std::vector<std::uint32_t> vertices; ///< Empty if sources are points.
 };
 
+/// Returns the vertices that the caller joined, or where `given` is NULL those that the mesh did.
+std::span<const std::uint32_t> joined_of(const Mesh& mesh, const std::uint32_t* given);
+
 /// Returns sources given as points or as vertices, which `joined` may have joined. Errors name the
 /// parameter.
 Result<NeighbourSources> sources_of(const Mesh& mesh, const geodisk_surface_point* points,

@@ -34,7 +34,7 @@ Result<Done> check(const PreparedMesh& mesh, const DistanceQuery& query) {
     return check_points(mesh, "target", query.targets);
 }
 
-/// What several wavefronts share: how far they are, told one call at a time, and the first error.
+/// State that several wavefronts share: their progress, told one call at a time, and first error.
 class SharedRun {
   public:
     explicit SharedRun(const ProgressCallback& heard) : heard_(heard) {}

@@ -14,7 +14,7 @@ inline double square(double v) {
     return v * v;
 }
 
-/// What straight paths from one root reach of an edge, after unfolding the faces that they cross.
+/// Part of an edge that straight paths from one root reach, after unfolding the faces they cross.
 /// In the frame of the half-edge of the face that they enter, the root is at (x, -y).
 struct Window {
     double x, y; ///< y >= 0.

@@ -10,7 +10,7 @@
 
 namespace geodisk::tools {
 
-/// What is around compressed bytes: nothing, or the header and checksum of zlib or gzip.
+/// Wrapping of compressed bytes: none, or the header and checksum of zlib or gzip.
 enum class Wrapping { none, zlib_or_gzip };
 
 /// Returns the `size` bytes that `compressed` holds in the format DEFLATE; nothing if it is damaged

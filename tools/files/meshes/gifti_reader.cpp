@@ -244,9 +244,8 @@ class GiftiReader {
 
     /// Adds an array that has a row for each vertex or each face.
     void add_attribute(const pugi::xml_node& array) {
-        const std::string_view intent = GiftiArrays::intent_of(array);
         const NumberType* const type = GiftiArrays::type_of(array);
-        if (intent == kPointset || intent == kTriangle || intent == kNodeIndex || type == nullptr) {
+        if (!GiftiArrays::is_of_values(array) || type == nullptr) {
             return;
         }
         const Table table = arrays_.table_of(array);
@@ -258,7 +257,8 @@ class GiftiReader {
                       is_of_vertices ? MeshField::Of::vertices : MeshField::Of::faces};
         one.components = table.columns;
         one.is_whole = type->is_whole;
-        one.role = intent.starts_with("RGB") ? MeshArray::Role::colours : MeshArray::Role::numbers;
+        one.role = GiftiArrays::intent_of(array).starts_with("RGB") ? MeshArray::Role::colours
+                                                                    : MeshArray::Role::numbers;
         fields_.add(one, [&] { return arrays_.numbers_in(array); });
     }
 

@@ -19,7 +19,7 @@ struct VtkCellArray {
     std::size_t count() const { return ends.size(); }
 };
 
-/// What a cell becomes: nothing, a face, or several.
+/// Kinds of cells, which become no face, one, or several.
 enum class VtkShape { no_face, polygon, pixel, strip };
 
 /// Adds cells and their attributes to a mesh. A file consists of one piece or of several, with

@@ -18,7 +18,7 @@
 namespace geodisk::tools {
 namespace {
 
-/// What cells of a type number are; only those with a shape are read.
+/// Name and shape of the cells of a type number; only those with a shape are read.
 struct VtkCellType {
     int number;
     std::string_view name;

@@ -154,10 +154,10 @@ def geodesic_distances(
     >>> geodisk.geodesic_distances(square, 0).round(4).tolist()
     [0.0, 1.0, 1.4142, 1.0]
     """
-    mesh, first, sources = _mesh_and_two(
-        vertices, faces, sources, edge_lengths, weld, keep_seams, mesh_format, allow_outside
+    mesh, after = _mesh_and_after(
+        vertices, faces, edge_lengths, weld, keep_seams, mesh_format, allow_outside
     )
-    sources = first if sources is None else sources
+    sources = after if sources is None else sources
     if sources is None:
         raise e.invalid("give sources: from where to measure")
     if flag(each, "each") and flag(return_nearest, "return_nearest"):
@@ -245,18 +245,17 @@ def geodesic_path(
     >>> round(path.length, 4), path.points.round(4).tolist()
     (1.4142, [[1.0, 0.0, 0.0], [0.5, 0.5, 0.0], [0.0, 1.0, 0.0]])
     """
-    mesh, second, first = _mesh_and_two(
-        vertices, faces, start, edge_lengths, weld, keep_seams, mesh_format, allow_outside
+    mesh, after = _mesh_and_after(
+        vertices, faces, edge_lengths, weld, keep_seams, mesh_format, allow_outside
     )
-    if second is not None:  # As in (mesh, start, end).
-        first, second = second, first
+    if after is not None:  # As in (mesh, start, end).
         if end is not None:
             raise TypeError("a mesh and two ends are given, and a third one")
-        end = second
-    if first is None or end is None:
+        start, end = after, start
+    if start is None or end is None:
         raise e.invalid("give start and end: the two ends of the path")
     params = s.PathParams()
-    kept = [_set_end(params, mesh, first, "start", "from"), _set_end(params, mesh, end, "end", "to")]
+    kept = [_set_end(params, mesh, start, "start", "from"), _set_end(params, mesh, end, "end", "to")]
     path = interruptible(
         lambda stop: c.Handle("path", "geodisk_geodesic_path", mesh._handle.value, byref(params))
     )
@@ -273,17 +272,16 @@ def geodesic_path(
     return GeodesicPath(place, c.ask("geodisk_path_length", path.value), faces_of, weights)
 
 
-def _mesh_and_two(
+def _mesh_and_after(
     vertices: Any,
     faces: Any,
-    given: Any,
     edge_lengths: Any,
     weld: Any,
     keep_seams: Any,
     mesh_format: Any,
     allow_outside: Any,
-) -> tuple[Mesh, Any, Any]:
-    """Returns the mesh, what came in the place of faces after a whole mesh, and `given`."""
+) -> tuple[Mesh, Any]:
+    """Returns the mesh, and the argument in the place of faces after a whole mesh, or None."""
     after = None
     is_whole = not isinstance(vertices, (np.ndarray, list, tuple)) and not np.isscalar(vertices)
     if (is_whole or isinstance(vertices, str)) and faces is not None:
@@ -292,7 +290,7 @@ def _mesh_and_two(
         vertices, faces, edge_lengths, weld, keep_seams,
         mesh_format=mesh_format, allow_outside=allow_outside,
     )
-    return mesh, after, given
+    return mesh, after
 
 
 def _set_end(params: Any, mesh: Mesh, end: Any, name: str, field: str) -> Any:
