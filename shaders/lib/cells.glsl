@@ -20,10 +20,7 @@ uint cell_count(float extent, float per_unit) {
 
 uint cell_at(float x, uint count, float per_unit) {
     precise float scaled = x * per_unit;
-    if (scaled <= 0.0) {
-        return 0u;
-    }
-    return scaled >= float(count - 1u) ? count - 1u : uint(scaled);
+    return uint(clamp(scaled, 0.0, float(count - 1u)));
 }
 
 // Returns the grid; `len` and `height` are those of the face over its longest edge.

@@ -28,7 +28,7 @@ void begin_scan(float sx, float sy) {
     if (!has_room(at)) {
         return;
     }
-    precise float back = uintBitsToFloat(0x7f000000u - floatBitsToUint(scale_of(-own_radius)));
+    precise float back = uintBitsToFloat(0x7f000000u - floatBitsToUint(own_scale));
     vec2 interval = entry_interval();
     precise vec4 source = vec4(sx, sy, interval.x, interval.y) * back;
     precise float sigma = lane.sigma * back;

@@ -20,6 +20,7 @@ uint own_place; // of the candidate whose disk this is, kNoPlace for a settled s
 // If radii vary, the radius of the candidate whose disk this is; with classes the largest distance of its
 // class. For a point to avoid minus its radius.
 float own_radius;
+float own_scale; // what lengths are multiplied by, see scale_of(); 1 but for a point to avoid
 uint own_class; // of a point to avoid the class that it keeps out + 1, or 0 for all
 vec4 radii;         // of the face, if radii vary
 
@@ -41,7 +42,7 @@ float scale_of(float radius) {
 // Returns the distance below which candidates conflict, if radii do not vary and without long chains. With
 // classes that is the largest one.
 float own_limit() {
-    precise float avoided = (job.limit - 1.0) - own_radius * scale_of(-own_radius);
+    precise float avoided = (job.limit - 1.0) - own_radius * own_scale;
     precise float of_class = (job.limit - 1.0) + own_radius;
     return keeps_out() ? avoided : (kClasses ? of_class : job.limit);
 }
@@ -93,14 +94,14 @@ float reach_inside() { return kAdaptive ? limit_with(largest_radius(radii)) : pa
 // Returns the lengths of a face in the scale of the disk.
 uvec4 scaled_lengths(uint face) {
     uvec4 lengths = load_lengths(face);
-    precise vec3 scaled = uintBitsToFloat(lengths.xyz) * scale_of(-own_radius);
+    precise vec3 scaled = uintBitsToFloat(lengths.xyz) * own_scale;
     return kAvoids ? uvec4(floatBitsToUint(scaled), lengths.w) : lengths;
 }
 
 // Returns the cells per unit of length in the scale of the disk.
 float scaled_cells_per_unit() {
     float cells = cells_per_unit(radii);
-    precise float scaled = cells * uintBitsToFloat(0x7f000000u - floatBitsToUint(scale_of(-own_radius)));
+    precise float scaled = cells * uintBitsToFloat(0x7f000000u - floatBitsToUint(own_scale));
     return kAvoids ? scaled : cells;
 }
 

@@ -69,20 +69,13 @@ float rounded_root(float x) {
 // Returns a / b clamped to [0, 1], for a >= 0; 1 if b is too small or negative, 0 if a is negligible.
 float ratio(float a, float b) {
     precise float least = b * kSmallestRatio;
-    if (a <= least || a == 0.0) {
-        return 0.0;
-    }
-    if (a >= b) {
-        return 1.0;
-    }
-    return kNativeRounding ? a / b : rounded_quotient(a, b);
+    float quotient = kNativeRounding ? a / b : rounded_quotient(a, b);
+    return a <= least || a == 0.0 ? 0.0 : (a >= b ? 1.0 : quotient);
 }
 
 float root(float x) {
-    if (x <= kSmallestSquare) {
-        return 0.0;
-    }
-    return kNativeRounding ? sqrt(x) : rounded_root(x);
+    float result = kNativeRounding ? sqrt(x) : rounded_root(x);
+    return x <= kSmallestSquare ? 0.0 : result;
 }
 
 #endif

@@ -27,6 +27,7 @@ void load_candidate(uint slot) {
         own_radius = avoided > 0.0 ? -avoided : (kAdaptive || kClasses ? own_radius : 0.0);
         own_class = kClasses && avoided > 0.0 ? slots[slot].order : own_class;
     }
+    own_scale = scale_of(-own_radius);
 }
 
 // Places the source of an operation inside the face; returns the squared distance of the candidate from

@@ -330,12 +330,14 @@ void step_through_by(DisksBy disks_by, const PreparedMesh& mesh, const SamplePar
     }
 }
 
-/// Disks by lanes and by groups.
+/// Disks by lanes and, where the driver compiles them, by groups.
 void step_through(const PreparedMesh& mesh, const SampleParams& params,
                   const SamplerOptions& options, const RunPlan& plan,
                   const std::vector<PoolPart>& parts = {}) {
     step_through_by(DisksBy::lanes, mesh, params, options, plan, parts);
-    step_through_by(DisksBy::groups, mesh, params, options, plan, parts);
+    if (compiles_groups(shared_context().report())) {
+        step_through_by(DisksBy::groups, mesh, params, options, plan, parts);
+    }
 }
 
 void step_through(const PreparedMesh& mesh, double count, const SamplerOptions& options,

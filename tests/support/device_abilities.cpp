@@ -18,6 +18,10 @@ std::vector<Rounding> roundings_of(const DeviceReport& report) {
     return {Rounding::emulated, Rounding::native};
 }
 
+bool compiles_groups(const DeviceReport& report) {
+    return report.driver_id != VK_DRIVER_ID_GOOGLE_SWIFTSHADER;
+}
+
 bool is_lavapipe(const DeviceReport& report) {
     return report.driver_id == VK_DRIVER_ID_MESA_LLVMPIPE;
 }

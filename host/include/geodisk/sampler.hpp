@@ -183,7 +183,8 @@ struct WorkspaceLayout {
 enum class DisksBy : std::uint32_t {
     automatic,
     lanes,  ///< An invocation. Best for small disks, since a device then computes many at a time.
-    groups, ///< The invocations of a work group together, in waves.
+    groups, ///< The invocations of a work group together, in waves. SwiftShader does not end
+            ///< compiling the kernel for it; `automatic` never chooses it there.
 };
 
 /// How a job is divided into work. Only `error_bound` can change the samples, and only if a

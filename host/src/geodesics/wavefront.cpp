@@ -82,9 +82,10 @@ void Wavefront::for_targets_in(std::uint32_t face, const Visit& visit) const {
     if (has_targets_.empty() || !has_targets_[face]) {
         return;
     }
-    for (const std::uint32_t target : std::ranges::equal_range(
-             by_face_, face, {}, [&](std::uint32_t i) { return targets_[i].face; })) {
-        visit(target);
+    const auto face_of = [&](std::uint32_t i) { return targets_[i].face; };
+    auto target = std::ranges::lower_bound(by_face_, face, {}, face_of);
+    for (; target != by_face_.end() && face_of(*target) == face; ++target) {
+        visit(*target);
     }
 }
 

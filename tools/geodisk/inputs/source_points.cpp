@@ -12,6 +12,7 @@
 #include "geodisk/checks/sample_input.hpp"
 #include "geodisk/options/distance_options.hpp"
 #include "program/arguments.hpp"
+#include "program/exact_text.hpp"
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
 

@@ -63,7 +63,11 @@ double steps_over(double faces, const RunPlan& plan) {
 }
 
 /// Returns true if work groups are to compute the disks, given the slots.
+// SwiftShader does not end compiling that kernel, in tens of gigabytes.
 bool suits_groups(double faces, std::uint32_t slots, const DeviceReport& report) {
+    if (report.driver_id == VK_DRIVER_ID_GOOGLE_SWIFTSHADER) {
+        return false;
+    }
     if (report.type != VK_PHYSICAL_DEVICE_TYPE_CPU) {
         return faces >= kGroupFaces;
     }
