@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <memory>
 #include <numeric>
 #include <optional>
@@ -162,6 +163,29 @@ TEST_SUITE("parts") {
         check_parts(knot, params_for(knot, 600, 1, &waves), {3});
         const RadiusField density = density_field(knot, rough_density(shape));
         check_parts(knot, params_for(knot, 600, 1, &density), {4});
+    }
+
+    TEST_CASE("radii over a wide range: parts with small ones hold less around them") {
+        const TestMesh shape = builtin("terrain", 60);
+        const PreparedMesh hills = prepared(shape);
+        std::vector<double> smooth, steps;
+        for (std::uint32_t v = 0; v < shape.vertex_count(); ++v) {
+            const double x = shape.positions[3 * std::size_t{v}];
+            smooth.push_back(std::exp2(-5 * std::clamp(x, 0.0, 1.0)));
+            steps.push_back(std::fmod(8 * x, 2) < 1 ? 1 : 1.0 / 16);
+        }
+        for (const auto& factors : {smooth, steps, rough_factors(shape, 1.0 / 32)}) {
+            const RadiusField field = radius_field(hills, factors);
+            check_parts(hills, params_for(hills, 3000, 1, &field), {3, 7});
+        }
+        const RadiusField field = radius_field(hills, smooth);
+        const SampleParams params = params_for(hills, 20000, 1, &field);
+        const SharedSamples result = expect(in_parts(hills, params, 5, grown, 0x1p26));
+        std::uint64_t faces = 0;
+        for (const ProcessReport& process : result.processes) {
+            faces += process.faces;
+        }
+        CHECK(faces < 2 * std::uint64_t{hills.face_count()});
     }
 
     TEST_CASE("borders, edges of many faces, and separate parts") {

@@ -126,6 +126,7 @@ def with_properties(path, vertices, faces, **more):
     of_vertices = {
         "heat": [max(0.0, 300 * math.sin(2 * x) * math.cos(y)) for x, y, _ in vertices],
         "g": [0.3 + 0.35 * (1 + math.sin(3 * x + y)) for x, y, _ in vertices],
+        "wide": [2.0 ** -min(5, 2 * abs(x)) for x, _, _ in vertices],
         "thin": [0.002 * (1 + (i % 5)) for i in range(len(vertices))]}
     write_ply(path, vertices, faces, of_vertices=of_vertices,
               of_faces={"group": [i % 4 for i in range(len(faces))]}, **more)
@@ -150,6 +151,7 @@ def properties(request, tmp_path_factory):
     (["--radius-factor", "g", "--min-distance", "6%"], [(2, 3)]),
     (["--radius-factor", "g", "--count", "200", "--exact"], [(2, 2)]),
     (["--radius-factor", "thin", "--radius-factor-floor", "0.4", "--count", "300"], [(3, 1)]),
+    (["--radius-factor", "wide", "--count", "1500"], [(2, 3), (1, 8)]),
     (["--mask", "x>0.1", "--min-distance", "3%"], [(2, 2), (5, 1)]),
     (["--mask", "x>0.1", "--mask", "group!=2", "--mask", "g>0.4", "--count", "150"], [(2, 2)]),
     (["--mask", "z<100", "--count", "150"], [(3, 1)]),

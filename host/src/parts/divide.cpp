@@ -12,6 +12,7 @@
 #include "engine/request/check_fields.hpp"
 #include "parts/halo.hpp"
 #include "parts/part.hpp"
+#include "parts/reach.hpp"
 #include "support/guard.hpp"
 #include "support/invalid.hpp"
 #include "support/try.hpp"
@@ -43,9 +44,11 @@ class Division {
         for (std::uint32_t process = 0; process < processes; ++process) {
             parts_.push_back(part_for(params, frame, max_candidates, terms));
         }
-        widest_ = parts_.front().reach;
         for (const KeepOut& avoided : params.avoid) {
-            widest_ = std::max(widest_, avoided.radius * (1 + margin_of(frame)));
+            avoided_ = std::max(avoided_, avoided.radius * (1 + margin_of(frame)));
+        }
+        if (params.radii != nullptr) {
+            reaches_ = reaches(mesh, *params.radii, params.min_distance);
         }
     }
 
@@ -56,16 +59,26 @@ class Division {
         for (std::uint32_t face = 0; face < mesh_.face_count(); ++face) {
             is_own[face] = owners_[face] == process ? 1 : 0;
         }
-        // Disks of near samples reach as far again.
-        const std::vector<double> distances = distances_from(mesh_, is_own, 2 * widest_);
+        const double unit = part.reach;
+        part.reach = 0;
+        for (std::uint32_t face = 0; face < mesh_.face_count(); ++face) {
+            part.reach = std::max(part.reach, is_own[face] != 0 ? unit * bound(face) : 0);
+        }
+        const std::vector<double> distances =
+            distances_from(mesh_, is_own, 2 * std::max(part.reach, avoided_));
         std::vector<double> to_faces(mesh_.face_count());
+        const auto reach = [&](std::uint32_t face) {
+            return std::min(part.reach, unit * bound(face));
+        };
+        const auto is_within = [&](std::uint32_t face) { return to_faces[face] <= reach(face); };
         for (std::uint32_t face = 0; face < mesh_.face_count(); ++face) {
             to_faces[face] = nearest_corner(mesh_, distances, face);
-            if (to_faces[face] > 2 * widest_) {
+            // Disks of near samples reach as far again.
+            if (to_faces[face] > 2 * std::max(reach(face), avoided_)) {
                 continue;
             }
             part.faces.push_back(face);
-            const bool is_near = to_faces[face] <= part.reach;
+            const bool is_near = is_within(face);
             part.roles.push_back(is_own[face] != 0 ? FaceRole::own
                                  : is_near         ? FaceRole::near
                                                    : FaceRole::surface);
@@ -80,19 +93,18 @@ class Division {
             }
         }
         for (Sample sample : params_.existing) {
-            if (to_faces[sample.face] <= part.reach) {
+            if (is_within(sample.face)) {
                 sample.face = local(part, sample.face);
                 part.existing.push_back(sample);
             }
         }
         if (from_ != nullptr) {
-            std::ranges::copy_if(from_->samples, std::back_inserter(part.settled),
-                                 [&](const DrawnCandidate& dart) {
-                                     return to_faces[dart.point.face] <= part.reach;
-                                 });
+            std::ranges::copy_if(
+                from_->samples, std::back_inserter(part.settled),
+                [&](const DrawnCandidate& dart) { return is_within(dart.point.face); });
         }
         for (KeepOut avoided : params_.avoid) {
-            if (to_faces[avoided.center.face] <= widest_) {
+            if (to_faces[avoided.center.face] <= std::max(part.reach, avoided_)) {
                 avoided.center.face = local(part, avoided.center.face);
                 part.avoid.push_back(avoided);
             }
@@ -126,6 +138,12 @@ class Division {
     }
 
   private:
+    /// Returns how far conflicts may be from a face, in minimum distances.
+    double bound(std::uint32_t face) const {
+        const auto at = [&](std::uint32_t h) { return reaches_[mesh_.half_edges()[h].origin]; };
+        const std::uint32_t h = 3 * face;
+        return reaches_.empty() ? 1 : std::max({at(h), at(h + 1), at(h + 2)});
+    }
     static std::uint32_t local(const Part& part, std::uint32_t face) {
         return static_cast<std::uint32_t>(std::ranges::lower_bound(part.faces, face) -
                                           part.faces.begin());
@@ -141,7 +159,8 @@ class Division {
     std::span<const std::uint32_t> owners_;
     std::vector<Part> parts_;
     const Checkpoint* from_;
-    double widest_;
+    double avoided_ = 0;          ///< The largest distance from a point to avoid.
+    std::vector<double> reaches_; ///< See reaches(); empty if radii do not vary.
     /// Faces of the first process whose samples the second one must know.
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::uint32_t>> asked_;
 };

@@ -46,11 +46,11 @@ struct FacePlaces {
 /// all that paths from those cross within the same distance. So disks are as on the whole. Faces
 /// and vertices are in the order of the whole.
 struct Part {
-    JobFrame frame;                   ///< Frame of the whole.
-    double reach = 0;                 ///< No samples farther away than this conflict.
-    PreparedMesh mesh;                ///< See MeshTurn.
-    FacePlaces places;                ///< Source of mesh and radii; empty once held for good.
-    MeshStatistics whole;             ///< Statistics of the whole, likewise.
+    JobFrame frame;       ///< Frame of the whole.
+    double reach = 0;     ///< No samples farther away than this conflict with those of own faces.
+    PreparedMesh mesh;    ///< See MeshTurn.
+    FacePlaces places;    ///< Source of mesh and radii; empty once held for good.
+    MeshStatistics whole; ///< Statistics of the whole, likewise.
     std::optional<RadiusField> radii; ///< With the mesh.
     std::vector<std::uint32_t> faces; ///< Number in the whole of each face.
     std::vector<FaceRole> roles;

@@ -9,6 +9,7 @@
 #include "parts/ranges/curve.hpp"
 #include "parts/ranges/examine.hpp"
 #include "parts/ranges/ranged_halo.hpp"
+#include "parts/ranges/ranged_reach.hpp"
 #include "parts/ranges/talk.hpp"
 #include "support/try.hpp"
 
@@ -52,6 +53,23 @@ Error needs_whole(std::string why) {
 
 std::uint32_t place_in(const std::vector<std::uint32_t>& faces, std::uint32_t face) {
     return static_cast<std::uint32_t>(std::ranges::lower_bound(faces, face) - faces.begin());
+}
+
+/// Returns how far conflicts may be from each face of a halo, in minimum distances.
+std::vector<double> bounds_of(Talk& talk, const KnownSurface& known, std::span<const HaloFace> halo,
+                              RangedReach& reach) {
+    std::vector<WholeFace> faces;
+    faces.reserve(halo.size());
+    for (const HaloFace& one : halo) {
+        faces.push_back(one.face);
+    }
+    const FacePlaces places = places_of(talk, known, faces);
+    std::vector<double> bounds;
+    bounds.reserve(halo.size());
+    for (std::size_t face = 0; face < halo.size(); ++face) {
+        bounds.push_back(reach.on_face(places, face));
+    }
+    return bounds;
 }
 
 /// Tells the owners of near faces, and hears who is near own ones.
@@ -150,7 +168,11 @@ Result<std::unique_ptr<Part>> RangedSurface::part(Exchange& exchange, const Samp
         Talk talk(exchange);
         auto part = std::make_unique<Part>(part_for(params, frame, max_candidates, checkpoints));
         const KnownSurface known = this->known();
-        const std::vector<HaloFace> halo = find_halo(talk, known, 2 * part->reach);
+        RangedReach reach(talk, known, params.min_distance);
+        const double unit = part->reach;
+        part->reach = unit * reach.on_own();
+        const auto halo = find_halo(talk, known, 2 * part->reach);
+        const auto bounds = bounds_of(talk, known, halo, reach);
         std::vector<WholeFace> faces;
         const std::size_t count = faces_.size() + halo.size();
         faces.reserve(count);
@@ -163,11 +185,16 @@ Result<std::unique_ptr<Part>> RangedSurface::part(Exchange& exchange, const Samp
             part->roles.push_back(role);
         };
         auto own = faces_.begin();
-        for (const HaloFace& one : halo) {
+        for (std::size_t i = 0; i < halo.size(); ++i) {
+            const HaloFace& one = halo[i];
+            const double reach_there = std::min(part->reach, unit * bounds[i]);
+            if (one.distance > 2 * reach_there) {
+                continue;
+            }
             for (; own != faces_.end() && own->face < one.face.face; ++own) {
                 add(*own, FaceRole::own);
             }
-            const bool is_near = one.distance <= part->reach;
+            const bool is_near = one.distance <= reach_there;
             add(one.face, is_near ? FaceRole::near : FaceRole::surface);
             if (is_near) {
                 near[one.owner].push_back(one.face.face);
