@@ -423,9 +423,10 @@ class Samples:
         corners = surface.own_corners()
         if len(faces) and int(faces.max()) >= len(corners):
             raise e.invalid(f"a sample lies in triangle {faces.max()}, the mesh has {len(corners)}")
+        values = array_of(values, "values")
         if of == "faces":
             polygons = surface.polygons
-            if polygons is not None and len(np.asarray(values)) != len(corners):
+            if polygons is not None and values.shape[:1] != (len(corners),):
                 array = values_of(values, int(polygons.max()) + 1, "faces")
                 return np.asarray(array[polygons[faces]])
             return np.asarray(values_of(values, len(corners), "faces")[faces])
