@@ -1,4 +1,4 @@
-"""Meshes of other packages, by objects that have what theirs have, and by the packages where they are."""
+"""Meshes of other packages, by objects that have what theirs have."""
 
 import types
 import warnings
@@ -20,8 +20,8 @@ def thing(**attributes):
 def tensor(array):
     """As Open3D and torch have them: on a device, from which they are copied."""
     array = np.asarray(array)
-    on_host = thing(numpy=lambda: array)
-    return thing(cpu=lambda: on_host, numpy=None)
+    on_host = thing(numpy=lambda: array, __dlpack__=array.__dlpack__)
+    return thing(cpu=lambda: on_host, numpy=None, __dlpack__=None)
 
 
 class Graph:
@@ -171,14 +171,3 @@ def test_seams_are_warned_of_at_the_line_of_the_caller():
 def test_what_is_no_mesh(mesh, kind, text):
     with pytest.raises(kind, match=text):
         geodisk.Mesh(mesh)
-
-
-def test_the_packages_themselves():
-    """With those that are installed; the stand-ins above are what all of them have."""
-    try:
-        import trimesh
-    except ImportError:
-        return
-    box = trimesh.creation.box()
-    scene = trimesh.Scene([box])
-    assert geodisk.Mesh(box).area == geodisk.Mesh(scene).area == 6

@@ -52,6 +52,29 @@ class Trimesh:
     faces: NDArray[np.int64]
 
 
+class VtkPolyData:
+    def GetPolys(self) -> object: ...
+    def GetStrips(self) -> object: ...
+
+
+class PyMeshLabMesh:
+    def vertex_matrix(self) -> NDArray[np.float64]: ...  # type: ignore[empty-body]
+    def face_matrix(self) -> NDArray[np.int32]: ...  # type: ignore[empty-body]
+
+
+class Data:
+    """As PyG has it."""
+
+    @property
+    def pos(self) -> object | None: ...
+    @property
+    def face(self) -> object | None: ...
+
+
+def others(vtk: VtkPolyData, pymeshlab: PyMeshLabMesh, pyg: Data) -> list[geodisk.Samples]:
+    return geodisk.sample_many([vtk, pymeshlab, pyg], count=100, attributes="all")
+
+
 def use(
     legacy: TriangleMesh,
     tensors: TensorMesh,
@@ -68,6 +91,8 @@ def use(
     many: list[geodisk.Samples] = geodisk.sample_many([trimesh, mesh, "a.stl"], count=100)
     one_sample: geodisk.Sample = a[0]
     chosen: geodisk.Samples = a[a.radius > 0][:5]
+    points, faces = geodisk.compat.trimesh.sample_surface_even(trimesh, 100)
+    assert points.dtype == np.float64 and faces.dtype == np.int64
     return [a, b, c, d, many, one_sample, chosen]
 
 

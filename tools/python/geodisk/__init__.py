@@ -8,6 +8,7 @@ Distances are exact geodesic ones, computed on a Vulkan device, a GPU's or the C
 True
 """
 
+from . import compat
 from ._bake import SampleMap, bake
 from ._cells import Cells, cells
 from ._devices import Device, devices
@@ -61,6 +62,7 @@ __all__ = [
     "Verification",
     "bake",
     "cells",
+    "compat",
     "devices",
     "farthest_order",
     "geodesic_distances",

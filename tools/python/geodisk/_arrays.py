@@ -17,11 +17,32 @@ def unreadable(name: str, error: Exception) -> TypeError:
     return TypeError(f"{name} cannot be read as an array: {str(error) or type(error).__name__}")
 
 
+#: Methods that lead from arrays of other packages to numpy: of torch; torch and Open3D; CuPy; all but CuPy.
+_TO_HOST = ("detach", "cpu", "get", "numpy")
+
+
+def on_host(values: Any) -> Any:
+    """Returns an array of another package as one of numpy, without gradients, from any device.
+
+    Returns anything else as it is.
+    """
+    if isinstance(values, np.ndarray) or not hasattr(values, "__dlpack__"):
+        return values
+    for step in _TO_HOST:
+        if hasattr(values, step):
+            values = getattr(values, step)()
+    if hasattr(values, "__array__"):
+        return np.asarray(values)
+    from_dlpack: Any = np.from_dlpack
+    is_on_host = values.__dlpack_device__()[0] == 1  # kDLCPU.
+    return from_dlpack(values) if is_on_host else from_dlpack(values, device="cpu")
+
+
 def array_of(values: ArrayLike, name: str) -> NDArray[Any]:
     """Returns an array. Raises TypeError for rows of different lengths and masked values, and with
-    its cause for an object that gives no array, such as a tensor with gradients or on a GPU."""
+    its cause for an object that gives no array."""
     try:
-        array = np.asarray(values)
+        array = np.asarray(on_host(values))
     except MemoryError:
         raise
     except Exception as error:  # Of numpy, or of the object.

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Sequence
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -112,6 +112,12 @@ def _components(name: str, width: int) -> tuple[str, ...] | None:
         parts = ("red", "green", "blue", "alpha")[:width]
         return tuple(f"{match[1]}{part}{match[2]}" for part in parts)
     return _COMPONENTS.get((name, width))
+
+
+def is_called(name: str, array: NDArray[Any], names: Sequence[str]) -> bool:
+    """Returns True if an attribute or one of its components is among names."""
+    width = array.shape[-1] if array.ndim > 1 else 1
+    return any(one in names for one in (name, *(_components(name, width) or ())))
 
 
 def number_named(attributes: dict[str, Attribute], name: str, what: str) -> NDArray[np.float64]:

@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _errors as e
 from . import _library as c
-from ._arrays import indices, real
+from ._arrays import indices, on_host, real
 from ._inputs import places_of, run
 from ._samples import Samples
 
@@ -82,7 +82,7 @@ def are_points(given: Any) -> bool:
     if isinstance(given, list) and len(given) == 2 and np.ndim(given[0]) != np.ndim(given[1]):
         return False
     try:
-        return np.asarray(given).ndim == 2
+        return np.asarray(on_host(given)).ndim == 2
     except ValueError:  # Rows of several lengths.
         return False
 

@@ -12,9 +12,10 @@ from numpy.typing import ArrayLike, NDArray
 from . import _errors as e
 from . import _library as c
 from . import _structs as s
+from ._arrays import array_of
 from ._background import interruptible
 from ._existing import ExistingLike, points_of
-from ._mesh import Mesh, mesh_of
+from ._mesh import Mesh, is_mesh, mesh_of
 from ._neighbours import SourcesLike, set_sources
 from ._protocols import Faces, MeshLike
 from ._running import ProgressCallback
@@ -283,8 +284,7 @@ def _mesh_and_after(
 ) -> tuple[Mesh, Any]:
     """Returns the mesh, and the argument in the place of faces after a whole mesh, or None."""
     after = None
-    is_whole = not isinstance(vertices, (np.ndarray, list, tuple)) and not np.isscalar(vertices)
-    if (is_whole or isinstance(vertices, str)) and faces is not None:
+    if is_mesh(vertices) and faces is not None:
         after, faces = faces, None
     mesh = mesh_of(
         vertices, faces, edge_lengths, weld, keep_seams,
@@ -306,7 +306,7 @@ def _set_end(params: Any, mesh: Mesh, end: Any, name: str, field: str) -> Any:
     if isinstance(end, tuple) and len(end) == 2 and np.ndim(end[0]) == 0 and np.ndim(end[1]) == 1:
         point = points_of(mesh._handle, ([end[0]], [end[1]]), name)
     elif np.ndim(end) == 1:
-        point = points_of(mesh._handle, np.asarray([end]), name)
+        point = points_of(mesh._handle, array_of(end, name)[None], name)
     else:
         raise TypeError(
             f"{name} is neither a vertex, coordinates, one sample, nor a pair of face and weights"

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import ctypes
+import dataclasses
 import os
-from typing import Any, Sequence
+from typing import Any, Iterable, Sequence
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -14,7 +15,7 @@ from . import _library as c
 from . import _structs as s
 from ._arrays import array_of, indices
 from ._background import interruptible
-from ._objects import arrays_of, faces_of, is_object
+from ._objects import Values, arrays_of, attributes_of, faces_of, is_object
 from ._oddities import oddities_of, warn
 from ._polygons import Polygons
 from ._protocols import Faces, MeshLike
@@ -30,9 +31,10 @@ class Mesh:
     Parameters
     ----------
     vertices : array_like of float, shape (v, d), or a mesh
-        Coordinates, d from 2 to 8. Their unit is that of all distances. Or a mesh with faces: the
-        path of a file, an object of trimesh (meshes and scenes), Open3D (legacy and tensor meshes),
-        PyVista, meshio or vedo, or any object with ``vertices`` and ``faces``.
+        Coordinates, d from 2 to 8, in an array of numpy, torch, CuPy, JAX or Warp. Their unit is
+        that of all distances. Or a mesh with faces: the path of a file, an object of trimesh (meshes
+        and scenes), Open3D (legacy and tensor meshes), PyVista, VTK, PyMeshLab, meshio, vedo,
+        nibabel, nilearn, PyTorch3D, PyG or Warp, or any object with ``vertices`` and ``faces``.
     faces : array_like of int, shape (f, 3) or (f, k), or sequence of sequences
         Vertices of each face. Polygons are split into triangles.
     edge_lengths : array_like of float, shape (f, 3), optional
@@ -44,8 +46,8 @@ class Mesh:
         Do not join border edges that coincide exactly, as along seams of texture coordinates.
         By default they are joined; ``info["joined_edges"]`` counts them.
     attributes : sequence of str, or "all"
-        Names of attributes to read from a file: ``"color"``, ``"uv"`` and others as the file calls
-        them. Samples have their values.
+        Names of attributes to read from a file or an object of another package: ``"color"``,
+        ``"uv"`` and others as the file or object calls them. Samples have their values.
     columns : sequence of str
         Numbers to read for each triangle of a file: any of ``"part"`` (that no path joins to
         others), ``"material"``, ``"group"``, and for glTF ``"mesh"``, ``"primitive"`` and
@@ -123,6 +125,7 @@ class Mesh:
         _record: Record = NOTHING,
     ) -> None:
         source: Source | None = None
+        left_out: list[e.MeshWarning] = []
         weld, keep_seams = weld_of(weld), flag(keep_seams, "keep_seams")
         allow_outside = flag(allow_outside, "allow_outside")
         attributes, columns = names(attributes, "attributes"), names(columns, "columns")
@@ -150,25 +153,38 @@ class Mesh:
             surface = surface_from(source, source.vertices, keep_seams)
             self._file = MeshFile(absolute(path), weld, keep_seams, mesh_format, allow_outside)
         else:
-            if attributes or columns or mesh_format is not None:
-                raise TypeError("attributes, columns and mesh_format are for meshes from files")
+            if columns or mesh_format is not None:
+                raise TypeError("columns and mesh_format are for meshes from files")
             _record.check_no_file()
+            points: Any = vertices
+            values: Iterable[Values] = ()
             if faces is None:
-                vertices, faces = arrays_of(vertices)
+                points, faces, values = arrays_of(vertices)
+            elif attributes:
+                raise TypeError(
+                    "attributes are for meshes from files and other packages; with arrays, give "
+                    "values to samples.interpolate()"
+                )
+            if hasattr(points, "__dlpack__"):  # As numpy has it as well.
+                points = array_of(points, "vertices")
             given = faces_of(faces)
             if isinstance(given, Polygons):
                 if edge_lengths is not None:
                     raise e.invalid("with edge lengths, all faces must be triangles")
-                polygons, points = given, Surface(vertices, None).coordinates()
-                source = interruptible(lambda stop: split(points, polygons, weld, keep_seams, stop))
-                surface = surface_from(source, vertices, keep_seams)
+                polygons, places = given, Surface(points, None).coordinates()
+                source = interruptible(lambda stop: split(places, polygons, weld, keep_seams, stop))
+                surface = surface_from(source, points, keep_seams)
             else:
-                surface = Surface(vertices, given, edge_lengths, weld, keep_seams)
+                surface = Surface(points, given, edge_lengths, weld, keep_seams)
+            if attributes:
+                found, left_out = attributes_of(values, attributes, surface, len(given))
+                surface = dataclasses.replace(surface, attributes=found)
         _record.check(surface)
         self._source = source.handle if source else None
         check_record(self, _record)
         self._prepare(surface, source.joined_edges if source else 0)
-        self.warnings = oddities_of(self._handle, source.handle if source else None)
+        oddities = oddities_of(self._handle, source.handle if source else None)
+        self.warnings = (*left_out, *oddities)
         warn(self.warnings)
 
     def _prepare(self, surface: Surface, joined_edges: int = 0) -> None:
@@ -333,9 +349,9 @@ def mesh_of(
 def attributes_with(
     attributes: str | Sequence[str], vertices: Any, *values: ArrayLike | None
 ) -> str | Sequence[str]:
-    """Returns the attributes to read of a mesh, also those that name values if it is a file."""
+    """Returns the attributes to read of a mesh, also those that name values if it has attributes."""
     named = [value for value in values if isinstance(value, str)]
-    if not named or attributes == "all" or not isinstance(vertices, (str, os.PathLike)):
+    if not named or attributes == "all" or isinstance(vertices, Mesh) or not is_mesh(vertices):
         return attributes
     given = [attributes] if isinstance(attributes, str) else list(attributes)
     return [*given, *(name for name in named if name not in given)]

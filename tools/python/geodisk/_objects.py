@@ -2,19 +2,37 @@
 
 from __future__ import annotations
 
-from typing import Any
+import types
+from typing import TYPE_CHECKING, Any, Iterable, Iterator, NamedTuple, Sequence, Tuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from . import _errors as e
-from ._arrays import unreadable
+from ._arrays import array_of, on_host, unreadable
+from ._attributes import Attribute, is_called
 from ._polygons import Polygons, from_lists, from_padded, from_rows, from_strips, joined
 
+if TYPE_CHECKING:
+    from ._surface import Surface
+
 _WHAT_IS_TAKEN = (
-    "a mesh is vertices and faces, a path, or a mesh of geodisk, trimesh, Open3D, PyVista, meshio or "
-    "vedo"
+    "a mesh is vertices and faces, a path, or a mesh of geodisk, trimesh, Open3D, PyVista, VTK, "
+    "PyMeshLab, meshio, vedo, nibabel, nilearn, PyTorch3D, PyG or Warp"
 )
+
+#: What has values, "vertices" or "faces", their name, and the values. Those of faces may be of the
+#: shape (f, 3, k), for their corners.
+Values = Tuple[str, str, Any]
+
+
+class Parts(NamedTuple):
+    """What a mesh of another package has."""
+
+    vertices: Any
+    faces: Any  #: array_like or Polygons.
+    values: Iterable[Values] = ()
+
 
 # Corners of the cells of VTK and meshio that are faces. Others of higher order have the corners first.
 _FACE_CELLS = {
@@ -30,20 +48,81 @@ _FACE_CELLS = {
 _VTK_FACES = {5, 7, 9}  # VTK_TRIANGLE, VTK_POLYGON, VTK_QUAD.
 
 
-def arrays_of(source: Any) -> tuple[Any, Any]:
-    """Returns vertices and faces; faces are array_like or Polygons.
+def arrays_of(source: Any) -> Parts:
+    """Returns vertices, faces and values.
 
     Raises
     ------
     TypeError
-        For what is no mesh.
+        For what is no mesh, with advice how to make one of it.
     """
     for has, convert in _KINDS:
         if has(source):
             return convert(source)
-    if isinstance(source, (np.ndarray, list, tuple)):
+    if isinstance(source, tuple) and len(source) == 2:
+        raise TypeError("vertices and faces are given as two arguments; give *mesh")
+    if isinstance(source, (np.ndarray, list, tuple)) or hasattr(source, "__dlpack__"):
         raise TypeError("faces are missing: a mesh is vertices and faces, or brings its faces")
-    raise TypeError(f"{_WHAT_IS_TAKEN}, not {type(source).__name__}")
+    raise _wrong(source, next((advice for has, advice in _ADVICE if has(source)), ""))
+
+
+def _wrong(source: Any, advice: str) -> TypeError:
+    """Returns the error for an object that is no mesh."""
+    after = f"; {advice}" if advice else ""
+    return TypeError(f"{_WHAT_IS_TAKEN}, not {type(source).__name__}{after}")
+
+
+def attributes_of(
+    values: Iterable[Values], names: Sequence[str], surface: Surface, face_count: int
+) -> tuple[dict[str, Attribute], list[e.MeshWarning]]:
+    """Returns the attributes that are named, or all, and warnings of those that cannot be used."""
+    counts = {"vertices": surface.vertex_count(), "faces": face_count}
+    corners, polygons = surface.own_corners(), surface.polygons
+    found: dict[str, Attribute] = {}
+    warnings: list[e.MeshWarning] = []
+    listed: list[str] = []
+    for of, name, given in values:
+        array = array_of(given, f"the attribute {name!r}")
+        if name.lower() == "normals":
+            continue
+        if array.dtype == np.uint8 and array.ndim == 2 and array.shape[1] in (3, 4):
+            array, name = array / 255, name if "color" in listed else "color"
+        if name in listed:
+            name = f"{'face' if of == 'faces' else 'vertex'}_{name}"
+        listed.append(name)
+        if "all" not in names and not is_called(name, array, names):
+            continue
+        is_of_corners = of == "faces" and array.ndim == 3 and array.shape[1] == 3
+        why = ""
+        if array.dtype.kind not in "biuf":
+            why = f"has values of {array.dtype}, not numbers"
+        elif array.shape[:1] != (counts[of],):
+            why = f"has the shape {array.shape}, but the mesh has {counts[of]} {of}"
+        elif array.ndim > 2 and (not is_of_corners or polygons is not None):
+            why = f"has the shape {array.shape}, not a number or a row for each of the {of}"
+        elif not np.isfinite(array).all():
+            why = "has values that are not finite"
+        if why and "all" not in names:
+            raise e.MeshRejected(f"the attribute {name!r} {why}", "mesh_rejected")
+        if why:
+            message = f"the attribute {name!r} {why}, so it is left out"
+            warnings.append(e.MeshWarning(message, "attribute_left_out", 1))
+            continue
+        rows = array.reshape(-1, array.shape[2]) if is_of_corners else array
+        own = np.arange(len(rows), dtype=np.uint32).reshape(-1, 3) if is_of_corners else corners
+        found[name] = Attribute(
+            values=np.ascontiguousarray(rows, np.float64),
+            corners=own if of == "vertices" or is_of_corners else None,
+            of_vertices=of == "vertices",
+            is_whole=array.dtype.kind != "f",
+            is_light=False,
+            polygons=polygons,
+        )
+    for one in names:
+        if one != "all" and not any(is_called(name, x.values, [one]) for name, x in found.items()):
+            has = f"only {', '.join(listed)}" if listed else "nor any other"
+            raise e.MeshRejected(f"the mesh has no attribute {one!r}, {has}", "mesh_rejected")
+    return found, warnings
 
 
 def is_object(source: Any) -> bool:
@@ -56,7 +135,7 @@ def faces_of(faces: Any) -> NDArray[Any] | Polygons:
     if isinstance(faces, Polygons):
         return faces
     try:
-        array = np.asarray(faces)
+        array = np.asarray(on_host(faces))
     except ValueError:  # Rows of different lengths.
         return from_lists(faces)
     except Exception as error:  # Of the object.
@@ -82,17 +161,26 @@ def _is_meshio(source: Any) -> bool:
     return all(hasattr(cells, "type") and hasattr(cells, "data") for cells in source.cells)
 
 
-def _numbers(tensor: Any) -> NDArray[Any]:
-    """Returns a tensor as an array, wherever it is."""
-    tensor = tensor.cpu() if hasattr(tensor, "cpu") else tensor
-    return np.asarray(tensor.numpy())
+def _each(of: str, table: Any) -> Iterator[Values]:
+    """Returns the values that a dict, or an object like one, has by name."""
+    return ((of, name, values) for name, values in table.items())
 
 
-def _from_tensors(source: Any) -> tuple[Any, Any]:
-    return _numbers(source.vertex.positions), _numbers(source.triangle.indices)
+#: Names of Open3D that are others here.
+_NAMES = {"colors": "color", "texture_uvs": "uv"}
 
 
-def _from_scene(scene: Any) -> tuple[Any, Any]:
+def _from_tensors(source: Any) -> Parts:
+    def values() -> Iterator[Values]:
+        for of, table in (("vertices", source.vertex), ("faces", source.triangle)):
+            for _, name, values in _each(of, table):
+                if name not in ("positions", "indices"):
+                    yield of, _NAMES.get(name, name), values
+
+    return Parts(on_host(source.vertex.positions), on_host(source.triangle.indices), values())
+
+
+def _from_scene(scene: Any) -> Parts:
     """Returns all meshes of a scene of trimesh, placed by its graph. Mirrored ones are turned over."""
     vertices: list[NDArray[Any]] = []
     faces: list[Polygons] = []
@@ -111,7 +199,7 @@ def _from_scene(scene: Any) -> tuple[Any, Any]:
         count += len(mesh.vertices)
     if not faces:
         raise e.invalid("the scene has no meshes with faces")
-    return np.concatenate(vertices), _plain(joined(faces))
+    return Parts(np.concatenate(vertices), _plain(joined(faces)))
 
 
 def _plain(polygons: Polygons) -> Any:
@@ -122,20 +210,65 @@ def _plain(polygons: Polygons) -> Any:
     return polygons
 
 
-def _from_polydata(source: Any) -> tuple[Any, Any]:
-    faces = np.asarray(source.faces)
+def _values_of_data(source: Any) -> Iterator[Values]:
+    """Returns what PyVista and VTK have for points and, after vertices and lines, for faces."""
+    points = getattr(source, "point_data", {})
+    coordinates = getattr(points, "active_texture_coordinates_name", None)
+    for of, name, values in _each("vertices", points):
+        yield of, "uv" if name == coordinates else name, values
+    others = getattr(source, "n_verts", 0) + getattr(source, "n_lines", 0)
+    for of, name, values in _each("faces", getattr(source, "cell_data", {})):
+        yield of, name, values[others:]
+
+
+def _from_polydata(source: Any) -> Parts:
+    faces, values = np.asarray(source.faces), _values_of_data(source)
     if faces.ndim > 1:  # Rows, as trimesh has them.
-        return np.asarray(source.points), faces
+        return Parts(np.asarray(source.points), faces, values)
     parts = [from_padded(faces)]
     if hasattr(source, "strips"):
         parts.append(from_strips(source.strips))
-    return np.asarray(source.points), _plain(joined(parts))
+    if not any(map(len, parts)):
+        raise TypeError(
+            "the mesh has points without faces; give pyvista.wrap(mesh).reconstruct_surface()"
+        )
+    return Parts(np.asarray(source.points), _plain(joined(parts)), values)
 
 
-def _from_grid(source: Any) -> tuple[Any, Any]:
+def _from_vtk(source: Any) -> Parts:
+    """Returns what a vtkPolyData has, by the names that PyVista has for it."""
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+
+    def padded(cells: Any) -> NDArray[Any]:
+        ends = vtk_to_numpy(cells.GetOffsetsArray())
+        return np.insert(vtk_to_numpy(cells.GetConnectivityArray()), ends[:-1], np.diff(ends))
+
+    def named(data: Any) -> dict[str, NDArray[Any]]:
+        arrays = [data.GetArray(i) for i in range(data.GetNumberOfArrays())]
+        found = {x.GetName(): vtk_to_numpy(x) for x in arrays if x is not None}
+        if data.GetTCoords() is not None:
+            found["uv"] = found.pop(data.GetTCoords().GetName())
+        return found
+
+    points = source.GetPoints()
+    return _from_polydata(
+        types.SimpleNamespace(
+            points=np.empty((0, 3)) if points is None else vtk_to_numpy(points.GetData()),
+            faces=padded(source.GetPolys()),
+            strips=padded(source.GetStrips()),
+            n_verts=source.GetNumberOfVerts(),
+            n_lines=source.GetNumberOfLines(),
+            point_data=named(source.GetPointData()),
+            cell_data=named(source.GetCellData()),
+        )
+    )
+
+
+def _from_grid(source: Any) -> Parts:
     """Returns the cells that are faces, or else the outer surface of those in space."""
     if hasattr(source, "celltypes") and set(np.unique(source.celltypes)) <= _VTK_FACES:
-        return np.asarray(source.points), _plain(from_padded(source.cells))
+        faces = _plain(from_padded(source.cells))
+        return Parts(np.asarray(source.points), faces, _values_of_data(source))
     try:
         surface = source.extract_surface(algorithm="dataset_surface")
     except TypeError:  # Of an older PyVista, which has no other.
@@ -143,34 +276,141 @@ def _from_grid(source: Any) -> tuple[Any, Any]:
     return _from_polydata(surface)
 
 
-def _from_blocks(source: Any) -> tuple[Any, Any]:
+def _from_blocks(source: Any) -> Parts:
     return _from_grid(source.combine())
 
 
-def _from_meshio(source: Any) -> tuple[Any, Any]:
-    parts = []
-    for cells in source.cells:
+def _from_meshio(source: Any) -> Parts:
+    parts, used = [], []
+    for number, cells in enumerate(source.cells):
         kind = str(cells.type)
         if kind in _FACE_CELLS:
             parts.append(from_rows(np.asarray(cells.data)[:, : _FACE_CELLS[kind]]))
         elif kind == "polygon" or kind.startswith("polygon"):
             parts.append(from_lists(list(cells.data)))
+        else:
+            continue
+        used.append(number)
     if not parts:
         kinds = ", ".join(sorted({str(cells.type) for cells in source.cells})) or "none"
         raise e.invalid(f"the mesh has no faces; its cells are: {kinds}")
-    return np.asarray(source.points), _plain(joined(parts))
+
+    def values() -> Iterator[Values]:
+        yield from _each("vertices", source.point_data)
+        for of, name, blocks in _each("faces", source.cell_data):
+            yield of, name, np.concatenate([blocks[number] for number in used])
+
+    return Parts(np.asarray(source.points), _plain(joined(parts)), values())
 
 
-def _from_vedo(source: Any) -> tuple[Any, Any]:
-    return np.asarray(source.vertices), source.cells
+def _from_vedo(source: Any) -> Parts:
+    def values() -> Iterator[Values]:
+        yield from _each("vertices", source.pointdata)
+        yield from _each("faces", source.celldata)
+
+    return Parts(np.asarray(source.vertices), source.cells, values())
 
 
-def _from_faces(source: Any) -> tuple[Any, Any]:
-    return np.asarray(source.vertices), source.faces
+def _from_faces(source: Any) -> Parts:
+    def values() -> Iterator[Values]:
+        visual = getattr(source, "visual", None)
+        kind = getattr(visual, "kind", None)
+        if visual is not None and kind == "vertex":
+            yield "vertices", "color", visual.vertex_colors
+        if visual is not None and kind == "face":
+            yield "faces", "color", visual.face_colors
+        if visual is not None and kind == "texture" and visual.uv is not None:
+            yield "vertices", "uv", visual.uv
+        yield from _each("vertices", getattr(source, "vertex_attributes", {}))
+        yield from _each("faces", getattr(source, "face_attributes", {}))
+
+    return Parts(on_host(source.vertices), source.faces, values())
 
 
-def _from_triangles(source: Any) -> tuple[Any, Any]:
-    return np.asarray(source.vertices), np.asarray(source.triangles)
+def _from_triangles(source: Any) -> Parts:
+    def values() -> Iterator[Values]:
+        if len(colours := getattr(source, "vertex_colors", ())):
+            yield "vertices", "color", colours
+        if len(places := getattr(source, "triangle_uvs", ())):
+            yield "faces", "uv", np.asarray(places).reshape(-1, 3, 2)
+
+    return Parts(np.asarray(source.vertices), np.asarray(source.triangles), values())
+
+
+def _from_pymeshlab(source: Any) -> Parts:
+    mesh = source.current_mesh() if hasattr(source, "current_mesh") else source
+
+    def values() -> Iterator[Values]:
+        for of, part in (("vertices", "vertex"), ("faces", "face")):
+            for name, form in (("color", "matrix"), ("scalar", "array")):
+                if getattr(mesh, f"has_{part}_{name}")():
+                    yield of, name, getattr(mesh, f"{part}_{name}_{form}")()
+        if mesh.has_wedge_tex_coord():
+            yield "faces", "uv", mesh.wedge_tex_coord_matrix().reshape(-1, 3, 2)
+        elif mesh.has_vertex_tex_coord():
+            yield "vertices", "uv", mesh.vertex_tex_coord_matrix()
+
+    return Parts(mesh.vertex_matrix(), mesh.face_matrix(), values())
+
+
+def _from_gifti(image: Any) -> Parts:
+    """Returns the surface of an image of nibabel, and its values by the names that files give them."""
+    from nibabel.nifti1 import intent_codes
+
+    arrays = [
+        (intent_codes.niistring[one.intent].replace("NIFTI_INTENT_", "").lower(), one)
+        for one in image.darrays
+    ]
+    surface = {intent: one.data for intent, one in arrays if intent in ("pointset", "triangle")}
+    if len(surface) < 2:
+        raise _wrong(image, "it has no surface: load the image of a .surf.gii file")
+
+    def values() -> Iterator[Values]:
+        for intent, one in arrays:
+            if intent not in ("pointset", "triangle", "node_index"):
+                is_of_vertices = len(one.data) == len(surface["pointset"])
+                of = "vertices" if is_of_vertices else "faces"
+                yield of, one.meta.get("Name") or intent, one.data
+
+    return Parts(surface["pointset"], surface["triangle"], values())
+
+
+def _from_nilearn(source: Any) -> Parts:
+    return Parts(source.coordinates, source.faces)
+
+
+def _from_pytorch3d(source: Any) -> Parts:
+    vertices, faces = source.verts_list(), source.faces_list()
+    if len(vertices) != 1:
+        advice = f"{len(vertices)} meshes: give one, as meshes[0], or all to sample_many(meshes)"
+        raise _wrong(source, advice)
+
+    def values() -> Iterator[Values]:
+        if hasattr(source.textures, "verts_features_list"):
+            (features,) = source.textures.verts_features_list()
+            yield "vertices", "color" if features.shape[1] == 3 else "features", features
+
+    return Parts(vertices[0], faces[0], values())
+
+
+def _from_pyg(source: Any) -> Parts:
+    if source.face is None:
+        advice = "its face is None: keep faces, as by FaceToEdge(remove_faces=False)"
+        raise _wrong(source, advice)
+    faces = array_of(source.face, "face")
+    if faces.ndim != 2 or faces.shape[0] != 3:
+        raise e.invalid(f"face has the shape {faces.shape}, not (3, f)")
+
+    def values() -> Iterator[Values]:
+        for of, name, given in _each("vertices", source.to_dict()):
+            if name != "pos" and source.is_node_attr(name):
+                yield of, name, given
+
+    return Parts(source.pos, faces.T, values())
+
+
+def _from_warp(source: Any) -> Parts:
+    return Parts(source.points, array_of(source.indices, "indices").reshape(-1, 3))
 
 
 # In this order: some have the attributes of several.
@@ -184,4 +424,25 @@ _KINDS = (
     (_has("points", "faces"), _from_polydata),
     (_has("points", "extract_surface"), _from_grid),
     (_has("n_blocks", "combine"), _from_blocks),
+    (_has("GetPolys", "GetStrips"), _from_vtk),
+    (_has("current_mesh"), _from_pymeshlab),
+    (_has("vertex_matrix", "face_matrix"), _from_pymeshlab),
+    (_has("darrays", "agg_data"), _from_gifti),
+    (_has("coordinates", "faces"), _from_nilearn),
+    (_has("verts_list", "faces_list"), _from_pytorch3d),
+    (_has("pos", "face"), _from_pyg),
+    (_has("points", "indices"), _from_warp),
+)
+
+#: Objects that are no mesh, and how to make one of them.
+_ADVICE = (
+    (_has("GetDataObjectType"), "give pyvista.wrap(mesh).extract_surface().triangulate()"),
+    (_has("GetOutputPort"), "call source.Update() and give source.GetOutput()"),
+    (_has("mesh", "data"), 'give one hemisphere: image.mesh.parts["left"]'),
+    (_has("parts"), 'give one hemisphere: mesh.parts["left"]'),
+    (
+        _has("points", "normals"),
+        "points need faces: give TriangleMesh.create_from_point_cloud_poisson(cloud)[0]",
+    ),
+    (_has("vertices", "convex_hull"), "points need faces: give a mesh, as cloud.convex_hull"),
 )

@@ -27,6 +27,9 @@ class Polygons:
     corners: NDArray[np.uint32]
     ends: NDArray[np.uint64]
 
+    def __len__(self) -> int:
+        return len(self.ends)
+
     def check(self, vertex_count: int) -> None:
         """Raises MeshRejected for a corner that names no vertex."""
         bad = np.flatnonzero(self.corners >= vertex_count)

@@ -74,6 +74,67 @@ class HasGraph(Protocol):
     def graph(self) -> Any: ...
 
 
+class HasPolys(Protocol):
+    """Cells by kind, as vtkPolyData has them."""
+
+    def GetPolys(self) -> Any: ...
+    def GetStrips(self) -> Any: ...
+
+
+class HasMatrices(Protocol):
+    """Matrices of vertices and faces, as meshes of PyMeshLab have them."""
+
+    def vertex_matrix(self) -> Any: ...
+    def face_matrix(self) -> Any: ...
+
+
+class HasCurrentMesh(Protocol):
+    """Several meshes, one of them chosen, as a MeshSet of PyMeshLab has them."""
+
+    def current_mesh(self) -> Any: ...
+
+
+class HasDataArrays(Protocol):
+    """Arrays with intents, as GIFTI images of nibabel have them."""
+
+    @property
+    def darrays(self) -> Any: ...
+
+
+class HasCoordinates(Protocol):
+    """Coordinates and faces, as meshes of nilearn have them."""
+
+    @property
+    def coordinates(self) -> Any: ...
+    @property
+    def faces(self) -> Any: ...
+
+
+class HasLists(Protocol):
+    """Vertices and faces of each mesh, as Meshes of PyTorch3D have them."""
+
+    def verts_list(self) -> Any: ...
+    def faces_list(self) -> Any: ...
+
+
+class HasPositions(Protocol):
+    """Positions and faces of shape (3, f), as Data of PyG has them."""
+
+    @property
+    def pos(self) -> Any: ...
+    @property
+    def face(self) -> Any: ...
+
+
+class HasIndices(Protocol):
+    """Points and one array of corners, as meshes of Warp have them."""
+
+    @property
+    def points(self) -> Any: ...
+    @property
+    def indices(self) -> Any: ...
+
+
 #: Triangles, polygons of one size, or of several.
 Faces = Union[ArrayLike, Sequence[Sequence[int]]]
 
@@ -87,6 +148,14 @@ MeshLike = Union[
     HasPaddedFaces,
     HasVertexCells,
     HasGraph,
+    HasPolys,
+    HasMatrices,
+    HasCurrentMesh,
+    HasDataArrays,
+    HasCoordinates,
+    HasLists,
+    HasPositions,
+    HasIndices,
     str,
     "os.PathLike[str]",
 ]

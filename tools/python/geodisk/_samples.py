@@ -16,6 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 from . import _errors as e
 from ._arrays import array_of, indices, real
 from ._attributes import check_finite, interpolated, values_of
+from ._conversion import converted
 from ._files import complete
 from ._job import Job, JobFrame
 from ._sample import Sample
@@ -423,9 +424,10 @@ class Samples:
         corners = surface.own_corners()
         if len(faces) and int(faces.max()) >= len(corners):
             raise e.invalid(f"a sample lies in triangle {faces.max()}, the mesh has {len(corners)}")
+        values = array_of(values, "values")
         if of == "faces":
             polygons = surface.polygons
-            if polygons is not None and len(np.asarray(values)) != len(corners):
+            if polygons is not None and values.shape[:1] != (len(corners),):
                 array = values_of(values, int(polygons.max()) + 1, "faces")
                 return np.asarray(array[polygons[faces]])
             return np.asarray(values_of(values, len(corners), "faces")[faces])
@@ -441,6 +443,45 @@ class Samples:
         if not is_nearest and found.dtype.kind in "SU":
             raise TypeError("text cannot be interpolated; give nearest=True")
         return interpolated(found, weights, is_nearest)
+
+    def to(self, kind: str) -> Any:
+        """Returns the samples as arrays or an object of another package.
+
+        All have points, normals, `face_index`, `barycentric`, `polygon_index`, `radius`, `order`,
+        and what ``columns`` and ``attributes`` have, by name, if they exist.
+
+        Parameters
+        ----------
+        kind : {"numpy", "torch", "dlpack", "pyvista", "trimesh", "open3d"}
+            "numpy" is a dict of the arrays themselves. "torch" is a dict of tensors, and "dlpack" one
+            of arrays for the ``from_dlpack`` of any package: copies, with indices as int64.
+            "pyvista" is a ``PolyData`` of points with ``point_data``. "trimesh" is a ``PointCloud``
+            with ``colors``, and the others in ``metadata``. "open3d" is a
+            ``t.geometry.PointCloud`` with all in ``point``.
+
+        Raises
+        ------
+        ImportError
+            If the package is not installed.
+        InvalidArgument
+            For another kind, or for points of more than three coordinates in a package for space.
+
+        Notes
+        -----
+        Points of fewer coordinates get 0 for the others in PyVista, trimesh and Open3D. The
+        attribute ``color`` becomes bytes in PyVista and trimesh, and ``colors`` in Open3D.
+
+        Examples
+        --------
+        >>> import geodisk
+        >>> arrays = geodisk.sample_box([1, 1], min_distance=0.1).to("numpy")
+        >>> list(arrays)
+        ['points', 'radius', 'order']
+        """
+        samples = self._checked()
+        own = {name: getattr(samples, name) for name in _COLUMNS}
+        arrays = {**own, **samples.columns, **samples.attributes}
+        return converted({name: x for name, x in arrays.items() if x is not None}, kind)
 
     def to_dataframe(self) -> pandas.DataFrame:
         """Returns a pandas table with the columns of sample files.

@@ -92,7 +92,8 @@ def sample(
         Density of samples at each vertex, in any unit; 0 for none. The distance applies where the
         density is largest. Values of faces or of their corners become means at the vertices; of
         faces, weighted by area. With as many faces as vertices, values are those of vertices. A
-        name is that of an attribute of the mesh, or of a component, as "red"; of a file it is read.
+        name is that of an attribute of the mesh, or of a component, as "red"; it is read if the mesh is
+        a file or an object of another package.
     radius_factor : array_like of float, shape (v,), (f,) or (f, 3), or str, optional
         Factor of the radius at each vertex, 0.001 to 1, given as a density. The distance applies
         to two samples with factor 1.

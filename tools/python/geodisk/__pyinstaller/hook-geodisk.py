@@ -6,6 +6,8 @@ from importlib.util import find_spec
 binaries = []
 datas = []
 hiddenimports = []
+# What samples.to() and meshes of other packages need; programs that use these import them.
+excludedimports = ["nibabel", "open3d", "pyvista", "torch", "trimesh", "vtkmodules"]
 for package in ("geodisk", "geodisk_cpu"):
     found = find_spec(package)
     if found is None:

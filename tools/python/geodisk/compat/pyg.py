@@ -1,0 +1,56 @@
+"""Distances as PyG computes them."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from .._arrays import array_of, indices
+from .._geodesics import geodesic_distances
+from .._mesh import Mesh
+
+
+def geodesic_distance(
+    pos: Any,
+    face: Any,
+    src: Any = None,
+    dst: Any = None,
+    norm: bool = True,
+    max_distance: float | None = None,
+    num_workers: int = 0,
+) -> Any:
+    """Returns distances as ``torch_geometric.utils.geodesic_distance(pos, face)`` does.
+
+    Parameters
+    ----------
+    pos : torch.Tensor of float, shape (v, 3)
+    face : torch.Tensor of int, shape (3, f)
+    src : torch.Tensor of int, shape (n,), optional
+        Vertices to measure from, by default all.
+    dst : torch.Tensor of int, shape (n,), optional
+        Vertices to measure to, one for each of `src`; by default all for each.
+    norm : bool
+        Divide distances by the square root of the area.
+    max_distance : float, optional
+        Farther vertices get infinity, where PyG has 0 if it is given without `src` and `dst`. It
+        is compared with normalized distances if `norm` is set.
+    num_workers : int
+        Ignored: all cores are used.
+
+    Returns
+    -------
+    torch.Tensor, shape (n, v), or (n,) with `dst`
+        On the CPU, of the type of `pos`.
+    """
+    import torch
+
+    mesh = Mesh(array_of(pos, "pos"), array_of(face, "face").T, keep_seams=True)
+    scale = mesh.area**0.5 if norm else 1.0
+    sources = indices(np.arange(len(mesh.vertices)) if src is None else src, "src")
+    each, row = np.unique(sources, return_inverse=True)
+    within = None if max_distance is None else max_distance * scale
+    found = geodesic_distances(mesh, each, each=True, within=within)[row] / scale
+    if dst is not None:
+        found = found[np.arange(len(found)), indices(dst, "dst")]
+    return torch.from_numpy(found).to(pos.dtype)
