@@ -285,6 +285,14 @@ def test_distance_beyond_the_surface_needs_the_whole(tmp_path):
     check_same(tmp_path, [str(mesh), "--min-distance", "300%"], [2])
 
 
+def test_count_that_comes_to_a_distance_beyond_the_surface(tmp_path):
+    """Process 0 then reads the whole, in the midst of the search."""
+    mesh = tmp_path / "lone.ply"
+    vertices, faces = grid(30, 30)
+    write_ply(mesh, vertices, faces, of_vertices={"g": [1.0] + [1 / 32] * (len(vertices) - 1)})
+    check_same(tmp_path, [str(mesh), "--radius-factor", "g", "--count", "61"], [2])
+
+
 @pytest.mark.parametrize("spoil, message", [
     (lambda data: data[:-5], "the file ends inside element face"),
     (lambda data: data[:-4] + struct.pack("<i", 999), "vertex index 999 is out of range"),

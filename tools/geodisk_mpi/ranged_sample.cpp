@@ -9,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include <geodisk/job_frame.hpp>
+
 #include "files/input_file.hpp"
 #include "files/samples/row_format.hpp"
 #include "files/samples/sample_format.hpp"
@@ -119,6 +121,16 @@ struct StandIn {
     }
 };
 
+/// Returns the frame if the distance that a file tells, `part` times that of the job, has another.
+std::optional<JobFrame> frame_to_tell(const SharedSurface& surface, const SampleParams& params,
+                                      double part) {
+    SampleParams told = params;
+    told.min_distance = params.min_distance * part / part;
+    const JobFrame frame = take(surface.frame(params));
+    const auto plain = surface.frame(told);
+    return plain && decide_alike(frame, *plain) ? std::nullopt : std::optional(frame);
+}
+
 SampleResult sample_ranged(const SampleJob& job, MeshInput& mesh, Session& session,
                            ProgressLine& progress) {
     const SharedSurface& surface = *session.ranges();
@@ -152,12 +164,24 @@ SampleResult sample_ranged(const SampleJob& job, MeshInput& mesh, Session& sessi
     RequestRun begun = take(std::move(request));
     RunDevice device = device_for(job);
     device.sample_by(&session);
-    auto [found, done] = device.run(std::move(begun), progress);
+    auto [found, done] = [&] {
+        try {
+            return device.run(std::move(begun), progress);
+        } catch (const UserError&) {
+            if (needs) { // The search for a count came to a distance that takes the whole.
+                throw TakesWhole(*needs);
+            }
+            throw;
+        }
+    }();
     const SampleSet& set = found.set;
     params.min_distance = done.min_distance;
     job.method.check_count(set.samples.size(), params.min_distance * mesh.distance_part,
                            done.run.candidates);
     SampleResult result;
+    if (!job.min_distance) {
+        result.frame = frame_to_tell(surface, params, mesh.distance_part);
+    }
     result.params = params;
     result.done = std::move(done);
     const bool divides = RowFormat::is_one(job.out.target().format);
