@@ -274,6 +274,7 @@ void Filling<Real>::throw_into(const Cell& cell, std::uint32_t round, double mea
 template <class Real>
 std::vector<FacePoint<Real>> Filling<Real>::decided(const std::vector<Dart>& darts) const {
     std::vector<FacePoint<Real>> points;
+    points.reserve(darts.size());
     for (const Dart& dart : darts) {
         points.push_back(
             {dart.at.face, static_cast<Real>(dart.at.weight1), static_cast<Real>(dart.at.weight2)});

@@ -62,7 +62,7 @@ Outcome check_figure(const Figure& figure) {
 }
 
 const std::vector<Figure>& figures() {
-    static const std::vector<Figure> all{
+    static const std::vector<Figure> kAll{
         {"table1",
          {"table1.svg"},
          5,
@@ -109,7 +109,7 @@ const std::vector<Figure>& figures() {
           "5"}},
         {"fig14", {"fig14.svg"}, 6, {"--radius", "0.03", "--ratios", "2,5", "--repeats", "2"}},
         {"boxes", {}, 3, {"-n", "200", "--dims", "1,3,6", "--repeats", "1", "--open"}}};
-    return all;
+    return kAll;
 }
 
 } // namespace

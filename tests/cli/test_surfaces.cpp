@@ -101,8 +101,8 @@ TEST_CASE("welding joins faces along open seams, and verify wants the same") {
 TEST_CASE("seams of coinciding borders are joined, and verify wants the same") {
     const TemporaryFolder folder;
     // A box whose faces have vertices of their own, as where its normals are flat.
-    const char* const kFaces[] = {"000 010 110 100", "001 101 111 011", "000 100 101 001",
-                                  "010 011 111 110", "000 001 011 010", "100 110 111 101"};
+    constexpr const char* kFaces[] = {"000 010 110 100", "001 101 111 011", "000 100 101 001",
+                                      "010 011 111 110", "000 001 011 010", "100 110 111 101"};
     std::string vertices, faces;
     int count = 0;
     for (const std::string face : kFaces) {

@@ -23,8 +23,9 @@ void write_rough(const TemporaryFolder& folder, const std::string& name, double 
     std::ofstream file(folder / name);
     for (int i = 0; i < 81; ++i) {
         const double height = (i * i % 13) / 32.0 + (i == 40 ? bump : 0);
-        file << "v " << tools::exact_text((i % 9) * 0.25 * unit) << ' '
-             << tools::exact_text((i / 9) * 0.25 * unit) << ' ' << tools::exact_text(height * unit)
+        const int column = i % 9, row = i / 9;
+        file << "v " << tools::exact_text(column * 0.25 * unit) << ' '
+             << tools::exact_text(row * 0.25 * unit) << ' ' << tools::exact_text(height * unit)
              << '\n';
     }
     for (int cell = 0; cell < 64; ++cell) {

@@ -39,7 +39,7 @@ class Scene {
   public:
     Scene(TestMesh shape, double count, std::uint64_t seed, double min_factor = 1,
           bool has_density = false)
-        : mesh(std::move(shape)), random_(static_cast<std::uint32_t>(seed)),
+        : mesh(std::move(shape)), random(static_cast<std::uint32_t>(seed)),
           factors(mesh.vertex_count(), 1.0), by_density(has_density) {
         if (min_factor < 1) {
             factors = wavy_factors(mesh, min_factor);
@@ -93,9 +93,9 @@ class Scene {
     }
 
     std::uint32_t below(std::uint32_t end) {
-        return static_cast<std::uint32_t>(std::uint64_t{random_()} * end >> 32);
+        return static_cast<std::uint32_t>(std::uint64_t{random()} * end >> 32);
     }
-    double part() { return static_cast<double>(random_()) * 0x1p-32; }
+    double part() { return static_cast<double>(random()) * 0x1p-32; }
 
     std::vector<std::uint32_t> faces_at(std::uint32_t vertex) const {
         std::vector<std::uint32_t> faces;
@@ -264,7 +264,7 @@ class Scene {
     }
 
     TestMesh mesh;
-    std::mt19937 random_;
+    std::mt19937 random;
     std::vector<double> factors;
     std::vector<std::uint8_t> mask;
     std::vector<std::uint32_t> keys;
@@ -293,7 +293,7 @@ class Scene {
   private:
     /// Copies all but the updater.
     Scene(const Scene& other)
-        : mesh(other.mesh), random_(other.random_), factors(other.factors), mask(other.mask),
+        : mesh(other.mesh), random(other.random), factors(other.factors), mask(other.mask),
           keys(other.keys), existing(other.existing), avoid(other.avoid),
           by_density(other.by_density), params(other.params), radii(other.radii) {}
 

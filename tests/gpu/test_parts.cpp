@@ -40,12 +40,12 @@ Result<std::vector<std::uint32_t>> scattered(const PreparedMesh& mesh, const Sam
 Result<SharedSamples> in_parts(const PreparedMesh& mesh, const SampleParams& params,
                                std::uint32_t count, const Cut& cut, double max_candidates,
                                const Checkpoints* checkpoints = nullptr) {
-    static const auto sampler =
+    static const auto kSampler =
         std::make_shared<const Sampler>(expect(Sampler::create(shared_context().device())));
     const WholeSurface whole{mesh, params, cut, max_candidates, checkpoints};
     std::vector<std::optional<Result<SharedSamples>>> results(count);
     run_threads(count, [&](Exchange& exchange) {
-        auto runner = Runner::create(sampler, shared_context().queue());
+        auto runner = Runner::create(kSampler, shared_context().queue());
         if (runner) {
             const std::uint32_t rank = exchange.rank();
             results[rank].emplace(sample_parts(exchange, *runner, rank == 0 ? &whole : nullptr));
@@ -115,11 +115,11 @@ std::string refusal(const PreparedMesh& mesh, const SampleParams& params, std::u
 constexpr std::uint64_t kLittleMemory = 24u << 20;
 
 Runner small_runner() {
-    static const auto sampler =
+    static const auto kSampler =
         std::make_shared<const Sampler>(expect(Sampler::create(shared_context().device())));
     RunnerOptions options;
     options.device_bytes = kLittleMemory;
-    return expect(Runner::create(sampler, shared_context().queue(), options));
+    return expect(Runner::create(kSampler, shared_context().queue(), options));
 }
 
 /// A surface that such a runner does not hold as a whole.

@@ -373,7 +373,8 @@ MeshFile make_assembly() {
         std::vector<Vec2> bore = arc({0, 0}, 0.2, 0, 1, 16);
         bore.pop_back();
         MeshFile part = drilled_prism(outline, bore, 0.05 + 0.02 * (gear % 3));
-        const Vec3 place(0.55 * (gear % 5), 0.6 * (gear / 5), 1.3 + 0.035 * gear);
+        const int column = gear % 5, row = gear / 5;
+        const Vec3 place(0.55 * column, 0.6 * row, 1.3 + 0.035 * gear);
         move_all(part, [&](const Vec3& p) {
             return (gear % 2 == 0 ? p : Vec3{p.z, p.x, p.y}) + place;
         });

@@ -157,8 +157,8 @@ TEST_CASE("a legend has an entry in its colour for each class") {
             for (std::size_t at = 0; at < pixels.rgba.size(); at += 4) {
                 bool is_same = true;
                 for (int k = 0; k < 3; ++k) {
-                    is_same = is_same && std::abs(pixels.rgba[at + static_cast<std::size_t>(k)] -
-                                                  255 * color[k]) < 1.5f;
+                    const float own = pixels.rgba[at + static_cast<std::size_t>(k)];
+                    is_same = is_same && std::abs(own - 255 * color[k]) < 1.5f;
                 }
                 count += is_same;
             }

@@ -24,7 +24,6 @@ namespace {
 
 using picture::Camera;
 using picture::Scene;
-using picture::Up;
 using picture::View;
 
 Scene scene_of(const std::string& shape, std::optional<int> resolution = {}) {

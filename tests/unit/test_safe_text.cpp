@@ -23,7 +23,7 @@ struct Hostile {
 };
 
 const std::vector<Hostile>& hostile() {
-    static const std::vector<Hostile> all{
+    static const std::vector<Hostile> kAll{
         {"\x1b[31mred\x1b[0m", "?[31mred?[0m"}, // C0
         {"a\x07\x08\x0b\x0c\x7f", "a?????"},    // C0, delete
         {"\xc2\x9b"
@@ -48,7 +48,7 @@ const std::vector<Hostile>& hostile() {
         {"сетка 網 é 😀", "сетка 網 é 😀"},                // as it is
         {std::string("nul\0end", 7), "nul?end"},
     };
-    return all;
+    return kAll;
 }
 
 bool has_control(const std::string& text) {

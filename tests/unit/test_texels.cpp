@@ -95,8 +95,9 @@ void check_places(const MeshFile& mesh, const Texels& texels) {
             const double texels_off = at * count - centre;
             return std::abs(texels_off - std::round(texels_off / count) * count);
         };
-        const double own = std::max(off(u, width, static_cast<double>(texel % width) + 0.5),
-                                    off(1 - v, height, static_cast<double>(texel / width) + 0.5));
+        const std::size_t column = texel % width, row = texel / width;
+        const double own = std::max(off(u, width, static_cast<double>(column) + 0.5),
+                                    off(1 - v, height, static_cast<double>(row) + 0.5));
         worst = std::max(worst, own);
         const bool is_exact = own < kExact * std::max(width, height);
         // The nearest point of the face is at its rim.
@@ -138,8 +139,9 @@ TEST_SUITE("texels") {
             const Texels texels(mesh, size);
             bool is_same = true;
             for (std::size_t texel = 0; texel < size.texels(); ++texel) {
-                const double x = static_cast<double>(texel % size.width) + 0.5;
-                const double y = size.height - (static_cast<double>(texel / size.width) + 0.5);
+                const std::size_t column = texel % size.width, row = texel / size.width;
+                const double x = static_cast<double>(column) + 0.5;
+                const double y = size.height - (static_cast<double>(row) + 0.5);
                 double inside = INFINITY, outside = INFINITY; // Distance from each line, in texels.
                 for (std::size_t k = 0; k < 3; ++k) {
                     const auto& [au, av] = t[k];

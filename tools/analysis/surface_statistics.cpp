@@ -204,7 +204,8 @@ void note_nearest(SurfaceStatistics& result) {
 void note_gaps(const std::vector<double>& gaps, std::size_t classes, SurfaceStatistics& result) {
     std::vector<ClassRoom> rooms(std::max<std::size_t>(1, classes));
     std::uint64_t uncovered = 0;
-    const double part = 1 / static_cast<double>(gaps.size() / rooms.size());
+    const std::size_t places = gaps.size() / rooms.size();
+    const double part = 1 / static_cast<double>(places);
     for (auto place = gaps.begin(); place != gaps.end();) {
         bool has_room = false;
         for (ClassRoom& room : rooms) {

@@ -147,8 +147,9 @@ std::string fault_of_file(const Path& file) {
 /// The first fault of the files that `variable` names.
 std::string fault_of_files(const std::string& variable, std::string_view files) {
     for (const Path& file : paths_in(files)) {
-        if (const std::string fault = fault_of_file(file); !fault.empty()) {
-            return variable + " names " + file.string() + fault + "; correct or unset it";
+        if (std::string fault = fault_of_file(file); !fault.empty()) {
+            fault.insert(0, variable + " names " + file.string());
+            return fault + "; correct or unset it";
         }
     }
     return "";

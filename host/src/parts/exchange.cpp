@@ -92,7 +92,7 @@ Error Exchange::first_error(const Error* error) {
         if (!bytes.empty()) {
             std::string message(reinterpret_cast<const char*>(bytes.data()) + 1, bytes.size() - 1);
             if (process_of(process) != kRoot) {
-                message = "process " + std::to_string(process_of(process)) + ": " + message;
+                message.insert(0, "process " + std::to_string(process_of(process)) + ": ");
             }
             const auto status = static_cast<Status>(std::to_integer<signed char>(bytes[0]));
             return Error{status, std::move(message)};

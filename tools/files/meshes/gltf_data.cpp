@@ -15,14 +15,9 @@
 namespace geodisk::tools {
 namespace {
 
-enum Component : std::uint64_t {
-    kByte = 5120,
-    kUnsignedByte = 5121,
-    kShort = 5122,
-    kUnsignedShort = 5123,
-    kUnsignedInt = 5125,
-    kFloat = 5126
-};
+// Types of components.
+constexpr std::uint64_t kByte = 5120, kUnsignedByte = 5121, kShort = 5122, kUnsignedShort = 5123,
+                        kUnsignedInt = 5125, kFloat = 5126;
 
 std::size_t size_of(std::uint64_t component_type) {
     switch (component_type) {
@@ -69,7 +64,7 @@ double GltfAccessor::divisor() const {
     const auto largest = [](auto value) {
         return static_cast<double>(std::numeric_limits<decltype(value)>::max());
     };
-    switch (is_normalized ? component_type : std::uint64_t{kFloat}) {
+    switch (is_normalized ? component_type : kFloat) {
     case kByte:
         return largest(std::int8_t{});
     case kUnsignedByte:

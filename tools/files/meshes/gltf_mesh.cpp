@@ -9,15 +9,9 @@
 namespace geodisk::tools {
 namespace {
 
-enum Mode : std::uint64_t {
-    kPoints,
-    kLines,
-    kLineLoop,
-    kLineStrip,
-    kTriangles,
-    kStrip,
-    kFan,
-};
+// Modes of primitives.
+constexpr std::uint64_t kPoints = 0, kLines = 1, kLineLoop = 2, kLineStrip = 3, kTriangles = 4,
+                        kStrip = 5, kFan = 6;
 
 constexpr const char* kDraco = "KHR_draco_mesh_compression";
 

@@ -113,6 +113,7 @@ class Columns {
 [[noreturn]] void fail_unknown(const Path& path, const std::string& name,
                                const std::vector<MeshField>& fields) {
     std::vector<std::string> names;
+    names.reserve(fields.size());
     for (const MeshField& field : fields) {
         names.push_back(field.name);
     }

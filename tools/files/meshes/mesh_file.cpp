@@ -474,6 +474,7 @@ std::vector<std::string> mesh_formats() {
 
 std::vector<std::string> mesh_extensions(const std::string& before) {
     std::vector<std::string> names;
+    names.reserve(kMeshFormats.size());
     for (const MeshFormat& format : kMeshFormats) {
         names.push_back(before + std::string(format.name));
     }

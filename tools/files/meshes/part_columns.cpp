@@ -55,6 +55,7 @@ bool has_column(const MeshFile& mesh, const PartColumn& column) {
 
 std::vector<std::string> part_column_names() {
     std::vector<std::string> names;
+    names.reserve(kPartColumns.size());
     for (const PartColumn& column : kPartColumns) {
         names.emplace_back(column.name);
     }

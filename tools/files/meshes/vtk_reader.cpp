@@ -92,8 +92,9 @@ class VtkReader {
     }
 
   private:
-    /// The cells of VTK's polygonal data, in the order in which arrays number them.
-    enum Kind : std::size_t { kVertices, kLines, kPolygons, kStrips, kKinds };
+    /// Kinds of cells of VTK's polygonal data, in the order in which arrays number them: vertices,
+    /// lines, and these.
+    static constexpr std::size_t kPolygons = 2, kStrips = 3, kKinds = 4;
 
     void read_dataset() {
         if (!stream_.next_line(words_) || lower_case(std::string(words_[0])) != "dataset" ||

@@ -19,10 +19,10 @@ namespace geodisk::tools {
 namespace {
 
 /// The members of all items, one after the other.
-template <std::size_t count>
-std::vector<std::uint32_t> flattened(std::span<const std::array<std::uint32_t, count>> items) {
+template <std::size_t kCount>
+std::vector<std::uint32_t> flattened(std::span<const std::array<std::uint32_t, kCount>> items) {
     std::vector<std::uint32_t> all;
-    all.reserve(count * items.size());
+    all.reserve(kCount * items.size());
     for (const auto& item : items) {
         all.insert(all.end(), item.begin(), item.end());
     }

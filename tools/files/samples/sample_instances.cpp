@@ -14,11 +14,13 @@
 namespace geodisk::tools {
 namespace {
 
-struct vec3 {
-    constexpr vec3(double r, double g, double b) : red(r), green(g), blue(b) {}
+struct Colour {
     double red, green, blue;
 };
-constexpr vec3 kColours[] = {
+constexpr Colour vec3(double red, double green, double blue) {
+    return {red, green, blue};
+}
+constexpr Colour kColours[] = {
 #include "picture/shaders/class_colors.h"
 };
 
@@ -62,7 +64,7 @@ std::vector<SampleClass> sample_classes(std::span<const SampleRow> rows,
     }
     std::vector<SampleClass> classes;
     for (auto& [number, own] : members) {
-        const vec3& encoded = kColours[number % std::size(kColours)];
+        const Colour& encoded = kColours[number % std::size(kColours)];
         classes.push_back({"Class" + std::to_string(number),
                            {light_of(encoded.red), light_of(encoded.green), light_of(encoded.blue)},
                            std::move(own)});

@@ -98,8 +98,10 @@ void check_float_range(const SampleTarget& target, std::span<const SampleRow> ro
 std::string entry_lines(const SampleHeader& header, const char* prefix) {
     std::string lines;
     for (const auto& [key, value] : header.entries) {
+        std::string entry = key + ": ";
+        entry += value;
         // Some of these formats end in spreadsheets.
-        lines += prefix + csv_comment(key + ": " + value) + '\n';
+        lines += prefix + csv_comment(entry) + '\n';
     }
     return lines;
 }

@@ -31,8 +31,9 @@ std::string field_data(const SampleHeader& header) {
     std::string data;
     for (const std::string& key : keys) {
         const auto& [count, text] = arrays[key];
-        data += "<Array type=\"String\" Name=\"" + key + "\" NumberOfTuples=\"" +
-                std::to_string(count) + "\" format=\"ascii\">\n" + text + "</Array>\n";
+        data += "<Array type=\"String\" Name=\"" + key + "\" NumberOfTuples=\"";
+        data += std::to_string(count) + "\" format=\"ascii\">\n";
+        data += text + "</Array>\n";
     }
     return "<FieldData>\n" + data + "</FieldData>\n";
 }

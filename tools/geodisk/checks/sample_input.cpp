@@ -81,9 +81,10 @@ void check_columns(const SampleFile& samples, const std::string& noun,
                    std::vector<MeshWarning>& warnings) {
     for (const auto& [name, row] : samples.wrong_columns) {
         const std::string_view key = key_of_column(name);
-        const std::string fault = noun + " " + std::to_string(row) + " has no " +
-                                  (largest_in_column(name) == 1 ? "0 or 1" : "whole number") +
-                                  " in the column " + name;
+        std::string fault = noun + " " + std::to_string(row) + " has no " +
+                            (largest_in_column(name) == 1 ? "0 or 1" : "whole number") +
+                            " in the column ";
+        fault += name;
         if (!key.empty() && samples.header.find(key) != nullptr) {
             fail_input(samples.path, fault);
         }

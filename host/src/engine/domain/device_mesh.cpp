@@ -387,7 +387,8 @@ void add_keys(PlacedSurfaces surfaces, UploadParts& parts) {
                              store(out, part_of(surfaces[i]));
                          }
                      }});
-    const std::size_t written = 2 * faces * sizeof(std::uint32_t) + parts.back().bytes();
+    const std::size_t written =
+        std::size_t{2} * faces * sizeof(std::uint32_t) + parts.back().bytes();
     parts.push_back({bytes - written, bytes > written ? 1u : 0u,
                      [rest = bytes - written](std::size_t, std::size_t, std::byte* out) {
                          std::memset(out, 0, rest); // Where the last row ends early.

@@ -73,7 +73,7 @@ Result<JobFrame> frame_of(const PreparedMesh& mesh, const SampleParams& params,
     auto frame = frame_of(mesh, params);
     SampleParams plain;
     plain.min_distance = params.min_distance;
-    const auto whole = frame ? frame_of(split_from, plain) : frame;
+    auto whole = frame ? frame_of(split_from, plain) : frame;
     if (!whole) {
         return whole;
     }

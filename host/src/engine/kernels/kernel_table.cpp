@@ -32,8 +32,8 @@ Interfaces read_interfaces() {
 } // namespace
 
 const KernelInterface& interface_of(Kernel kernel, bool texels) {
-    static const Interfaces interfaces = read_interfaces();
-    return interfaces[static_cast<std::size_t>(kernel)][texels];
+    static const Interfaces kInterfaces = read_interfaces();
+    return kInterfaces[static_cast<std::size_t>(kernel)][texels];
 }
 
 KernelVariant KernelVariant::of(Kernel kernel) const {
@@ -42,7 +42,8 @@ KernelVariant KernelVariant::of(Kernel kernel) const {
     if (declared.has_constant(gpu::kSpecDimension)) {
         variant.dimension = dimension;
     }
-#define GEODISK_SWITCH(name, constant) variant.name = name && declared.has_constant(gpu::constant);
+#define GEODISK_SWITCH(name, constant)                                                             \
+    variant.name = (name) && declared.has_constant(gpu::constant);
     GEODISK_KERNEL_SWITCHES(GEODISK_SWITCH)
 #undef GEODISK_SWITCH
     return variant;

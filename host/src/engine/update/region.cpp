@@ -117,6 +117,7 @@ Result<std::vector<bool>> Region::accept(const MeshPart& part, const std::vector
         return accepted;
     }
     std::vector<ListedCandidate> points;
+    points.reserve(entries.size());
     for (const Entry& entry : entries) {
         points.push_back(entry.dart.point);
     }
