@@ -287,10 +287,12 @@ def test_distance_beyond_the_surface_needs_the_whole(tmp_path):
 
 def test_count_that_comes_to_a_distance_beyond_the_surface(tmp_path):
     """Process 0 then reads the whole, in the midst of the search."""
-    mesh = tmp_path / "lone.ply"
-    vertices, faces = grid(30, 30)
-    write_ply(mesh, vertices, faces, of_vertices={"g": [1.0] + [1 / 32] * (len(vertices) - 1)})
-    check_same(tmp_path, [str(mesh), "--radius-factor", "g", "--count", "61"], [2])
+    mesh = tmp_path / "rough.ply"
+    vertices, faces = grid(29, 18)
+    factors = [1.0 if i * 7 % 11 < 5 else 1 / 32 for i in range(len(vertices))]
+    write_ply(mesh, vertices, faces, of_vertices={"g": factors})
+    check_same(tmp_path, [str(mesh), "--radius-factor", "g", "--count", "73"], [1, 2],
+               more=["--parts", "4"])
 
 
 @pytest.mark.parametrize("spoil, message", [
