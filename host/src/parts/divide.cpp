@@ -60,10 +60,11 @@ class Division {
             is_own[face] = owners_[face] == process ? 1 : 0;
         }
         const double unit = part.reach;
-        part.reach = 0;
+        double largest = 0;
         for (std::uint32_t face = 0; face < mesh_.face_count(); ++face) {
-            part.reach = std::max(part.reach, is_own[face] != 0 ? unit * bound(face) : 0);
+            largest = std::max(largest, is_own[face] != 0 ? bound(face) : 0);
         }
+        part.reach = unit * (largest > 0 ? largest : 1);
         const std::vector<double> distances =
             distances_from(mesh_, is_own, 2 * std::max(part.reach, avoided_));
         std::vector<double> to_faces(mesh_.face_count());

@@ -44,6 +44,10 @@ constexpr double kCrowdedExisting = 4;
 constexpr double kBoundMargin = 0.002;
 constexpr double kMaxBound = 1e30;
 
+// Faces of a disk that all lanes of a CPU are ready for. Larger ones come one by one, and lanes
+// with room for them would be too few.
+constexpr double kReadyFaces = 2048;
+
 // Faces of a disk up to which all disks are alike for a job of several surfaces.
 constexpr double kSmallDisk = 32;
 
@@ -301,7 +305,7 @@ void SurfaceDomain::plan_disks(RunPlan& plan, std::uint32_t candidates,
                                const DeviceReport& report) const {
     const double faces = faces_per_disk();
     // Some disks are much larger than most; a CPU's few lanes can all be ready for them.
-    const double largest = faces_of_largest();
+    const double largest = std::min(faces_of_largest(), std::max(faces, kReadyFaces));
     const bool cpu = report.type == VK_PHYSICAL_DEVICE_TYPE_CPU;
     const bool may_group =
         plan.disks_by != DisksBy::lanes && !kernels.records() && !kernels.bounded;

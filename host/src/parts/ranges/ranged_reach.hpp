@@ -12,7 +12,7 @@
 
 namespace geodisk {
 
-/// Bounds of what reaches() bounds. Space is divided into cubes; each process tells which its faces
+/// Bounds what reaches() does. Space is divided into cubes; each process tells which its faces
 /// touch, and the largest radius there. No path is shorter than the gap between the cubes where it
 /// ends.
 class RangedReach {
@@ -40,8 +40,7 @@ class RangedReach {
     double side_;
     double min_distance_;
     double on_own_ = 1;
-    std::map<Cube, float>
-        radii_; ///< Largest in all cubes that faces touch; empty if they do not vary.
+    std::map<Cube, float> radii_;   ///< Largest in cubes that faces touch; empty if all are equal.
     std::map<Cube, double> bounds_; ///< Of the cubes that were asked for.
 };
 
