@@ -64,18 +64,20 @@ class Division {
         for (std::uint32_t face = 0; face < mesh_.face_count(); ++face) {
             largest = std::max(largest, is_own[face] != 0 ? bound(face) : 0);
         }
-        part.reach = unit * (largest > 0 ? largest : 1);
+        largest = largest > 0 ? largest : 1;
+        part.reach = unit * largest;
         const std::vector<double> distances =
-            distances_from(mesh_, is_own, 2 * std::max(part.reach, avoided_));
+            distances_from(mesh_, is_own, std::max(unit * widths_for(largest).all, 2 * avoided_));
         std::vector<double> to_faces(mesh_.face_count());
-        const auto reach = [&](std::uint32_t face) {
-            return std::min(part.reach, unit * bound(face));
+        const auto widths = [&](std::uint32_t face) {
+            return widths_for(std::min(largest, bound(face)));
         };
-        const auto is_within = [&](std::uint32_t face) { return to_faces[face] <= reach(face); };
+        const auto is_within = [&](std::uint32_t face) {
+            return to_faces[face] <= unit * widths(face).near;
+        };
         for (std::uint32_t face = 0; face < mesh_.face_count(); ++face) {
             to_faces[face] = nearest_corner(mesh_, distances, face);
-            // Disks of near samples reach as far again.
-            if (to_faces[face] > 2 * std::max(reach(face), avoided_)) {
+            if (to_faces[face] > std::max(unit * widths(face).all, 2 * avoided_)) {
                 continue;
             }
             part.faces.push_back(face);

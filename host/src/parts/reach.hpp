@@ -21,6 +21,20 @@ inline double reach_of(double raised) {
     return std::min(1.0, 2 / (1 - kReachSlope) * raised);
 }
 
+/// Widths around a part, in minimum distances.
+struct HaloWidths {
+    double near; ///< Of the faces whose samples it must know, and a few more, so that it guesses
+                 ///< most of them.
+    double all;  ///< Of the faces that disks of those cross.
+};
+
+/// Returns the widths where conflicts reach so far.
+inline HaloWidths widths_for(double reach) {
+    constexpr double kGuessed = 1.5;
+    const double near = std::min(1.0, kGuessed * reach);
+    return {near, near + reach};
+}
+
 /// Returns the bounds at the vertices of a mesh, in minimum distances. Inside a face the bound is
 /// at most the largest at its corners.
 std::vector<double> reaches(const PreparedMesh& mesh, const RadiusField& radii,

@@ -44,10 +44,6 @@ constexpr double kCrowdedExisting = 4;
 constexpr double kBoundMargin = 0.002;
 constexpr double kMaxBound = 1e30;
 
-// Faces of a disk that all lanes of a CPU are ready for. Larger ones come one by one, and lanes
-// with room for them would be too few.
-constexpr double kReadyFaces = 2048;
-
 // Faces of a disk up to which all disks are alike for a job of several surfaces.
 constexpr double kSmallDisk = 32;
 
@@ -225,8 +221,6 @@ SurfaceDomain::SurfaceDomain(std::vector<PlacedSurface> surfaces, FaceCells cell
         const PreparedMesh& mesh = *surface.mesh;
         const SampleParams& params = surface.params;
         full_ += std::max(2.0, expected_count(effective_area(mesh, params), params.min_distance));
-        const double area = mesh.statistics().area;
-        fewest_ += std::max(2.0, expected_count(area, params.min_distance));
         whole_ += std::max(2.0, expected_count(whole_area(mesh, params), params.min_distance));
         first_error_ = std::max(first_error_, surface.frame.error_bound);
         error.widen(ErrorModel(surface.frame));
@@ -304,8 +298,6 @@ std::uint64_t SurfaceDomain::max_candidates(const DeviceLimits& limits, std::uin
 void SurfaceDomain::plan_disks(RunPlan& plan, std::uint32_t candidates,
                                const DeviceReport& report) const {
     const double faces = faces_per_disk();
-    // Some disks are much larger than most; a CPU's few lanes can all be ready for them.
-    const double largest = std::min(faces_of_largest(), std::max(faces, kReadyFaces));
     const bool cpu = report.type == VK_PHYSICAL_DEVICE_TYPE_CPU;
     const bool may_group =
         plan.disks_by != DisksBy::lanes && !kernels.records() && !kernels.bounded;
@@ -320,9 +312,10 @@ void SurfaceDomain::plan_disks(RunPlan& plan, std::uint32_t candidates,
         plan.disks_by = DisksBy::lanes;
         // A CPU runs as many lanes as it has; a GPU is to have one for every slot.
         plan.lanes = cpu ? std::min(plan.slots, cpu_lanes(report)) : plan.slots;
-        plan.window_capacity = pow2_at_least(cpu ? 128 + 2 * largest : 32 + 2 * faces);
+        // Some disks are much larger than most; a CPU's few lanes can all be ready for them.
+        plan.window_capacity = pow2_at_least((cpu ? 128 : 32) + 2 * faces);
     }
-    plan.table_capacity = pow2_at_least(cpu ? 48 + 4 * largest : 16 + 4 * faces);
+    plan.table_capacity = pow2_at_least((cpu ? 48 : 16) + 4 * faces);
     const double crowd = class_crowding(surfaces_[0].params) * candidates / full_;
     plan.list_capacity = pow2_at_least(std::max(kMinList, kListPerCrowd * crowd));
     plan.error_bound = first_error_;

@@ -65,7 +65,6 @@ class SurfaceDomain : public Domain::Impl {
     /// Returns what the host gives of a buffer of candidates.
     std::span<const std::uint32_t> listed_words(BufferRole role) const;
     double faces_per_disk() const { return 2.0 * face_count(surfaces_) / whole_; }
-    double faces_of_largest() const { return 2.0 * face_count(surfaces_) / fewest_; }
 
     std::vector<PlacedSurface> surfaces_;
     double first_error_ = 0;
@@ -74,7 +73,6 @@ class SurfaceDomain : public Domain::Impl {
     std::vector<float> bounds_;      ///< In units of the frame, whole rows.
     ListedBuffers listed_;           ///< Empty unless the host gives the candidates.
     double full_ = 0;                ///< Samples that full surfaces hold, at least two each.
-    double fewest_ = 0;              ///< Samples if all had the largest radius.
     double whole_ = 0; ///< The same without masks: no disk covers more than all faces.
 };
 

@@ -11,6 +11,7 @@
 #include "parts/ranges/ranged_halo.hpp"
 #include "parts/ranges/ranged_reach.hpp"
 #include "parts/ranges/talk.hpp"
+#include "parts/reach.hpp"
 #include "support/try.hpp"
 
 namespace geodisk {
@@ -171,7 +172,7 @@ Result<std::unique_ptr<Part>> RangedSurface::part(Exchange& exchange, const Samp
         RangedReach reach(talk, known, params.min_distance);
         const double unit = part->reach;
         part->reach = unit * reach.on_own();
-        const auto halo = find_halo(talk, known, 2 * part->reach);
+        const auto halo = find_halo(talk, known, unit * widths_for(reach.on_own()).all);
         const auto bounds = bounds_of(talk, known, halo, reach);
         std::vector<WholeFace> faces;
         const std::size_t count = faces_.size() + halo.size();
@@ -187,14 +188,14 @@ Result<std::unique_ptr<Part>> RangedSurface::part(Exchange& exchange, const Samp
         auto own = faces_.begin();
         for (std::size_t i = 0; i < halo.size(); ++i) {
             const HaloFace& one = halo[i];
-            const double reach_there = std::min(part->reach, unit * bounds[i]);
-            if (one.distance > 2 * reach_there) {
+            const HaloWidths widths = widths_for(std::min(reach.on_own(), bounds[i]));
+            if (one.distance > unit * widths.all) {
                 continue;
             }
             for (; own != faces_.end() && own->face < one.face.face; ++own) {
                 add(*own, FaceRole::own);
             }
-            const bool is_near = one.distance <= reach_there;
+            const bool is_near = one.distance <= unit * widths.near;
             add(one.face, is_near ? FaceRole::near : FaceRole::surface);
             if (is_near) {
                 near[one.owner].push_back(one.face.face);
