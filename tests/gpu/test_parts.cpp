@@ -179,6 +179,16 @@ TEST_SUITE("parts") {
             check_parts(hills, params_for(hills, 3000, 1, &field), {3, 7});
         }
         const RadiusField field = radius_field(hills, smooth);
+        // Points to avoid that keep out less than samples do.
+        SampleParams avoiding = params_for(hills, 3000, 1, &field);
+        std::vector<KeepOut> points;
+        for (std::uint32_t face = 0; face < hills.face_count(); face += 97) {
+            KeepOut& point = points.emplace_back();
+            point.center = {face, {0.25f, 0.25f, 0.5f}};
+            point.radius = 0.02 * avoiding.min_distance;
+        }
+        avoiding.avoid = points;
+        check_parts(hills, avoiding, {3, 7});
         const SampleParams params = params_for(hills, 20000, 1, &field);
         const SharedSamples result = expect(in_parts(hills, params, 5, grown, 0x1p26));
         std::uint64_t faces = 0;

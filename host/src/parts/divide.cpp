@@ -107,7 +107,7 @@ class Division {
                 [&](const DrawnCandidate& dart) { return is_within(dart.point.face); });
         }
         for (KeepOut avoided : params_.avoid) {
-            if (to_faces[avoided.center.face] <= std::max(part.reach, avoided_)) {
+            if (to_faces[avoided.center.face] <= avoided_) {
                 avoided.center.face = local(part, avoided.center.face);
                 part.avoid.push_back(avoided);
             }

@@ -59,6 +59,9 @@ std::uint32_t place_in(const std::vector<std::uint32_t>& faces, std::uint32_t fa
 /// Returns how far conflicts may be from each face of a halo, in minimum distances.
 std::vector<double> bounds_of(Talk& talk, const KnownSurface& known, std::span<const HaloFace> halo,
                               RangedReach& reach) {
+    if (known.fields.radii() == nullptr) {
+        return std::vector<double>(halo.size(), 1.0);
+    }
     std::vector<WholeFace> faces;
     faces.reserve(halo.size());
     for (const HaloFace& one : halo) {
