@@ -15,6 +15,7 @@ class Geodisk(ConanFile):
     name = "geodisk"
     license = "MIT"
     description = "Random points on triangle meshes, no two closer than a minimum distance along the surface"
+    homepage = "https://github.com/geodisk/geodisk"
     topics = ("poisson-disk", "blue-noise", "mesh", "geodesic", "vulkan")
     package_type = "library"
     settings = "os", "arch", "compiler", "build_type"
