@@ -45,6 +45,7 @@ struct Checkpoint {
     std::uint64_t candidates = 0;
     Darts samples; ///< In dart order, without those that were given.
 };
+/// Stage of a checkpoint in which all are decided.
 inline constexpr std::uint32_t kNoStage = std::numeric_limits<std::uint32_t>::max();
 
 /// Saves a checkpoint. An error ends the work of all processes.

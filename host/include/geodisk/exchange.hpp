@@ -48,7 +48,9 @@ class GEODISK_API Exchange {
     Exchange& operator=(const Exchange&) = delete;
     virtual ~Exchange();
 
+    /// Returns the number of this process, from 0.
     virtual std::uint32_t rank() const = 0;
+    /// Returns how many processes there are.
     virtual std::uint32_t size() const = 0;
 
     // A process may stand for several of those counted above, each a thread that decides a part.
@@ -68,6 +70,7 @@ class GEODISK_API Exchange {
     /// Returns the sum of each value over all processes, which give equally many.
     virtual Result<std::vector<std::uint64_t>> sums(std::vector<std::uint64_t> values) = 0;
 
+    /// Returns the sum of a value over all processes.
     Result<std::uint64_t> sum(std::uint64_t value);
 
     // All of these take the first process for the root. Its message to itself costs nothing.
@@ -108,15 +111,17 @@ class GEODISK_API Exchange {
     std::vector<std::uint32_t> all_others() const;
 };
 
-/// Appends values to a message: each vector behind its size.
+/// Appends values to a message.
 class MessageWriter {
   public:
+    /// Appends the bytes of a value.
     template <class T>
     void put(const T& value) {
         static_assert(std::is_trivially_copyable_v<T>);
         const auto* const first = reinterpret_cast<const std::byte*>(&value);
         bytes_.insert(bytes_.end(), first, first + sizeof value);
     }
+    /// Appends a vector behind its size.
     template <class T>
     void put_all(const std::vector<T>& values) {
         put(std::uint64_t{values.size()});
@@ -129,17 +134,20 @@ class MessageWriter {
     Bytes bytes_;
 };
 
-/// Reads values in the same order. What is not there is zero or empty, and makes it incomplete.
+/// Reads values in the same order. A value that is not there makes it incomplete.
 class MessageReader {
   public:
+    /// Reads from bytes that outlive it.
     explicit MessageReader(std::span<const std::byte> bytes) : bytes_(bytes) {}
 
+    /// Reads a value; one that is not there keeps what it was.
     template <class T>
     void get(T& value) {
         if (take(sizeof value)) {
             std::memcpy(&value, taken_.data(), sizeof value);
         }
     }
+    /// Reads a vector behind its size; one that is not there keeps what it was.
     template <class T>
     void get_all(std::vector<T>& values) {
         std::uint64_t size = 0;

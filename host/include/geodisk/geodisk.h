@@ -54,7 +54,7 @@
 #define GEODISK_C_API __declspec(dllimport)
 #endif
 
-/* Initializes a struct: its size, and 0 for all other fields. In C it initializes a declaration. */
+/* Returns a struct with its size, and 0 for all other fields. */
 #ifdef __cplusplus
 extern "C++" template <class Struct>
 inline Struct geodisk_init() {
@@ -62,6 +62,7 @@ inline Struct geodisk_init() {
     value.struct_size = sizeof value;
     return value;
 }
+/* Initialized struct of a type; in C, the initializer of a declaration. */
 #define GEODISK_INIT(type) geodisk_init<type>()
 #else
 #define GEODISK_INIT(type) {.struct_size = sizeof(type)}

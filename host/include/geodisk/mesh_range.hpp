@@ -20,8 +20,11 @@ struct MeshBlocks {
     std::uint64_t each() const {
         return std::max<std::uint64_t>(1, (count + processes - 1) / processes);
     }
+    /// Returns the first number of a process.
     std::uint64_t first(std::uint32_t process) const { return std::min(count, each() * process); }
+    /// Returns how many numbers a process has.
     std::uint64_t size(std::uint32_t process) const { return first(process + 1) - first(process); }
+    /// Returns the process that has a number.
     std::uint32_t owner(std::uint64_t number) const {
         return static_cast<std::uint32_t>(number / each());
     }

@@ -48,9 +48,11 @@ GEODISK_API const char* to_string(RequestField field) noexcept;
 class RequestFields {
   public:
     constexpr RequestFields() noexcept = default;
+    /// Adds a field, if it is set.
     constexpr void add(RequestField field, bool is_set = true) noexcept {
         bits_ |= std::uint32_t{is_set} << static_cast<unsigned>(field);
     }
+    /// Returns true if the field is set.
     constexpr bool has(RequestField field) const noexcept {
         return (bits_ >> static_cast<unsigned>(field) & 1) != 0;
     }
@@ -59,8 +61,9 @@ class RequestFields {
     std::uint32_t bits_ = 0;
 };
 
-/// Return the fields that parameters, or a request, set.
+/// Returns the fields that parameters set.
 GEODISK_API RequestFields fields_of(const SampleParams& params) noexcept;
+/// Returns the fields that a request sets.
 GEODISK_API RequestFields fields_of(const SampleRequest& request) noexcept;
 
 /// Two fields that exclude each other.

@@ -2,6 +2,8 @@
 
 Distances are exact geodesic ones, computed on a Vulkan device, a GPU's or the CPU's.
 
+Examples
+--------
 >>> import geodisk
 >>> box = geodisk.sample_box([1, 1], min_distance=0.1)
 >>> len(box) > 50

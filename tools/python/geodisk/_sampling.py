@@ -247,15 +247,15 @@ def sample_box(
 ) -> Samples:
     """Returns random points in a box, no two closer than a minimum distance.
 
+    The other parameters, the result and the errors are those of :func:`sample`; `face_index`,
+    `barycentric` and `normals` of the result are None.
+
     Parameters
     ----------
     extents : sequence of float
         One to six sides; the box begins at the origin.
     periodic : bool
         Glue opposite sides together: distances wrap around.
-
-    The other parameters, the result and the errors are those of :func:`sample`; `face_index`,
-    `barycentric` and `normals` of the result are None.
 
     Examples
     --------
