@@ -72,6 +72,8 @@ def test_every_guide_is_told_of():
     page = GUIDES.read_text()
     for program in (SOURCE / "tools/examples/guides").iterdir():
         assert f"`tools/examples/guides/{program.name}`" in page, program.name
+    for notebook in (SOURCE / "tools/examples/notebooks").glob("*.ipynb"):
+        assert f"| `{notebook.name}` |" in page, notebook.name
 
 
 def test_public_names_are_stable_or_experimental():
