@@ -26,8 +26,13 @@ def needs_of(book):
 
 
 @pytest.fixture(params=sorted(NOTEBOOKS.glob("*.ipynb")), ids=lambda path: path.stem)
-def book(request):
-    return nbformat.read(request.param, 4)
+def path(request):
+    return request.param
+
+
+@pytest.fixture
+def book(path):
+    return nbformat.read(path, 4)
 
 
 def test_is_stored_without_outputs(book):
@@ -41,12 +46,13 @@ def test_says_what_it_needs(book):
     assert {*needs_of(book), "numpy"} == {*imported} - sys.stdlib_module_names
 
 
-def test_runs_and_shows_one_picture(book, tmp_path):
+def test_runs_and_shows_one_picture(path, book, tmp_path_factory):
     missing = [name for name in needs_of(book) if not importlib.util.find_spec(name)]
     if missing:
         pytest.skip(f"not installed: {', '.join(missing)}")
-    nbclient.NotebookClient(book, timeout=300, resources={"metadata": {"path": str(tmp_path)}}).execute()
+    folder = tmp_path_factory.mktemp(path.stem, numbered=False)
+    nbclient.NotebookClient(book, timeout=300, resources={"metadata": {"path": str(folder)}}).execute()
     outputs = [output for cell in code_of(book) for output in cell.outputs]
     (picture,) = (output.data["image/png"] for output in outputs if "image/png" in output.get("data", {}))
-    (tmp_path / "picture.png").write_bytes(base64.b64decode(picture))
-    nbformat.write(book, tmp_path / "run.ipynb")
+    (folder / "picture.png").write_bytes(base64.b64decode(picture))
+    nbformat.write(book, folder / path.name)
