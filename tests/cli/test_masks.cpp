@@ -2,11 +2,16 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cstdint>
+#include <filesystem>
 #include <string>
+#include <string_view>
+#include <utility>
 
 #include "cli/command.hpp"
 #include "files/samples/sample_file.hpp"
 #include "unit/png_bytes.hpp"
+#include "unit/test_files.hpp"
 
 namespace geodisk::test {
 namespace {
@@ -99,6 +104,75 @@ TEST_CASE("samples lie on the parts of a mesh that are named") {
     CHECK(std::ranges::all_of(file.extra_values("part"), [](auto v) { return v == 0; }));
     CHECK(*file.header.find("only") == "material:steel");
     CHECK(*file.header.find("material") == "0 red wood");
+}
+
+TEST_CASE("values of vertices in files are masks, by number or by name") {
+    const TemporaryFolder folder;
+    folder.write("m.obj", kObj);
+    // The first four of ten vertices are of "left", one of them of no label; the others of "right".
+    std::string annotation = tools::big_endian(10);
+    for (std::uint32_t v = 0; v < 10; ++v) {
+        const bool is_left = v == 0 || v == 1 || v == 3 || v == 4;
+        annotation += tools::big_endian(v) + tools::big_endian(is_left ? 5 : 9);
+    }
+    annotation += tools::big_endian(1) + tools::big_endian(2) + tools::big_endian(0);
+    for (const auto& [name, red] :
+         {std::pair<std::string, std::uint32_t>{"left", 5}, {"right", 9}}) {
+        annotation += tools::big_endian(static_cast<std::uint32_t>(name.size())) + name;
+        for (const std::uint32_t part : {red, 0u, 0u, 0u}) {
+            annotation += tools::big_endian(part);
+        }
+    }
+    folder.write("lh.a.annot", annotation);
+    folder.write("lh.a.label", "#!ascii label\n5\n0 0 0 0 0\n1 1 0 0 0\n3 0 1 0 0\n4 1 1 0 0\n"
+                               "2 2 0 0 0\n");
+    folder.write("a.txt", "0\n1\n2\n3\n4\n5\n6\n7\n8\n9\n");
+    check_faces(folder, "m.obj", {"--mask", "file:lh.a.annot=left"}, {0, 1});
+    check_faces(folder, "m.obj", {"--mask", "file:lh.a.annot!=left"}, {4, 5});
+    check_faces(folder, "m.obj", {"--mask", "file:lh.a.annot=1"}, {4, 5});
+    check_faces(folder, "m.obj", {"--mask", "file:lh.a.annot"}, {4, 5});
+    check_faces(folder, "m.obj", {"--mask", "file:lh.a.label"}, {0, 1});
+    check_faces(folder, "m.obj", {"--mask", "file:lh.a.label<1"}, {4, 5});
+    check_faces(folder, "m.obj", {"--mask", "file:a.txt<5", "--mask", "file:a.txt>=-1"}, {0, 1});
+    check_faces(folder, "m.obj", {"--density", "file:lh.a.label"}, {0, 1, 2, 3});
+
+    const Arguments sample{"sample", "m.obj", "-d", "0.1", "-o", "b.csv"};
+    const Outcome made = run(folder, joined(sample, {"--attributes", "file:lh.a.annot"}));
+    INFO(made.err);
+    REQUIRE(made.status == 0);
+    const std::string text = tools::bytes_of(folder / "b.csv");
+    CHECK(contains(text, "# attributes: file:lh.a.annot\n"));
+    CHECK(contains(text, ",lh.a.annot\n"));
+    std::filesystem::remove(folder / "b.csv");
+
+    const auto check = [&](const Arguments& options, int status, std::string_view part) {
+        const Outcome outcome = run(folder, joined(sample, options));
+        INFO(outcome.err);
+        CHECK(outcome.status == status);
+        CHECK(contains(outcome.err, part));
+        CHECK_FALSE(std::filesystem::exists(folder / "b.csv"));
+    };
+    folder.write("short.txt", "1\n2\n");
+    folder.write("s.stl", "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\n"
+                          "vertex 0 1 0\nendloop\nendfacet\nendsolid a\n");
+    check({"--mask", "file:lh.a.annot=lefty"}, 3,
+          "lh.a.annot: has no value called 'lefty'; did you mean left");
+    check({"--mask", "file:a.txt=left"}, 3,
+          "a.txt: has no value called 'left', as its values have no names");
+    check({"--mask", "file:lh.a.annot<left"}, 2, "is not PROPERTY<VALUE");
+    check({"--mask", "file:"}, 2, "names nothing");
+    check({"--mask", "file:short.txt"}, 3,
+          "short.txt: has 2 values for the 10 vertices of the mesh");
+    check({"--mask", "file:none.txt"}, 3, "none.txt");
+    check({"--mask", "lh.a.label"}, 2, "file:lh.a.label for values");
+    const Outcome stl =
+        run(folder, {"sample", "s.stl", "-d", "0.1", "-o", "b.csv", "--mask", "file:a.txt"});
+    CHECK(stl.status == 2);
+    CHECK(contains(stl.err, "file:a.txt needs numbers of vertices, which s.stl has not"));
+    const Outcome over = run(folder, {"sample", "m.obj", "-d", "0.1", "-o", "a.txt", "--format",
+                                      "csv", "--attributes", "file:a.txt"});
+    CHECK(over.status == 2);
+    CHECK(tools::bytes_of(folder / "a.txt").starts_with("0\n1\n"));
 }
 
 TEST_CASE("samples lie on nodes and materials of glTF") {

@@ -3,6 +3,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <initializer_list>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -286,12 +287,41 @@ void read_as_side_files(const FuzzedFile& file) {
         lengths.between(0, 1);
     } catch (const UserError&) {
     }
-    read_values(file.path);
+    read_values(file.path, 100);
 }
 
 std::vector<std::string> side_seeds(const std::string&) {
     return {"0 0 0 0.5\n1 0 0 1 # a comment\n", "1 2 0.5\n2 3 1e-3\n", "0.5\n\n1\n",
             std::string("\xff\xff\xff\0\0\0\1\0\0\0\1\0\0\0\1\x3f\0\0\0", 19)};
+}
+
+/// All vertices must have a value, or the file is refused.
+void read_as_values(const FuzzedFile& file) {
+    constexpr std::size_t kVertices = 100;
+    const VertexValues values = read_values(file.path, kVertices);
+    if (file.path.extension() == ".label") {
+        require_in_fuzzer(values.values.size() == kVertices);
+    }
+    require_in_fuzzer(values.values.size() <= file.bytes.size() + kVertices);
+}
+
+/// Returns annotations with tables of either form, and a list of vertices.
+std::vector<std::string> value_seeds(const std::string& format) {
+    if (format == "label") {
+        return {"#!ascii label  , from subject a vox2ras=TkReg\n2\n0  1.5 2 -3 0.25\n3  1 2 3 0\n"};
+    }
+    const auto words = [](std::initializer_list<int> numbers) {
+        std::string bytes;
+        for (const int number : numbers) {
+            bytes += big_endian(static_cast<std::uint32_t>(number));
+        }
+        return bytes;
+    };
+    const std::string vertices = words({3, 0, 0x030201, 1, 0, 2, 0x060504, 1});
+    return {vertices + words({2, 1}) + '\0' + words({2}) + "a\0" + words({1, 2, 3, 0, 1}) + 'b' +
+                words({4, 5, 6, 0}),
+            vertices + words({-2, 9, 2}) + "t\0" + words({2, 0, 2}) + "a\0" +
+                words({1, 2, 3, 0, 8, 1}) + 'b' + words({4, 5, 6, 0})};
 }
 
 void read_as_image(const FuzzedFile& file) {
@@ -373,6 +403,7 @@ constexpr Reader kFileReaders[] = {
     {"mesh", "", read_as_mesh, mesh_seeds},
     {"samples", "", read_as_samples, sample_seeds},
     {"side_files", "side.txt", read_as_side_files, side_seeds},
+    {"values", "", read_as_values, value_seeds},
     {"image", "image", read_as_image, image_seeds},
     {"mtl", "fuzzed.mtl", read_as_mtl, mtl_seeds},
     {"tuning", "tuning.json", read_as_tuning, tuning_seeds},

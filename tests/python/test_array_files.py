@@ -132,6 +132,32 @@ def test_values_of_vertices_are_a_density(name, tmp_path):
     assert len(samples) > 50 and samples.points[:, 0].min() > -0.5
 
 
+@pytest.mark.skipif("GEODISK_COMMAND" not in os.environ, reason="needs the program")
+def test_annotations_and_labels_of_freesurfer_are_masks(tmp_path):
+    nibabel = pytest.importorskip("nibabel")
+    vertices = np.asarray(VERTICES)
+    numbers = (vertices[:, 0] > 0).astype(int) * 2  # Of "c" and "a".
+    table = np.array([[10, 20, 30, 0, 0], [1, 2, 3, 0, 0], [40, 50, 60, 0, 0]])
+    nibabel.freesurfer.write_annot(tmp_path / "lh.a.annot", numbers, table, ["a", "b", "c"], fill_ctab=True)
+    inside = np.flatnonzero(numbers)
+    lines = [f"{v} {' '.join(map(str, vertices[v]))} 0.0" for v in inside]
+    (tmp_path / "lh.c.label").write_text(f"#!ascii label , from subject a\n{len(inside)}\n" + "\n".join(lines) + "\n")
+    assert np.array_equal(nibabel.freesurfer.read_label(tmp_path / "lh.c.label"), inside)
+    nibabel.freesurfer.write_geometry(tmp_path / "lh.white", vertices, np.asarray(FACES))
+
+    mesh = geodisk.Mesh(tmp_path / "lh.white", attributes=[f"file:{tmp_path}/lh.a.annot"])
+    assert np.array_equal(mesh.attributes["lh.a.annot"], nibabel.freesurfer.read_annot(tmp_path / "lh.a.annot")[0])
+    found = []
+    for mask in ["file:lh.a.annot=c", "file:lh.c.label"]:
+        command = [os.environ["GEODISK_COMMAND"], "sample", "lh.white", "-d", "0.3", "-q", "-o", "a.npz"]
+        subprocess.run([*command, "--mask", mask], cwd=tmp_path, check=True)
+        samples = geodisk.read(tmp_path / "a.npz")
+        assert numbers[mesh.triangles[samples.face_index]].all()
+        found.append(samples.points)
+        os.remove(tmp_path / "a.npz")
+    assert len(found[0]) > 50 and np.array_equal(*found)
+
+
 def test_samples_are_points_of_vtk_with_their_columns(sphere, tmp_path):
     pyvista = pytest.importorskip("pyvista")
     sphere.save(tmp_path / "a.vtp")

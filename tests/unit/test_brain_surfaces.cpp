@@ -7,11 +7,29 @@
 #include "test_files.hpp"
 
 #include <bit>
+#include <cstdint>
 #include <string>
+#include <vector>
 
 using namespace geodisk::tools;
 
 namespace {
+
+/// Big-endian numbers, one after the other.
+std::string words(const std::vector<std::int32_t>& numbers) {
+    std::string bytes;
+    for (const std::int32_t number : numbers) {
+        bytes += big_endian(static_cast<std::uint32_t>(number));
+    }
+    return bytes;
+}
+
+/// Four vertices: of the colour 1 2 3, of none, of the colour 4 5 6, and of an unknown one.
+const std::string kAnnotated = words({4, 1, 0, 0, 0x030201, 2, 0x060504, 3, 77});
+const std::string kOldTable = words({1, 2, 2}) + "t" + '\0' + words({5}) + "left" + '\0' +
+                              words({1, 2, 3, 0, 5}) + "right" + words({4, 5, 6, 0});
+const std::string kNewTable = words({1, -2, 9, 2}) + "t" + '\0' + words({2, 3, 5}) + "left" + '\0' +
+                              words({1, 2, 3, 0, 8, 5}) + "right" + words({4, 5, 6, 0});
 
 using BrainCorners = std::vector<std::uint32_t>;
 
@@ -170,10 +188,10 @@ TEST_CASE("FreeSurfer's surfaces are known by their first bytes, or as text by .
 TEST_CASE("values of vertices are those of GIFTI and FreeSurfer") {
     const TemporaryFolder folder;
     const auto check = [&](std::string_view name, const std::string& bytes) {
-        CHECK(read_values(folder.write(name, bytes)) == std::vector<double>{0.5, -1, 2});
+        CHECK(read_values(folder.write(name, bytes), 3).values == std::vector<double>{0.5, -1, 2});
     };
     const auto fails = [&](std::string_view name, const std::string& bytes, std::string_view part) {
-        check_fails(ExitCode::bad_input, part, [&] { read_values(folder.write(name, bytes)); });
+        check_fails(ExitCode::bad_input, part, [&] { read_values(folder.write(name, bytes), 3); });
     };
     const auto curv = [](std::uint32_t count, std::uint32_t each) {
         std::string bytes = "\xff\xff\xff" + big_endian(count) + big_endian(7) + big_endian(each);
@@ -193,4 +211,120 @@ TEST_CASE("values of vertices are those of GIFTI and FreeSurfer") {
     fails("a.gii", gifti(gifti_array(attributes_of("SHAPE", "FLOAT32", 3, 2), "1")),
           "has 2 values for each vertex");
     fails("a.gii", "<a/>", "is not the GIFTI");
+}
+
+TEST_CASE("annotations of FreeSurfer give vertices the numbers of their labels") {
+    const TemporaryFolder folder;
+    const auto check = [&](const std::string& bytes, double left, double right) {
+        const VertexValues read = read_values(folder.write("lh.a.annot", bytes), 4);
+        CHECK(read.values == std::vector<double>{left, -1, right, -1});
+        CHECK(read.is_whole);
+        REQUIRE(read.names.size() == 2);
+        CHECK(read.names[0].name == "left");
+        CHECK(read.names[0].value == left);
+        CHECK(read.names[1].name == "right");
+        CHECK(read.names[1].value == right);
+    };
+    check(kAnnotated + kOldTable, 0, 1);
+    check(kAnnotated + kNewTable, 3, 8);
+    check(kAnnotated + kNewTable + "more", 3, 8);
+
+    const auto fails = [&](const std::string& bytes, std::string_view part) {
+        CAPTURE(part);
+        check_fails(ExitCode::bad_input, part,
+                    [&] { read_values(folder.write("lh.a.annot", bytes), 4); });
+    };
+    fails("", "byte 0: the file ends before the number of vertices");
+    fails(words({2000000000}), "lh.a.annot: byte 0: the number of vertices is 2000000000, but 4 "
+                               "bytes are left");
+    fails(words({-2000000000}), "the number of vertices is -2000000000");
+    fails(words({1, 1, 0}), "byte 4: vertex 1 is out of range, the file has 1 vertex");
+    fails(words({2, 0, 0, 0, 0}), "byte 12: vertex 0 has two labels");
+    fails(kAnnotated, "has no colour table, which numbers and names its labels");
+    fails(kAnnotated + words({0}), "has no colour table");
+    fails(kAnnotated + words({1, -3}), "the colour table has version 3; version 2 is read");
+    fails(kAnnotated + words({1, 2000000000}), "the number of labels is 2000000000, but 4 bytes");
+    fails(kAnnotated + words({1, -2, 9, 2000000000}),
+          "the length of the name of the table is 2000");
+    fails(kAnnotated + words({1, -2, 9, 0, 2000000000}), "the number of labels is 2000000000");
+    fails(kAnnotated + words({1, -2, 9, 0, 1, -5, 0, 0, 0, 0, 0}), "a label has the number -5");
+    for (const std::string& whole : {kAnnotated + kOldTable, kAnnotated + kNewTable}) {
+        for (std::size_t size = 0; size < whole.size(); ++size) {
+            fails(whole.substr(0, size), "");
+        }
+    }
+}
+
+TEST_CASE("lists of vertices of FreeSurfer are 1 inside and 0 outside") {
+    const TemporaryFolder folder;
+    const std::string head = "#!ascii label  , from subject a vox2ras=TkReg\n";
+    const std::string rows = "2  1.5 -2 3 0.25\r\n0  1 2 3 0\n";
+    const std::vector<double> expected{1, 0, 1, 0};
+    CHECK(read_values(folder.write("lh.cortex.label", head + "2\n" + rows), 4).values == expected);
+    CHECK(read_values(folder.write("any", head + "2\n" + rows), 4).values == expected);
+    CHECK(read_values(folder.write("a.label", "# by hand\n2\n2\n\n0\n"), 4).values == expected);
+    const VertexValues none = read_values(folder.write("a.label", head + "0\n"), 4);
+    CHECK(none.values == std::vector<double>(4, 0));
+    CHECK(none.is_whole);
+    const auto fails = [&](const std::string& bytes, std::string_view part) {
+        CAPTURE(bytes);
+        check_fails(ExitCode::bad_input, part,
+                    [&] { read_values(folder.write("a.label", bytes), 4); });
+    };
+    fails("", "ends before its number of vertices");
+    fails(head, "ends before its number of vertices");
+    fails(head + rows, "line 2: has no number of vertices, as a list of FreeSurfer does");
+    fails(head + "-2\n" + rows, "line 2: has no number of vertices");
+    fails(head + "4000000000\n" + rows, "ends after 2 of 4,000,000,000 vertices");
+    fails(head + "1\n" + rows, "line 4: follows the last of 1 vertex");
+    fails(head + "1\n4 0 0 0 0\n", "line 3: vertex 4 is out of range, the mesh has 4 vertices");
+    fails(head + "1\n-1 0 0 0 0\n", "line 3: has a point of space instead of a vertex (-1)");
+    fails(head + "1\n1.5 0 0 0 0\n", "line 3: '1.5' is not the number of a vertex");
+    fails(head + "1\n" + std::string(3, '\0') + "\n", "line 3: contains a NUL byte");
+}
+
+TEST_CASE("values of a file become attributes, with the names that it has for them") {
+    const TemporaryFolder folder;
+    const std::string square = gifti(kPoints + kTriangles);
+    folder.write("lh.a.annot", kAnnotated + kNewTable);
+    folder.write("b.txt", "0.5\n1\n-1\n2\n");
+    MeshSources sources;
+    sources.mesh = folder.write("a.surf.gii", square).string();
+    const std::string annotation = (folder / "lh.a.annot").string();
+    const std::string values = (folder / "b.txt").string();
+    sources.fields = parse_fields("file:" + values + ",file:" + annotation);
+    sources.fields.numbers = {"file:" + annotation};
+    const MeshFile mesh = read_mesh(sources);
+    REQUIRE(mesh.fields.size() == 2);
+    CHECK(mesh.fields[0].name == "b.txt");
+    CHECK_FALSE(mesh.fields[0].is_whole);
+    CHECK(values_of(mesh, "b.txt") == std::vector<double>{0.5, 1, -1, 2});
+    CHECK(mesh.fields[1].is_whole);
+    CHECK(values_of(mesh, "lh.a.annot") == std::vector<double>{3, -1, 8, -1});
+    const MeshField& number = mesh.number("file:" + annotation);
+    CHECK(number.value_names.size() == 2);
+    CHECK(number.values == std::vector<double>{3, -1, 8, -1});
+
+    folder.write("b.txt", "1\n2\n");
+    check_fails(ExitCode::bad_input, "b.txt: has 2 values for the 4 vertices of the mesh",
+                [&] { read_mesh(sources); });
+    sources.fields = parse_fields("file:" + annotation + ",file:" + annotation + "2");
+    check_fails(ExitCode::bad_input, "lh.a.annot2", [&] { read_mesh(sources); });
+    sources.fields = parse_fields("file:");
+    check_fails(ExitCode::bad_input, "has no attribute 'file:'", [&] { read_mesh(sources); });
+}
+
+TEST_CASE("a table of labels of GIFTI names values") {
+    const TemporaryFolder folder;
+    const VertexValues read = read_values(
+        folder.write("a.label.gii",
+                     gifti("<LabelTable><Label Key=\"0\">none</Label><Label Key=\"7\" Red=\"1\">"
+                           "<![CDATA[a & b]]></Label></LabelTable>" +
+                           gifti_array(attributes_of("LABEL", "INT32", 3, 1), "7 0 7"))),
+        3);
+    CHECK(read.values == std::vector<double>{7, 0, 7});
+    CHECK(read.is_whole);
+    REQUIRE(read.names.size() == 2);
+    CHECK(read.names[1].name == "a & b");
+    CHECK(read.names[1].value == 7);
 }

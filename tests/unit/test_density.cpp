@@ -232,10 +232,11 @@ TEST_CASE("texture coordinates of PLY files belong to vertices") {
 
 TEST_CASE("files of values have one to a line") {
     const TemporaryFolder folder;
-    CHECK(read_values(folder.write("a.txt", "# g\n0.5\n\n 1 # one\r\n2e-1")) ==
+    CHECK(read_values(folder.write("a.txt", "# g\n0.5\n\n 1 # one\r\n2e-1"), 3).values ==
           std::vector<double>{0.5, 1, 0.2});
     const auto fails = [&](std::string_view bytes, std::string_view part) {
-        check_fails(ExitCode::bad_input, part, [&] { read_values(folder.write("b.txt", bytes)); });
+        check_fails(ExitCode::bad_input, part,
+                    [&] { read_values(folder.write("b.txt", bytes), 3); });
     };
     fails("1\n0.5 1\n", "line 2: has 2 numbers instead of one");
     fails("1\nx\n", "line 2: 'x' is not a number");

@@ -26,7 +26,7 @@ SampleFile read_vtp_samples(const Path& path, std::string&& /*bytes*/, SampleDom
     fail_without_xml(path);
 }
 
-std::vector<double> read_gifti_values(const Path& path) {
+VertexValues read_gifti_values(const Path& path) {
     fail_without_xml(path);
 }
 

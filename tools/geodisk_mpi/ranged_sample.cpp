@@ -12,6 +12,7 @@
 #include <geodisk/job_frame.hpp>
 
 #include "files/input_file.hpp"
+#include "files/meshes/value_fields.hpp"
 #include "files/samples/row_format.hpp"
 #include "files/samples/sample_format.hpp"
 #include "geodisk/inputs/mesh_input.hpp"
@@ -35,7 +36,9 @@ struct TakesWhole {
 bool has_ranged_fields(const SampleJob& job) {
     const auto density = job.density.source();
     return (!density || density->kind == DensitySource::Kind::attribute) && job.mask.only.empty() &&
-           std::ranges::none_of(job.mask.mask_rules(), &MaskRule::is_map);
+           std::ranges::none_of(job.mask.mask_rules(), [](const MaskRule& rule) {
+               return rule.is_map || value_file(rule.name);
+           });
 }
 
 /// Returns true for a job that needs no more of a mesh than its faces and properties, and a file

@@ -32,6 +32,12 @@ struct PartNames {
     std::vector<std::optional<std::uint32_t>> node_above; ///< Node that each one is below.
 };
 
+/// A name that a file gives to a value, such as that of a region of a brain.
+struct ValueName {
+    std::string name;
+    double value = 0;
+};
+
 /// Values of an attribute of a mesh file: colours, texture coordinates or any others.
 struct MeshField {
     enum class Of : std::uint8_t { vertices, corners, faces };
@@ -46,6 +52,7 @@ struct MeshField {
     std::vector<double> values; ///< All components of each vertex, index of a corner, or face.
     /// Index of the value of each corner, or kNone. Empty unless corners have values.
     std::vector<std::uint32_t> corners;
+    std::vector<ValueName> value_names; ///< Names of values, where the file has any.
 
     static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 };

@@ -283,7 +283,7 @@ PolygonMesh read_gifti(const Path& path, const WantedFields& fields) {
     return GiftiReader(file, fields).read();
 }
 
-std::vector<double> read_gifti_values(const Path& path) {
+VertexValues read_gifti_values(const Path& path) {
     const std::string bytes = read_file(path);
     const XmlFile file(path, bytes);
     check_root(file);
@@ -305,7 +305,14 @@ std::vector<double> read_gifti_values(const Path& path) {
         file.fail(found, "has " + counted(table.columns, "value", "values") +
                              " for each vertex; one is read");
     }
-    return arrays.numbers_in(found);
+    VertexValues result{arrays.numbers_in(found), {}, arrays.type_of(found)->is_whole};
+    for (const pugi::xml_node label : file.root().child("LabelTable").children("Label")) {
+        const char* const key = label.attribute(label.attribute("Key") ? "Key" : "Index").value();
+        if (const std::optional<double> value = parse_real(key)) {
+            result.names.push_back({label.child_value(), *value});
+        }
+    }
+    return result;
 }
 
 } // namespace geodisk::tools

@@ -335,6 +335,7 @@ void check_count(const Path& path, const MeshField& field, const MeshFile& mesh,
 MeshField one_number(const std::string& name, const MeshField& field) {
     MeshField number = make_field(name, field.of);
     number.corners = field.corners;
+    number.value_names = field.value_names;
     return number;
 }
 
@@ -596,12 +597,6 @@ void take_fields(const Path& path, const WantedFields& wanted, PolygonMesh& poly
         taker.take(*polygons.normals);
         mesh.normals = std::move(polygons.normals);
     }
-}
-
-void check_no_fields(const Path& path, const WantedFields& wanted) {
-    PolygonMesh none;
-    MeshFile mesh;
-    take_fields(path, wanted, none, mesh);
 }
 
 } // namespace geodisk::tools

@@ -71,7 +71,4 @@ void warn_left_out(const Path& path, std::string_view name, const UserError& err
 void take_fields(const Path& path, const WantedFields& wanted, PolygonMesh& polygons,
                  MeshFile& mesh);
 
-/// Throws UserError(bad_input) for the wanted attributes of a mesh that has none.
-void check_no_fields(const Path& path, const WantedFields& wanted);
-
 } // namespace geodisk::tools

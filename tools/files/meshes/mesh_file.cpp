@@ -13,6 +13,7 @@
 #include "files/meshes/file_scope.hpp"
 #include "files/meshes/polygon_mesh.hpp"
 #include "files/meshes/sidecar_files.hpp"
+#include "files/meshes/value_fields.hpp"
 #include "geometry/shape_warnings.hpp"
 #include "geometry/weld_mesh.hpp"
 #include "program/exact_text.hpp"
@@ -285,7 +286,7 @@ MeshFile to_triangles(const MeshSources& sources, PolygonMesh&& polygons,
     check_size(path, polygons);
     split_polygons(polygons, mesh);
     take_parts(polygons, mesh);
-    take_fields(path, sources.fields, polygons, mesh);
+    take_fields(path, add_value_files(sources.fields, polygons), polygons, mesh);
     mesh.positions = std::move(polygons.positions);
     mesh.dimension = polygons.dimension;
     mesh.names = std::move(polygons.names);
@@ -312,6 +313,14 @@ MeshFile to_triangles(const MeshSources& sources, PolygonMesh&& polygons,
     return mesh;
 }
 
+/// Moves values of files into a mesh that has no attributes of its own.
+void take_value_files(const Path& path, const WantedFields& wanted, MeshFile& mesh) {
+    PolygonMesh vertices;
+    vertices.positions = mesh.positions;
+    vertices.dimension = mesh.dimension;
+    take_fields(path, add_value_files(wanted, vertices), vertices, mesh);
+}
+
 /// `spec` is NAME or NAME:RESOLUTION.
 MeshFile read_builtin(std::string_view spec) {
     const std::size_t colon = std::min(spec.find(':'), spec.size());
@@ -330,6 +339,10 @@ MeshFile read_builtin(std::string_view spec) {
 void check_no_numbers(const MeshSources& sources) {
     if (!sources.edge_lengths.empty()) {
         fail_usage("--edge-lengths needs numbers of vertices, which " + sources.mesh + " has not");
+    }
+    if (const auto files = value_files(sources.fields); !files.empty()) {
+        fail_usage(std::string(kValueFile) + files.front() + " needs numbers of vertices, which " +
+                   sources.mesh + " has not");
     }
     if (sources.keep_seams) {
         fail_usage("--keep-seams needs numbers of vertices, which " + sources.mesh + " has not");
@@ -446,8 +459,8 @@ MeshFile read_mesh(const MeshSources& sources) {
             fail_usage(path + " is complete; --coordinates and "
                               "--edge-lengths are for mesh files");
         }
-        check_no_fields(path, sources.fields);
         MeshFile mesh = read_builtin(std::string_view(path).substr(kBuiltin.size()));
+        take_value_files(path, sources.fields, mesh);
         if (sources.weld) {
             weld_mesh(path, mesh, *sources.weld);
             drop_copied_triangles(mesh);

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "files/input_file.hpp"
-#include "files/meshes/value_files.hpp"
 #include "files/text_file.hpp"
 #include "files/text_lines.hpp"
 #include "geometry/mesh.hpp"
@@ -83,13 +83,19 @@ Coordinates read_coordinates(const Path& path) {
     return result;
 }
 
-std::vector<double> read_values(const Path& path) {
+VertexValues read_values(const Path& path, std::size_t vertex_count) {
     if (lower_extension(path) == ".gii") {
         return read_gifti_values(path);
     }
     const std::string bytes = read_file(path);
     if (is_freesurfer_values(bytes)) {
-        return read_freesurfer_values(path, bytes);
+        return {read_freesurfer_values(path, bytes), {}, false};
+    }
+    if (lower_extension(path) == ".annot") {
+        return read_freesurfer_annotation(path, bytes);
+    }
+    if (is_freesurfer_label(path, bytes)) {
+        return read_freesurfer_label(path, bytes, vertex_count);
     }
     refuse_other_content(path, bytes);
     std::vector<double> values;
@@ -100,7 +106,7 @@ std::vector<double> read_values(const Path& path) {
         }
         values.push_back(number_at(path, line, tokens[0]));
     });
-    return values;
+    return {std::move(values), {}, false};
 }
 
 EdgeLengths::EdgeLengths(const Path& path, std::uint32_t first_vertex)

@@ -2,11 +2,13 @@
 // of vertices, and the lengths of edges. Blank lines and what follows a '#' are ignored.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <unordered_map>
 #include <vector>
 
+#include "files/meshes/value_files.hpp"
 #include "program/path.hpp"
 
 namespace geodisk::tools {
@@ -20,8 +22,10 @@ struct Coordinates {
 /// UserError(bad_input) naming the file and the line, like the next two.
 Coordinates read_coordinates(const Path& path);
 
-/// Reads one finite number per line, or the values of vertices in a file of value_files.hpp.
-std::vector<double> read_values(const Path& path);
+/// Reads one finite number per line, or the values of vertices in a file of value_files.hpp, for a
+/// mesh of so many vertices. Of these, only a list of vertices needs their number; other files may
+/// have more or fewer values.
+VertexValues read_values(const Path& path, std::size_t vertex_count);
 
 /// Lengths by edge. Vertices are numbered from 0 here, whatever the file does.
 class EdgeLengths {

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "files/images/image.hpp"
+#include "files/meshes/value_fields.hpp"
 #include "files/name_text.hpp"
 #include "geodisk/inputs/radii_input.hpp"
 #include "geometry/mesh_parts.hpp"
@@ -218,6 +219,27 @@ RuleValues values_for(const MaskRule& rule, const MeshFile& mesh, const MeshFiel
     return of_corners;
 }
 
+/// Returns the rule with the value that the name in it means.
+MaskRule with_value(MaskRule rule, const MeshField& number) {
+    const std::vector<ValueName>& names = number.value_names;
+    const auto found = std::ranges::find_if(names, [&](const ValueName& one) {
+        return composed_name(one.name) == composed_name(rule.value_name);
+    });
+    if (!rule.value_name.empty() && found != names.end()) {
+        rule.value = found->value;
+    } else if (std::isnan(rule.value)) {
+        std::vector<std::string> known;
+        for (const ValueName& one : names) {
+            known.push_back(one.name);
+        }
+        fail_input(value_file(rule.name).value_or(rule.name),
+                   "has no value called " + in_quotes(rule.value_name) +
+                       (names.empty() ? ", as its values have no names"
+                                      : did_you_mean(rule.value_name, known)));
+    }
+    return rule;
+}
+
 /// Parts that a rule left out, and the values that it found.
 class RuleEffect {
   public:
@@ -274,7 +296,8 @@ class RuleSet {
         for (std::size_t i = 0; i < rules_.size(); ++i) {
             if (!rules_[i].is_map) {
                 const bool is_axis = rules_[i].axis().has_value();
-                note(RuleEffect(rules_[i], mesh_, is_axis ? nullptr : &mesh_.number(rules_[i].name),
+                const MeshField* const number = is_axis ? nullptr : &mesh_.number(rules_[i].name);
+                note(RuleEffect(is_axis ? rules_[i] : with_value(rules_[i], *number), mesh_, number,
                                 mask),
                      i);
             }

@@ -26,12 +26,13 @@ struct Values {
 };
 
 /// Returns the values of all but images, one for each vertex of the file.
-Values values_of(const DensitySource& of, const std::string& path, const MeshFile& file) {
+Values values_of(const DensitySource& of, const std::string& path, const MeshFile& file,
+                 std::size_t vertex_count) {
     switch (of.kind) {
     case DensitySource::Kind::attribute:
         return {path + ": " + in_quotes(of.name), vertex_numbers(file, file.number(of.name))};
     case DensitySource::Kind::file:
-        return {of.name, read_values(of.name)};
+        return {of.name, read_values(of.name, vertex_count).values};
     case DensitySource::Kind::map:
     case DensitySource::Kind::curvature:
         break;
@@ -145,7 +146,7 @@ Values loaded_values(const DensitySource& of, const std::string& path, const Mes
         values = {of.name, map_values(GreyImage(of.name), file, split,
                                       split ? mesh.vertex_count() : vertex_count)};
     } else {
-        values = values_of(of, path, file);
+        values = values_of(of, path, file, vertex_count);
         if (values.values.size() != vertex_count) {
             fail_input(values.source,
                        "has " + counted(values.values.size(), "value", "values") + " for the " +

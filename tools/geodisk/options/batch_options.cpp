@@ -175,6 +175,7 @@ LineOptions parse_line(const SampleOptions& common, const std::vector<std::strin
     take_given(sample.mesh.coordinates, own.mesh.coordinates);
     take_given(sample.mesh.edge_lengths, own.mesh.edge_lengths);
     take_given(sample.out.record.texture, own.out.record.texture);
+    take_given(sample.out.record.attributes, own.out.record.attributes);
     if (!own.density.given().empty()) {
         sample.density = own.density;
     }

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <utility>
 
+#include "files/meshes/value_fields.hpp"
 #include "files/samples/sample_columns.hpp"
 #include "geodisk/options/class_options.hpp"
 #include "program/arguments.hpp"
@@ -79,53 +80,70 @@ bool is_file(const std::string& name) {
 MaskRule parse_comparison(const std::string& option, const std::string& text, std::size_t at) {
     for (const auto& [sign, comparison] : kComparisons) {
         if (std::string_view(text).substr(at).starts_with(sign)) {
-            const auto value = parse_real(std::string_view(text).substr(at + sign.size()));
-            if (at == 0 || !value || std::isnan(*value)) {
+            const std::string given = text.substr(at + sign.size());
+            const auto value = parse_real(given);
+            const bool may_be_name =
+                value_file(text) && !given.empty() &&
+                (comparison == Comparison::equal || comparison == Comparison::unequal);
+            const bool is_number = value && !std::isnan(*value);
+            if (at == 0 || (!is_number && !may_be_name)) {
                 break;
             }
-            return {false, text.substr(0, at), comparison, *value};
+            return {false, text.substr(0, at), comparison, is_number ? *value : std::nan(""),
+                    may_be_name ? given : ""};
         }
     }
     fail_usage(option + ": " + in_quotes(text) +
                " is not PROPERTY<VALUE, with one of < <= > >= = != and a number");
 }
 
-MaskRule parse_map(const std::string& option, const std::string& text) {
-    const std::string name = text.substr(kMap.size());
+/// Reads an image behind "map:" or a file of values behind "file:", with a comparison or without.
+MaskRule parse_file(const std::string& option, const std::string& text, std::string_view prefix) {
+    const bool is_map = prefix == kMap;
+    const std::string name = text.substr(prefix.size());
     if (name.empty()) {
         fail_usage(option + ": " + in_quotes(text) + " names nothing");
     }
     std::size_t at = text.find_last_of("<>=");
     if (at == std::string::npos || is_file(name)) {
-        return {true, name, Comparison::at_least, kWhite};
+        return {is_map, is_map ? name : text, Comparison::at_least, kWhite};
     }
     const bool has_two =
         text[at] == '=' && std::string_view("<>!").find(text[at - 1]) != std::string_view::npos;
     at -= has_two ? 1 : 0;
     MaskRule rule = parse_comparison(option, text, at);
-    rule.is_map = true;
-    rule.name.erase(0, kMap.size());
+    rule.is_map = is_map;
+    rule.name.erase(0, is_map ? prefix.size() : 0);
     return rule;
 }
 
 MaskRule parse_mask(const std::string& option, const std::string& text) {
-    if (text.starts_with(kMap)) {
-        return parse_map(option, text);
+    for (const std::string_view prefix : {kMap, kValueFile}) {
+        if (text.starts_with(prefix)) {
+            return parse_file(option, text, prefix);
+        }
     }
     const std::size_t at = text.find_first_of("<>=!");
     if (at == std::string::npos && is_file(text)) {
         fail_usage(option + ": " + in_quotes(text) + " is a file; give map:" + text +
-                   " for an image, or a property and a comparison");
+                   " for an image, file:" + text + " for values, or a property and a comparison");
     }
     return parse_comparison(option, text, std::min(at, text.size()));
 }
 
-/// Puts `place(name)` for the image of a value of an option like --mask.
-void place_image(const std::string& option, std::string& text,
-                 const std::function<std::string(const std::string&)>& place) {
-    if (const MaskRule rule = parse_mask(option, text); rule.is_map) {
-        const std::string comparison = text.substr(kMap.size() + rule.name.size());
-        text = std::string(kMap) + place(rule.name) + comparison;
+/// Returns the file that a rule reads; nothing for a property of the mesh.
+std::optional<std::string> file_of(const MaskRule& rule) {
+    return rule.is_map ? std::optional(rule.name) : value_file(rule.name);
+}
+
+/// Puts `place(name)` for the file of a value of an option like --mask.
+void place_file(const std::string& option, std::string& text,
+                const std::function<std::string(const std::string&)>& place) {
+    const MaskRule rule = parse_mask(option, text);
+    if (const auto file = file_of(rule)) {
+        const std::string prefix(rule.is_map ? kMap : kValueFile);
+        const std::string comparison = text.substr(prefix.size() + file->size());
+        text = prefix + place(*file) + comparison;
     }
 }
 
@@ -217,16 +235,16 @@ void MaskOptions::check(std::size_t classes) const {
 }
 
 void MaskOptions::add_files(std::vector<NamedFile>& read) const {
-    const auto add_images = [&](const std::vector<MaskRule>& rules) {
+    const auto add_rules = [&](const std::vector<MaskRule>& rules) {
         for (const MaskRule& rule : rules) {
-            if (rule.is_map) {
-                read.push_back({"the mask", rule.name});
+            if (const auto file = file_of(rule)) {
+                read.push_back({"the mask", *file});
             }
         }
     };
-    add_images(mask_rules());
+    add_rules(mask_rules());
     for (const ClassPlace& place : class_places()) {
-        add_images(place.rules);
+        add_rules(place.rules);
         if (place.density && place.density->reads_file()) {
             read.push_back({"the density", place.density->name});
         }
@@ -235,11 +253,11 @@ void MaskOptions::add_files(std::vector<NamedFile>& read) const {
 
 void MaskOptions::place_files(const std::function<std::string(const std::string&)>& place) {
     for (std::string& text : masks) {
-        place_image(kMask, text, place);
+        place_file(kMask, text, place);
     }
     for (std::string& text : class_masks) {
         OfClass own = parse_of_class(kClassMask, text);
-        place_image(kClassMask, own.text, place);
+        place_file(kClassMask, own.text, place);
         text = own.joined();
     }
     for (std::string& text : class_densities) {
@@ -297,7 +315,9 @@ void add_mask_options(Command command, MaskOptions& options, OptionUse use) {
                         " faces where PROPERTY<VALUE (or <= > >= = !=) holds:\n"
                         "x, y, z (x0 to x7 in R^n) or an attribute, as red, at all\n"
                         "corners, or of the face. map:FILE: what is white in an image, or\n"
-                        "compared as a property from 0 to 1. Repeat to add rules",
+                        "compared as a property from 0 to 1. file:FILE: values of\n"
+                        "vertices, as file:lh.curv<0 or file:lh.aparc.annot=insula; a\n"
+                        "list of vertices needs no comparison. Repeat to add rules",
                     group)
         .takes_one_value();
     if (use == OptionUse::choosing) {

@@ -31,9 +31,10 @@ struct MaskRule {
     enum class Comparison { less, at_most, equal, unequal, at_least, greater };
 
     bool is_map = false; ///< Grey of an image; else a property of faces or vertices.
-    std::string name;    ///< File or property.
+    std::string name;    ///< Image, property, or "file:" and a file of values.
     Comparison comparison = Comparison::at_least;
     double value = 0;
+    std::string value_name{}; ///< As given for values of a file, which may have names. Or "".
 
     /// False for a value that is not a number.
     bool holds(double of) const;

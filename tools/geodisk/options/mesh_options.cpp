@@ -4,6 +4,7 @@
 
 #include "files/meshes/image_tiles.hpp"
 #include "files/meshes/mesh_file.hpp"
+#include "files/meshes/value_fields.hpp"
 #include "program/command.hpp"
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
@@ -55,6 +56,9 @@ void MeshOptions::add_files(std::vector<NamedFile>& read, const std::string& wha
         if (!path.empty()) {
             read.push_back({name, path});
         }
+    }
+    for (const std::string& file : value_files(fields)) {
+        read.push_back({"the attribute", file});
     }
     if (const auto tiles = tile_name(texture); tiles && tiles->is_pattern) {
         for (const auto& [number, image] : find_tiles("", *tiles)) {

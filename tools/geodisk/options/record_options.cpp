@@ -77,7 +77,8 @@ void add_attributes_option(Command command, RecordOptions& options, const std::s
                        "Add attributes that " + name +
                            " has at each sample: all, or names\n"
                            "separated by commas: color, uv, and others as the file calls\n"
-                           "them. Integers are those of the corner with the most weight");
+                           "them, or file:FILE for values of its vertices. Integers are\n"
+                           "those of the corner with the most weight");
 }
 
 void add_record_options(Command command, RecordOptions& options, const std::string& name) {

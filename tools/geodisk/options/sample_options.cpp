@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "files/meshes/part_columns.hpp"
+#include "files/meshes/value_fields.hpp"
 #include "program/command.hpp"
 #include "program/failure.hpp"
 #include "program/suggestion.hpp"
@@ -122,6 +123,7 @@ void place_files(SampleOptions& options,
     if (!options.out.record.image().empty()) {
         options.out.record.texture = place(options.out.record.texture);
     }
+    options.out.record.attributes = with_files_at(options.out.record.attributes, place);
     if (!options.density.given().empty()) {
         options.density.place_files(place);
     }
