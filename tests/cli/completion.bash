@@ -39,7 +39,7 @@ expect 'geodisk bun' FILES
 expect 'geodisk --v' --version
 expect 'geodisk sample --co' --count --coordinates --columns
 expect 'geodisk sample bunny.obj -d 1 --pool' --pool-ratio
-expect 'geodisk sample --format ' ply csv xyz npz pcd obj gltf glb usda vtp
+expect 'geodisk sample --format ' ply csv xyz npz pcd obj gltf glb usda vtp star
 expect 'geodisk sample --format g' gltf glb
 expect 'geodisk sample --format=n' npz
 expect 'geodisk sample --seed '
@@ -51,7 +51,7 @@ expect 'geodisk verify bunny.obj ' FILES
 expect 'geodisk batch scans -o ' FOLDERS
 expect 'geodisk render --style v' voronoi
 expect 'geodisk bunny.obj --cou' --count
-expect 'geodisk bunny.obj --format ' ply csv xyz npz pcd obj gltf glb usda vtp
+expect 'geodisk bunny.obj --format ' ply csv xyz npz pcd obj gltf glb usda vtp star
 expect 'geodisk sample -n 9 -- --co' FILES
 
 if ! command -v zsh > /dev/null; then

@@ -73,7 +73,7 @@ def test_a_number_in_place_of_faces_is_told_what_to_write():
         geodisk.sample(MESH, 1000)
 
 
-@pytest.mark.parametrize("suffix", ["pcd", "obj", "xyz", "glb", "gltf", "usda", "vtp"])
+@pytest.mark.parametrize("suffix", ["pcd", "obj", "xyz", "glb", "gltf", "usda", "vtp", "star"])
 def test_samples_are_saved_as_the_program_writes_them(suffix, tmp_path):
     path = tmp_path / f"a.{suffix}"
     path.write_bytes(b"before")

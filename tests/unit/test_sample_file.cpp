@@ -209,7 +209,7 @@ TEST_CASE("output paths are checked early") {
         check_writable(sample_target(path).path);
     };
     check_fails(ExitCode::usage, ".ply, .csv, .xyz, ", [&] { check(folder / "a.txt"); });
-    check_fails(ExitCode::usage, ".usda and .vtp", [&] { check(folder / "a"); });
+    check_fails(ExitCode::usage, ".vtp and .star", [&] { check(folder / "a"); });
     check_fails(ExitCode::bad_output, "No such file", [&] { check(folder / "missing" / "a.ply"); });
     check_fails(ExitCode::bad_output, "is a folder", [&] { check(folder / "folder.ply"); });
     check(folder / "a.ply");

@@ -3,6 +3,7 @@
 
 #include "files/meshes/data_uri.hpp"
 #include "files/output/output_file.hpp"
+#include "geometry/frames.hpp"
 #include "test_files.hpp"
 
 #include <nlohmann/json.hpp>
@@ -11,7 +12,10 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <filesystem>
 #include <map>
+#include <optional>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -375,4 +379,157 @@ TEST_CASE("a format that is asked for counts more than the extension") {
     CHECK(sample_target("a.NPZ").format == SampleFormat::npz);
     check_fails(ExitCode::usage, "--format: 'las' is no sample format; known are ply, csv",
                 [] { sample_target("a.ply", "las"); });
+}
+
+namespace {
+
+/// The labels of the last loop of a STAR file, and the words of its rows.
+struct StarTable {
+    std::vector<std::string> labels;
+    std::vector<std::vector<std::string>> rows;
+
+    explicit StarTable(const std::string& text) {
+        const std::size_t begin = text.find("data_particles\n");
+        REQUIRE(begin != text.npos);
+        for (const std::string& line : lines_of(text.substr(begin))) {
+            std::istringstream stream(line);
+            std::vector<std::string> words;
+            for (std::string word; stream >> word;) {
+                words.push_back(word);
+            }
+            if (line.starts_with('_')) {
+                REQUIRE(words.size() == 2);
+                labels.push_back(words[0]);
+                CHECK(words[1] == "#" + std::to_string(labels.size()));
+            } else if (words.size() > 1) {
+                CHECK(words.size() == labels.size());
+                rows.push_back(words);
+            }
+        }
+    }
+
+    double number(std::size_t row, const std::string& label) const {
+        const auto found = std::ranges::find(labels, label);
+        REQUIRE(found != labels.end());
+        return std::stod(rows.at(row).at(static_cast<std::size_t>(found - labels.begin())));
+    }
+};
+
+using Matrix = std::array<std::array<double, 3>, 3>;
+
+Matrix product(const Matrix& a, const Matrix& b) {
+    Matrix c{};
+    for (std::size_t i = 0; i < 3; ++i) {
+        for (std::size_t j = 0; j < 3; ++j) {
+            for (std::size_t k = 0; k < 3; ++k) {
+                c[i][j] += a[i][k] * b[k][j];
+            }
+        }
+    }
+    return c;
+}
+
+/// What turns the reference of RELION to a particle: coordinates turn by rot about z, tilt about y
+/// and psi about z, one after the other, so that vectors turn the other way.
+Matrix rotation_of(const StarTable& table, std::size_t row) {
+    const auto turn_of_coordinates = [](double degrees, bool about_z) {
+        const double c = std::cos(degrees * 0.017453292519943295),
+                     s = std::sin(degrees * 0.017453292519943295);
+        return about_z ? Matrix{{{c, s, 0}, {-s, c, 0}, {0, 0, 1}}}
+                       : Matrix{{{c, 0, -s}, {0, 1, 0}, {s, 0, c}}};
+    };
+    return product(turn_of_coordinates(table.number(row, "_rlnAnglePsi"), true),
+                   product(turn_of_coordinates(table.number(row, "_rlnAngleTilt"), false),
+                           turn_of_coordinates(table.number(row, "_rlnAngleRot"), true)));
+}
+
+std::string star_of(const std::vector<SampleRow>& rows, const FurtherColumns& further = {},
+                    std::optional<double> pixel_size = std::nullopt,
+                    const std::string& mesh = "a.ply") {
+    const TemporaryFolder folder;
+    const std::filesystem::path path = folder / "a.star";
+    AtomicFile file(path);
+    SampleTarget target = sample_target(path);
+    target.pixel_size = pixel_size;
+    write_samples(file, target, {{{"mesh", mesh}, {"seed", "7"}}}, rows, 3, further);
+    file.commit();
+    return bytes_of(path);
+}
+
+} // namespace
+
+TEST_CASE("the angles of STAR turn z to the normal, by those of a frame as the frame does") {
+    std::vector<SampleRow> rows;
+    const std::vector<std::array<float, 3>> known{
+        {0, 0, 1}, {1, 0, 0}, {0, 0, -1}, {0, 1, 0}, {0, -1, 0}, {-1, 0, 0}, {0.48f, -0.6f, 0.64f}};
+    SampleField frames{"frames", {"qx", "qy", "qz", "qw"}, false, false, {}, false};
+    for (const std::array<float, 3>& normal : known) {
+        rows.emplace_back();
+        std::ranges::copy(normal, rows.back().normal);
+        const auto q = frame_of({normal[0], normal[1], normal[2]}, 1.0 + double(rows.size()));
+        frames.values.insert(frames.values.end(), q.begin(), q.end());
+    }
+    const StarTable plain(star_of(rows));
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        const Matrix turn = rotation_of(plain, i);
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            CHECK(std::abs(turn[axis][2] - double{known[i][axis]}) < 1e-7);
+        }
+        CHECK(plain.number(i, "_rlnAngleRot") == 0);
+    }
+    CHECK(plain.number(0, "_rlnAngleTilt") == 0);
+    CHECK(plain.number(0, "_rlnAnglePsi") == 0);
+    CHECK(plain.number(1, "_rlnAngleTilt") == 90);
+    CHECK(std::abs(plain.number(1, "_rlnAnglePsi")) == 180);
+    CHECK(plain.number(2, "_rlnAngleTilt") == 180);
+    CHECK(plain.number(3, "_rlnAngleTilt") == 90);
+    CHECK(plain.number(3, "_rlnAnglePsi") == 90);
+    CHECK(plain.number(4, "_rlnAnglePsi") == -90);
+
+    const std::vector<SampleField> fields{frames,
+                                          {"heat", {"heat"}, false, false, {1, 2, 3, 4, 5, 6, 7}}};
+    const std::vector<ExtraColumn> numbers{{"class", {0, 1, 0, 1, 0, 1, 2}}};
+    const StarTable framed(star_of(rows, {numbers, fields}));
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        const Matrix turn = rotation_of(framed, i);
+        const double x = frames.values[4 * i], y = frames.values[4 * i + 1],
+                     z = frames.values[4 * i + 2], w = frames.values[4 * i + 3];
+        const Matrix expected{
+            {{1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)},
+             {2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)},
+             {2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)}}};
+        for (std::size_t k = 0; k < 9; ++k) {
+            CHECK(std::abs(turn[k / 3][k % 3] - expected[k / 3][k % 3]) < 1e-7);
+        }
+    }
+    CHECK(framed.labels.back() == "_heat");
+    CHECK(framed.number(6, "_heat") == 7);
+    CHECK(framed.number(6, "_class") == 2);
+}
+
+TEST_CASE("STAR has pixels, and names that are one word") {
+    const std::vector<SampleRow> rows = rows_of_format(100);
+    const std::string text = star_of(rows, {}, 4.0, "dir/my membrane#1.ply");
+    CHECK(text.starts_with("# mesh: "));
+    CHECK(contains(text, "\ndata_optics\n\nloop_\n_rlnOpticsGroupName #1\n_rlnOpticsGroup #2\n"
+                         "_rlnImagePixelSize #3\nopticsGroup1 1 4\n"));
+    const StarTable table(text);
+    REQUIRE(table.rows.size() == rows.size());
+    CHECK(table.rows[0][3] == "my_membrane_1");
+    CHECK(table.rows[0][4] == "my_membrane_1");
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        CHECK(table.number(i, "_rlnCoordinateY") == rows[i].position[1] / 4);
+    }
+    const std::string pixels = star_of(rows, {}, std::nullopt, "");
+    CHECK_FALSE(contains(pixels, "rlnImagePixelSize"));
+    CHECK(StarTable(pixels).number(2, "_rlnCoordinateZ") == rows[2].position[2]);
+    CHECK(StarTable(pixels).rows[0][3] == "mesh");
+
+    const TemporaryFolder folder;
+    AtomicFile file(folder / "b.star");
+    write_box_samples(file, sample_target(folder / "b.star"), {}, rows, 2);
+    file.commit();
+    CHECK_FALSE(contains(bytes_of(folder / "b.star"), "rlnAngle"));
+    check_fails(ExitCode::usage, "a .star file holds three coordinates",
+                [] { check_dimension(sample_target("a.star"), 4); });
 }

@@ -141,6 +141,8 @@ struct SampleFile {
 ///   vtp   points of VTK in XML with a cell each, binary or ascii: Normals face_index barycentric
 ///         radius polygon_index, and an array of all coordinates where there are more than three;
 ///         x y z as in PLY; the header as texts in FieldData
+///   star  particles of RELION: x y z in pixels, angles of the normal or of the frame, and the
+///         further columns; a block of optics; the header as "# KEY: VALUE"
 /// With a `dimension` of more than 3 the coordinates are x0 x1 ..., which PLY and PCD have besides
 /// x y z so that viewers show the first three, and there are no normals; with 0, of a mesh of edge
 /// lengths without coordinates, there are neither. check_dimension() tells which formats take that.

@@ -21,7 +21,7 @@ constexpr auto kSrgb = ColourEncoding::srgb, kBytes = ColourEncoding::bytes,
                kPacked = ColourEncoding::packed, kLight = ColourEncoding::light;
 
 /// By SampleFormat; lists are in this order.
-constexpr std::array<FormatFacts, 10> kFormats{{
+constexpr std::array<FormatFacts, 11> kFormats{{
     // name, content, coordinates, floats, programs, comments, scene, colours, writer, reader
     {"ply", kColumns, 0, 8, false, false, true, kNoScene, kBytes, write_by_row, read_ply_samples},
     {"csv", kColumns, 0, 8, false, true, true, kNoScene, kSrgb, write_by_row, read_table_samples},
@@ -33,6 +33,7 @@ constexpr std::array<FormatFacts, 10> kFormats{{
     {"glb", kColumns, 3, 3, true, false, false, SceneAxes::y, kLight, write_gltf, nullptr},
     {"usda", kColumns, 3, 3, true, false, false, SceneAxes::y_or_z, kLight, write_usd, nullptr},
     {"vtp", kColumns, 1, 8, false, false, false, kNoScene, kBytes, write_vtp, read_vtp_samples},
+    {"star", kColumns, 3, 3, false, false, true, kNoScene, kSrgb, write_star, nullptr},
 }};
 
 } // namespace

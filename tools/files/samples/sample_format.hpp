@@ -23,7 +23,7 @@ struct SampleLayout;
 struct SampleRow;
 struct SampleTarget;
 
-enum class SampleFormat { ply, csv, xyz, npz, pcd, obj, gltf, glb, usda, vtp };
+enum class SampleFormat { ply, csv, xyz, npz, pcd, obj, gltf, glb, usda, vtp, star };
 
 /// What a format holds of each sample; each holds what those before it do.
 enum class SampleContent { points, normals, columns };
@@ -85,6 +85,8 @@ struct SampleTarget {
     bool has_header = true;     ///< Write the header's comments, where the format has comments.
     Up up = Up::y;              ///< Axis of the samples that points up in scenes.
     double metres_per_unit = 1; ///< Unit of lengths in scenes.
+    /// Edge of a pixel in mesh units, which are angstroms, in STAR; nothing if lengths are pixels.
+    std::optional<double> pixel_size{};
 };
 
 /// The file `path` in the format of that name ("npz"), or in that of its extension for "". Throws

@@ -47,6 +47,11 @@ inline constexpr std::string_view kVtpSamples = "samples of geodisk";
 void write_vtp(AtomicFile& file, const SampleHeader& header, std::span<const SampleRow> rows,
                const SampleTarget& target, const SampleLayout& layout);
 
+/// Writes particles of RELION: coordinates in pixels, and the angles that turn z to the normal, or
+/// those of the frames.
+void write_star(AtomicFile& file, const SampleHeader& header, std::span<const SampleRow> rows,
+                const SampleTarget& target, const SampleLayout& layout);
+
 /// Throws UserError(usage) for faces whose numbers a float does not hold.
 void write_gltf(AtomicFile& file, const SampleHeader& header, std::span<const SampleRow> rows,
                 const SampleTarget& target, const SampleLayout& layout);

@@ -7,11 +7,22 @@
 #include "program/human_text.hpp"
 
 namespace geodisk::tools {
+namespace {
+
+constexpr double kLeastPixel = 1e-6, kLargestPixel = 1e6; // Angstroms; tomograms have 1 to 20.
+
+} // namespace
 
 SampleTarget OutputOptions::target() const {
     SampleTarget result = sample_target(output, format, ascii);
     result.has_header = !no_header;
     result.metres_per_unit = units.empty() ? 1 : parse_units("--units", units);
+    if (!pixel_size.empty()) {
+        if (result.format != SampleFormat::star) {
+            fail_usage("--pixel-size is for samples in *.star");
+        }
+        result.pixel_size = parse_ratio("--pixel-size", pixel_size, kLeastPixel, kLargestPixel);
+    }
     return result;
 }
 
@@ -76,6 +87,9 @@ void add_text_options(Command command, OutputOptions& options) {
     command.add_flag("--no-header", options.no_header,
                      "Write no comments with mesh, seed and so on, for programs that\n"
                      "read plain CSV; geodisk verify then needs --min-distance");
+    command.add_option("--pixel-size", options.pixel_size, "A",
+                       "Divide coordinates by the pixel size in *.star: the mesh is in\n"
+                       "angstroms then (default: the mesh is in pixels)");
 }
 
 void add_columns_options(Command command, OutputOptions& options) {

@@ -18,12 +18,13 @@ class Command;
 
 /// Outputs of a command, as given on the command line.
 struct OutputOptions {
-    std::string output;  ///< The samples.
-    std::string json;    ///< The report for programs; "-" is standard output. Or "".
-    std::string format;  ///< Format of the samples; "" for that of their extension.
-    std::string columns; ///< Names of part_columns() with commas, or "".
-    std::string up;      ///< Axis that points up in a scene: "x", "y", "z", or "" to guess it.
-    std::string units;   ///< Unit of lengths in a scene, or "".
+    std::string output;     ///< The samples.
+    std::string json;       ///< The report for programs; "-" is standard output. Or "".
+    std::string format;     ///< Format of the samples; "" for that of their extension.
+    std::string columns;    ///< Names of part_columns() with commas, or "".
+    std::string up;         ///< Axis that points up in a scene: "x", "y", "z", or "" to guess it.
+    std::string units;      ///< Unit of lengths in a scene, or "".
+    std::string pixel_size; ///< Mesh units per pixel of STAR, or "".
     RecordOptions record;
     bool ascii = false, quiet = false, is_dry_run = false;
     bool no_header = false; ///< Write samples without comments.
@@ -59,7 +60,7 @@ void add_json_option(Command command, OutputOptions& options);
 void add_quiet_option(Command command, OutputOptions& options,
                       const std::string& summary = "No progress and no summary");
 
-/// Adds --ascii and --no-header.
+/// Adds --ascii, --no-header and --pixel-size.
 void add_text_options(Command command, OutputOptions& options);
 
 /// Adds --columns, --attributes, --normals and --frames.
@@ -68,7 +69,7 @@ void add_columns_options(Command command, OutputOptions& options);
 /// Adds --up and --units.
 void add_scene_options(Command command, OutputOptions& options);
 
-/// Adds --json, --format, --up, --units, --ascii, --no-header and --quiet.
+/// Adds --json, --format, --up, --units, --ascii, --no-header, --pixel-size and --quiet.
 void add_output_options(Command command, OutputOptions& options);
 
 /// Device to work on, as given on the command line.

@@ -509,7 +509,7 @@ class Samples:
         table.attrs.update(header_of(samples))
         return table
 
-    def save(self, path: str | os.PathLike[str]) -> None:
+    def save(self, path: str | os.PathLike[str], *, pixel_size: float | None = None) -> None:
         """Writes the samples to a file, completely or not at all.
 
         An existing file is replaced after everything is written. Links are followed, and the file
@@ -520,8 +520,11 @@ class Samples:
         path : str or path-like
             ``*.npz`` for ``numpy.load``, ``*.csv``, or ``*.ply`` for viewers. :func:`read` reads
             all of them, ``geodisk verify`` and the other commands CSV and PLY. Also ``*.pcd``,
-            ``*.obj`` and ``*.xyz`` for point clouds, ``*.vtp`` for VTK, and ``*.glb``, ``*.gltf`` and ``*.usda`` for
-            scenes, as the program writes them.
+            ``*.obj`` and ``*.xyz`` for point clouds, ``*.vtp`` for VTK, ``*.glb``, ``*.gltf`` and ``*.usda`` for
+            scenes, and ``*.star`` for RELION, as the program writes them.
+        pixel_size : float, optional
+            Divide coordinates by this pixel size in ``*.star``. The mesh is in angstroms then. By
+            default it is in pixels.
 
         Raises
         ------
@@ -539,12 +542,17 @@ class Samples:
         path = path_of(path)
         suffix = os.path.splitext(path)[1].lower()
         samples = self._checked()
+        if pixel_size is not None:
+            if suffix != ".star":
+                raise e.invalid("pixel_size is for samples in *.star")
+            if not (math.isfinite(pixel_size) and pixel_size > 0):
+                raise e.invalid(f"pixel_size is {pixel_size}, not a positive number")
         writers = {".npz": write_npz, ".csv": write_csv, ".ply": write_ply}
         if suffix in writers:
             with complete(path) as file:
                 writers[suffix](file, samples, header_of(samples))
         elif suffix in OTHER_FORMATS:
-            written = bytes_as(suffix, samples)
+            written = bytes_as(suffix, samples, pixel_size)
             with complete(path) as file:
                 file.write(written)
         else:

@@ -168,10 +168,10 @@ def write_csv(file: BinaryIO, samples: Samples, header: Header) -> None:
 
 
 #: Formats that the library writes.
-OTHER_FORMATS = (".pcd", ".obj", ".xyz", ".glb", ".gltf", ".usda", ".vtp")
+OTHER_FORMATS = (".pcd", ".obj", ".xyz", ".glb", ".gltf", ".usda", ".vtp", ".star")
 
 
-def bytes_as(suffix: str, samples: Samples) -> bytes:
+def bytes_as(suffix: str, samples: Samples, pixel_size: float | None = None) -> bytes:
     """Returns the file that the program writes of samples in one of OTHER_FORMATS."""
     columns = columns_of(dataclasses.replace(samples, attributes={}), as_box=False)
     fields = []
@@ -192,7 +192,7 @@ def bytes_as(suffix: str, samples: Samples) -> bytes:
         suffix,
         lambda path: c.run(
             "save", {"samples": table}, columns=list(columns), count=len(samples), path=path,
-            fields=fields, header=header_of(samples),
+            fields=fields, header=header_of(samples), pixel_size=pixel_size,
         ),
     )
 

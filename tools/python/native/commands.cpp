@@ -377,6 +377,9 @@ void save(RunningTask& run) {
     if (const std::string* const up = samples.header.find("frames_up")) {
         target.up = find_up(*up).value_or(target.up);
     }
+    if (const Json& pixel = run.options.at("pixel_size"); !pixel.is_null()) {
+        target.pixel_size = pixel.get<double>();
+    }
     check_dimension(target, samples.dimension);
     const std::vector<SampleField> fields = fields_of(run.task, run.options);
     std::vector<std::string> names(fields.size());
