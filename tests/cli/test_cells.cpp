@@ -208,4 +208,22 @@ TEST_CASE("cells: what cannot be found leaves no file") {
                         {large, "few.ply", "-o", "no.csv", "--memory", "16M"});
 }
 
+TEST_CASE("cells give vertices labels beside areas, or nothing is written") {
+    const TemporaryFolder folder;
+    write_file(folder, "corners.csv", kCorners);
+    const Outcome made = run(folder, {"cells", "builtin:cube", "corners.csv", "-o", "a.csv",
+                                      "--labels", "a.label.gii", "--json", "a.json"});
+    INFO(made.err);
+    REQUIRE(made.status == 0);
+    CHECK(contains(made.out, "labels file   a.label.gii\n"));
+    std::ifstream report(folder / "a.json");
+    CHECK(Json::parse(report)["labels"] == "a.label.gii");
+    CHECK(contains(tools::bytes_of(folder / "a.label.gii"), ">sample 7</Label>"));
+    check_cells_refused(folder, 2, "no.obj: labels of vertices are written as *.label.gii",
+                        {"builtin:cube", "corners.csv", "-o", "no.csv", "--labels", "no.obj"});
+    check_cells_refused(
+        folder, 4, "none/a.label.gii",
+        {"builtin:cube", "corners.csv", "-o", "no.csv", "--labels", "none/a.label.gii"});
+}
+
 } // namespace geodisk::test

@@ -89,8 +89,26 @@ TEST_CASE("distances are refused without a source, and where they could not be w
     check_not_measured(folder, 2, "--within", {"square.obj", "--vertices", "0", "--within", "-1"});
     check_not_measured(folder, 2, "pictures are written as *.png",
                        {"square.obj", "--vertices", "0", "--picture", "a.jpg"});
-    check_fails(folder, 2, "far.ply: distances are written as .npz or .csv",
+    check_fails(folder, 2, "far.ply: distances are written as .npz, .csv or .shape.gii",
                 {"distances", "square.obj", "--vertices", "0", "-o", "far.ply"});
+}
+
+TEST_CASE("distances are a shape of GIFTI") {
+    const TemporaryFolder folder;
+    std::ofstream(folder / "square.obj") << kTwoSquares;
+    const auto measure = [&](const Arguments& more) {
+        Arguments arguments{"distances", "square.obj", "--vertices", "1"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return run(folder, arguments);
+    };
+    REQUIRE(measure({"-o", "a.shape.gii"}).status == 0);
+    REQUIRE(measure({"-o", "b", "--format", "gii"}).status == 0);
+    CHECK(bytes_of(folder / "a.shape.gii") == bytes_of(folder / "b"));
+    CHECK(contains(bytes_of(folder / "b"), "<Value>distance from 1</Value>"));
+    const Outcome labels = measure({"-o", "a.label.gii"});
+    CHECK(labels.status == 2);
+    CHECK(contains(labels.err, "distances are no labels; write *.shape.gii"));
+    CHECK_FALSE(std::filesystem::exists(folder / "a.label.gii"));
 }
 
 } // namespace geodisk::test

@@ -158,6 +158,60 @@ def test_annotations_and_labels_of_freesurfer_are_masks(tmp_path):
     assert len(found[0]) > 50 and np.array_equal(*found)
 
 
+@pytest.mark.skipif("GEODISK_COMMAND" not in os.environ, reason="needs the program")
+@pytest.mark.parametrize("each", [False, True])
+def test_distances_are_shapes_of_gifti(each, tmp_path):
+    nibabel = pytest.importorskip("nibabel")
+    vertices, faces = np.asarray(VERTICES), np.asarray(FACES)
+    apart = np.concatenate([vertices, vertices[:3] + 100])  # No path leads there.
+    with_part = np.concatenate([faces, [[len(vertices), len(vertices) + 1, len(vertices) + 2]]])
+    nibabel.freesurfer.write_geometry(tmp_path / "lh.white", apart, with_part)
+    command = [os.environ["GEODISK_COMMAND"], "distances", "lh.white", "--vertices", "0,5", "-q"]
+    more = ["--each"] if each else []
+    for name in ("a.shape.gii", "a.npz"):
+        subprocess.run([*command, *more, "-o", name], cwd=tmp_path, check=True, stderr=subprocess.DEVNULL)
+    image = nibabel.load(tmp_path / "a.shape.gii")
+    expected = np.atleast_2d(np.load(tmp_path / "a.npz")["distances"])
+    assert len(image.darrays) == len(expected) == 1 + each
+    for array, row in zip(image.darrays, expected):
+        assert array.intent == nibabel.nifti1.intent_codes["NIFTI_INTENT_SHAPE"]
+        assert array.data.dtype == np.float32 and array.data.shape == row.shape
+        assert np.array_equal(np.isnan(array.data), ~np.isfinite(row)) and np.isnan(array.data[-3:]).all()
+        assert np.array_equal(array.data[:-3], row[:-3].astype(np.float32))
+    names = [array.meta["Name"] for array in image.darrays]
+    assert names == (["distance from 0", "distance from 5"] if each else ["distance from the nearest source"])
+    assert image.meta["mesh"] == "lh.white"
+
+
+@pytest.mark.skipif("GEODISK_COMMAND" not in os.environ, reason="needs the program")
+def test_cells_of_vertices_are_labels_of_gifti(tmp_path):
+    nibabel = pytest.importorskip("nibabel")
+    vertices, faces = np.asarray(VERTICES), np.asarray(FACES)
+    apart = np.concatenate([vertices, vertices[:3] + 100, [[0, 0, 0]]])  # The last one is of no face.
+    with_part = np.concatenate([faces, [[len(vertices), len(vertices) + 1, len(vertices) + 2]]])
+    mesh = tmp_path / "lh <&> white.surf"
+    nibabel.freesurfer.write_geometry(mesh, apart, with_part)
+    np.savetxt(tmp_path / "points.csv", vertices[:20:2], delimiter=",", header="x,y,z", comments="")
+    command = [os.environ["GEODISK_COMMAND"], "cells", mesh.name, "points.csv", "-q", "-o", "areas.csv"]
+    subprocess.run([*command, "--labels", "a.label.gii"], cwd=tmp_path, check=True, stderr=subprocess.DEVNULL)
+    image = nibabel.load(tmp_path / "a.label.gii")
+    (array,) = image.darrays
+    assert array.intent == nibabel.nifti1.intent_codes["NIFTI_INTENT_LABEL"]
+    assert array.data.dtype == np.int32 and array.data.shape == (len(apart),)
+    assert (array.data[-4:] == 0).all() and np.array_equal(array.data[:20:2], np.arange(1, 11))
+    distances = geodisk.geodesic_distances(geodisk.Mesh(vertices, faces), range(0, 20, 2), each=True)
+    own = distances[array.data[: len(vertices)] - 1, np.arange(len(vertices))]
+    assert np.allclose(own, distances.min(axis=0), atol=1e-5)
+    table = image.labeltable.get_labels_as_dict()
+    assert table == {0: "???", **{i + 1: f"sample {i}" for i in range(10)}}
+    assert all(0 <= part <= 1 for label in image.labeltable.labels for part in label.rgba)
+    assert image.meta["mesh"] == mesh.name
+    command[1:] = ["sample", mesh.name, "-d", "0.3", "-q", "-o", "b.npz", "--mask", "file:a.label.gii=sample 3"]
+    subprocess.run(command, cwd=tmp_path, check=True, stderr=subprocess.DEVNULL)
+    samples = geodisk.read(tmp_path / "b.npz")
+    assert (array.data[with_part[samples.face_index]] == 4).all()
+
+
 def test_samples_are_points_of_vtk_with_their_columns(sphere, tmp_path):
     pyvista = pytest.importorskip("pyvista")
     sphere.save(tmp_path / "a.vtp")

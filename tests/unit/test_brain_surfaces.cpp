@@ -2,12 +2,15 @@
 #include "array_facts.hpp"
 #include "files/base64.hpp"
 #include "files/meshes/sidecar_files.hpp"
+#include "files/samples/gifti_writer.hpp"
 #include "mesh_bytes.hpp"
 #include "png_bytes.hpp"
 #include "test_files.hpp"
 
 #include <bit>
+#include <cmath>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -327,4 +330,49 @@ TEST_CASE("a table of labels of GIFTI names values") {
     REQUIRE(read.names.size() == 2);
     CHECK(read.names[1].name == "a & b");
     CHECK(read.names[1].value == 7);
+}
+
+TEST_CASE("distances and labels of GIFTI read back, and names are text in XML") {
+    const TemporaryFolder folder;
+    const double infinite = std::numeric_limits<double>::infinity();
+    DistanceTable table{{3, 9}, {0.5, infinite, 0.1}, {3, 0, 9}};
+    const auto write = [&](const char* name, const auto& body) {
+        AtomicFile file(folder / name);
+        body(file);
+        file.commit();
+        return folder / name;
+    };
+    const auto shape = write("a.shape.gii", [&](AtomicFile& file) {
+        write_gifti_distances(file, table, {{"mesh", "a<&>\"'\xff\1.obj"}});
+    });
+    const VertexValues read = read_values(shape, 3);
+    REQUIRE(read.values.size() == 3);
+    CHECK(read.values[0] == 0.5);
+    CHECK(std::isnan(read.values[1]));
+    CHECK(read.values[2] == double{0.1f});
+    CHECK_FALSE(read.is_whole);
+    CHECK(contains(bytes_of(shape), "<Value>a&lt;&amp;&gt;&quot;'\xc3\xbf .obj</Value>"));
+
+    table.nearest.clear();
+    table.distances.resize(6);
+    const auto rows =
+        write("b.shape.gii", [&](AtomicFile& file) { write_gifti_distances(file, table, {}); });
+    CHECK(contains(bytes_of(rows), "NumberOfDataArrays=\"2\""));
+    check_fails(ExitCode::bad_input, "is the second array of values",
+                [&] { read_values(rows, 3); });
+
+    // More numbers than are written at once.
+    std::vector<std::int32_t> keys(200'001);
+    for (std::size_t i = 0; i < keys.size(); ++i) {
+        keys[i] = static_cast<std::int32_t>(i) - 7;
+    }
+    const std::vector<GiftiLabel> labels{{0, "???", {}}, {7, "a <b>", {0.25, 0.5, 1, 1}}};
+    const VertexValues many = read_values(
+        write("a.label.gii", [&](AtomicFile& file) { write_gifti_labels(file, keys, labels, {}); }),
+        keys.size());
+    CHECK(many.is_whole);
+    CHECK(many.values == std::vector<double>(keys.begin(), keys.end()));
+    REQUIRE(many.names.size() == 2);
+    CHECK(many.names[1].name == "a <b>");
+    CHECK(many.names[1].value == 7);
 }

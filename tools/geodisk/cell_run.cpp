@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <utility>
 
+#include <geodisk/nearest.hpp>
+
+#include "geodisk/inputs/source_points.hpp"
 #include "program/failure.hpp"
 #include "program/interrupt.hpp"
 
@@ -51,6 +54,27 @@ CellResult run_cells(std::span<const SampleRow> rows, bool has_dual, const MeshI
     }
     result.done.run = result.cells.report;
     return result;
+}
+
+std::vector<std::uint32_t> nearest_of_vertices(std::span<const SampleRow> rows,
+                                               const MeshInput& mesh, RunDevice& device,
+                                               std::uint64_t bytes, ProgressLine& progress) {
+    progress.begin_stage("finding labels");
+    auto disks = NearestSamples::create(device.runner(), mesh.prepared, samples_of(rows),
+                                        max_records(bytes), search_progress(progress, "samples"));
+    progress.clear();
+    check_interrupted();
+    if (!disks) {
+        check_cells(disks.error(), bytes);
+    }
+    const NearestSamples nearest = take(std::move(disks));
+    const NumberedPoints vertices = vertices_of(mesh, {});
+    const std::vector<NearestSample> found = take(nearest.of(vertices.points));
+    std::vector<std::uint32_t> samples(mesh.prepared.vertex_count(), NearestSample::kNone);
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        samples[vertices.numbers[i]] = found[i].sample;
+    }
+    return samples;
 }
 
 SampleField area_field(const SurfaceCells& cells) {

@@ -34,6 +34,12 @@ void check_cells(const Error& error, std::uint64_t bytes);
 CellResult run_cells(std::span<const SampleRow> rows, bool has_dual, const MeshInput& mesh,
                      RunDevice& device, std::uint64_t bytes, ProgressLine& progress);
 
+/// Returns the sample nearest to each vertex of the mesh, of the samples in `rows`; kNone where no
+/// path leads to one and for vertices that no face uses. Searches as run_cells() does.
+std::vector<std::uint32_t> nearest_of_vertices(std::span<const SampleRow> rows,
+                                               const MeshInput& mesh, RunDevice& device,
+                                               std::uint64_t bytes, ProgressLine& progress);
+
 /// Returns the column `area` of a sample file.
 inline constexpr const char* kAreaColumn = "area";
 SampleField area_field(const SurfaceCells& cells);

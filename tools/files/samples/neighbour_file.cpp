@@ -13,13 +13,13 @@
 
 namespace geodisk::tools {
 
-SampleTarget neighbour_target(const Path& path, const std::string& format,
-                              const std::string& what) {
+SampleTarget neighbour_target(const Path& path, const std::string& format, const std::string& what,
+                              const std::string& formats) {
     const auto wanted = find_format(path, format);
     if (!wanted || !facts_of(*wanted).is_for_programs) {
         fail_usage(
             (format.empty() ? path.string() : "--format: " + in_quotes(format)) + ": " + what +
-            " are written as .npz or .csv" +
+            " are written as " + formats +
             (format.empty() && lower_extension(path).empty() ? "; give --format npz or csv" : ""));
     }
     return {path, *wanted};

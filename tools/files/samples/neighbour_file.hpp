@@ -20,9 +20,10 @@ struct NeighbourTable {
 };
 
 /// Returns where and how to write neighbours, as sample_target(). Throws UserError(usage) for
-/// another format than .npz and .csv, of `what` is written.
+/// another format than .npz and .csv, of `what` is written; `formats` lists all that are.
 SampleTarget neighbour_target(const Path& path, const std::string& format,
-                              const std::string& what = "neighbours");
+                              const std::string& what = "neighbours",
+                              const std::string& formats = ".npz or .csv");
 
 /// Writes the arrays of the table to an .npz archive under their names, or to CSV a line of source,
 /// target and distance for each pair. Distances read back as they are.

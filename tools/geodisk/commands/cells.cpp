@@ -1,10 +1,14 @@
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include <geodisk/nearest.hpp>
 #include <geodisk/version.hpp>
 
+#include "files/samples/gifti_writer.hpp"
 #include "files/samples/sample_fields.hpp"
 #include "files/samples/sample_format.hpp"
 #include "geodisk/cell_run.hpp"
@@ -31,6 +35,7 @@ namespace {
 constexpr const char* kCellsExamples[] = {
     "geodisk cells bunny.ply points.ply -o areas.csv",
     "geodisk cells bunny.ply points.ply -o areas.ply --dual remeshed.obj",
+    "geodisk cells lh.white points.ply -o areas.csv --labels lh.cells.label.gii",
     "geodisk cells scan.ply points.ply -o areas.csv --dual remeshed.ply --attributes all",
 };
 
@@ -39,7 +44,7 @@ struct CellOptions {
     MaskOptions mask;
     OutputOptions out;
     RunOptions run;
-    std::string samples, dual, tolerance;
+    std::string samples, dual, labels, tolerance;
 };
 
 void check_files(const CellOptions& options) {
@@ -51,9 +56,17 @@ void check_files(const CellOptions& options) {
         dual_format(options.dual);
         further.push_back({"the dual graph", options.dual});
     }
+    if (!options.labels.empty()) {
+        if (!options.labels.ends_with(".label.gii")) {
+            fail_usage(options.labels + ": labels of vertices are written as *.label.gii");
+        }
+        further.push_back({"the labels", options.labels});
+    }
     check_outputs(options.out, "the samples", read, nullptr, further);
-    if (!options.dual.empty()) {
-        check_writable(options.dual);
+    for (const std::string& path : {options.dual, options.labels}) {
+        if (!path.empty()) {
+            check_writable(path);
+        }
     }
     const std::vector<std::string> columns{kAreaColumn};
     check_columns(options.out.target(), columns);
@@ -100,6 +113,31 @@ SampleHeader header_with_areas(const CellOptions& options, const SampleHeader& s
     return header;
 }
 
+/// Writes the cell of each vertex, whose label is one more than its sample; 0 is none.
+void write_labels(AtomicFile& file, const std::string& mesh, std::size_t samples,
+                  const std::vector<std::uint32_t>& nearest) {
+    constexpr double kGoldenTurn = 0.6180339887498949; // Spreads hues over the circle.
+    std::vector<GiftiLabel> labels{{0, "???", {}}};
+    for (std::size_t i = 0; i < samples; ++i) {
+        GiftiLabel& label = labels.emplace_back();
+        label.key = static_cast<std::int32_t>(i + 1);
+        label.name = "sample " + std::to_string(i);
+        for (std::size_t k = 0; k < 3; ++k) {
+            const double hue = kGoldenTurn * static_cast<double>(i) + static_cast<double>(k) / 3;
+            const double place = 6 * (hue - std::floor(hue)); // Red, green and blue, a third apart.
+            label.colour[k] = std::clamp(std::abs(place - 3) - 1, 0.0, 1.0);
+        }
+        label.colour[3] = 1;
+    }
+    std::vector<std::int32_t> keys;
+    keys.reserve(nearest.size());
+    for (const std::uint32_t sample : nearest) {
+        keys.push_back(sample == NearestSample::kNone ? 0 : static_cast<std::int32_t>(sample + 1));
+    }
+    write_gifti_labels(file, keys, labels,
+                       {{"version", "geodisk " GEODISK_VERSION_STRING}, {"mesh", mesh}});
+}
+
 void run_cells_command(CellOptions options) {
     options.mesh.fields = options.out.record.fields();
     const RunnerOptions runner = options.run.runner();
@@ -124,6 +162,10 @@ void run_cells_command(CellOptions options) {
     RunDevice device(options.run.device, runner);
     const CellResult result =
         run_cells(file.rows, !options.dual.empty(), mesh, device, runner.device_bytes, progress);
+    const std::vector<std::uint32_t> nearest =
+        options.labels.empty()
+            ? std::vector<std::uint32_t>()
+            : nearest_of_vertices(file.rows, mesh, device, runner.device_bytes, progress);
     check_validation(device.context());
     print_precision_note(options.out, file.rows, mesh.dimension());
     const SampleHeader header = header_with_areas(options, file.header, result.cells);
@@ -137,9 +179,18 @@ void run_cells_command(CellOptions options) {
                                           dual_mesh(result, mesh, attributes));
                            }});
     }
-    const CellReport report{mesh,         warnings,
-                            result,       options.out.output,
-                            options.dual, scene_frame(options.out, options.mesh, mesh)};
+    if (!options.labels.empty()) {
+        further.push_back({{"the labels", options.labels}, [&](AtomicFile& labels) {
+                               write_labels(labels, options.mesh.mesh, file.rows.size(), nearest);
+                           }});
+    }
+    const CellReport report{mesh,
+                            warnings,
+                            result,
+                            options.out.output,
+                            options.dual,
+                            options.labels,
+                            scene_frame(options.out, options.mesh, mesh)};
     write_outputs(
         options.out, "the samples", progress, report,
         [&](AtomicFile& samples) {
@@ -169,6 +220,9 @@ void add_cells_command(Command app) {
                        "Write the dual graph too: *.obj, *.ply or *.vtp (samples as\n"
                        "vertices, a triangle where three cells meet) or *.npz (arrays\n"
                        "points, edges, triangles)");
+    command.add_option("--labels", options->labels, "FILE",
+                       "Write the cell of each vertex of MESH too, as *.label.gii\n"
+                       "(GIFTI): the row of its sample plus 1; 0 if no path leads to one");
     add_attributes_option(command, options->out.record);
     add_mesh_options(command, options->mesh);
     options->mask.lacking = "no cell has an area";

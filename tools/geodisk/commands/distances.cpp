@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <numeric>
@@ -13,6 +14,7 @@
 #include <geodisk/version.hpp>
 
 #include "files/samples/distance_file.hpp"
+#include "files/samples/gifti_writer.hpp"
 #include "files/samples/neighbour_file.hpp"
 #include "geodisk/commands/commands.hpp"
 #include "geodisk/commands/help_text.hpp"
@@ -39,6 +41,7 @@ namespace {
 constexpr const char* kDistancesExamples[] = {
     "geodisk distances bunny.obj --vertices 0 -o distances.npz --picture isolines.png",
     "geodisk distances terrain.ply wells.csv -o nearest.csv",
+    "geodisk distances lh.white --vertices 0 -o lh.distance.shape.gii",
     "geodisk distances brain.obj electrodes.csv --each --within 50 -o rows.npz",
 };
 
@@ -168,9 +171,32 @@ DistanceTable measure(const DistanceCommand& options, const std::optional<Length
             std::move(distances.nearest)};
 }
 
+/// Returns true for GIFTI. Throws UserError(usage) for a file of labels.
+bool writes_gifti(const OutputOptions& out) {
+    if (out.output.ends_with(".label.gii")) {
+        fail_usage(out.output + ": distances are no labels; write *.shape.gii");
+    }
+    return out.format.empty() ? is_gifti(out.output) : out.format == "gii";
+}
+
+/// Returns how to write the table.
+std::function<void(AtomicFile&)> writer_of(const DistanceCommand& options,
+                                           const DistanceTable& table) {
+    if (writes_gifti(options.out)) {
+        return [&](AtomicFile& file) {
+            write_gifti_distances(
+                file, table,
+                {{"version", "geodisk " GEODISK_VERSION_STRING}, {"mesh", options.mesh.mesh}});
+        };
+    }
+    const SampleTarget target = neighbour_target(options.out.output, options.out.format,
+                                                 "distances", ".npz, .csv or .shape.gii");
+    return [&table, target](AtomicFile& file) { write_distances(file, target, table); };
+}
+
 void run_distances(const DistanceCommand& options) {
-    const SampleTarget target =
-        neighbour_target(options.out.output, options.out.format, "distances");
+    DistanceTable table;
+    const std::function<void(AtomicFile&)> write = writer_of(options, table);
     const std::vector<VertexRange> vertices = options.source.ranges();
     if (options.source.points.empty() && vertices.empty()) {
         fail_usage("give --vertices, or POINTS: from where to measure");
@@ -194,7 +220,6 @@ void run_distances(const DistanceCommand& options) {
     NumberedPoints sources = sources_on(options, vertices, mesh, warnings, progress);
     print_warnings(warnings);
     warnings.insert(warnings.begin(), mesh.warnings.begin(), mesh.warnings.end());
-    DistanceTable table;
     const double seconds =
         seconds_of([&] { table = measure(options, within, std::move(sources), mesh, progress); });
     std::size_t reached = 0;
@@ -213,9 +238,7 @@ void run_distances(const DistanceCommand& options) {
                  AtomicFile& file) { picture::write_png(file, pixels); }});
     }
     const DistanceReport report{options, mesh, warnings, table, reached, largest, seconds};
-    write_outputs(
-        options.out, "the distances", progress, report,
-        [&](AtomicFile& file) { write_distances(file, target, table); }, further);
+    write_outputs(options.out, "the distances", progress, report, write, further);
 }
 
 } // namespace
@@ -230,8 +253,8 @@ void add_distances_command(Command app) {
                        "Sources: samples of MESH, or points of another program,\n"
                        "put on the nearest face");
     add_output_argument(command, options->out,
-                        "File to write: *.npz (arrays sources, distances, nearest) or\n"
-                        "*.csv (vertex, distance, source)");
+                        "File to write: *.npz (arrays sources, distances, nearest),\n"
+                        "*.csv (vertex, distance, source) or *.shape.gii (GIFTI)");
     command.add_flag("--each", options->each,
                      "Measure from each source on its own, not from the nearest: a\n"
                      "row of distances for each");
@@ -246,7 +269,7 @@ void add_distances_command(Command app) {
     add_mesh_options(command, options->mesh);
     add_json_option(command, options->out);
     command.add_option("--format", options->out.format, "FORMAT",
-                       "Write npz or csv, ignoring the extension of OUT");
+                       "Write npz, csv or gii, ignoring the extension of OUT");
     add_quiet_option(command, options->out);
     add_device_options(command, options->device);
     command.has_footer(help_footer(kDistancesExamples));

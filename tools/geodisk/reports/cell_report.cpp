@@ -76,6 +76,7 @@ std::string CellReport::json(double write_seconds) const {
                     {"unreached", cells.unreached}}},
                   {"error", cells.distance_error},
                   {"dual", dual_json(*this)},
+                  {"labels", labels.empty() ? Json() : Json(labels)},
                   {"disks", cells.report.disks},
                   {"windows", cells.report.windows},
                   {"scene", scene_json(scene)},
@@ -96,6 +97,9 @@ std::string CellReport::summary(double write_seconds) const {
     }
     if (!dual.empty()) {
         out << dual_lines(*this);
+    }
+    if (!labels.empty()) {
+        out << "labels file   " << one_line(labels) << '\n';
     }
     out << search_text(mesh, result.done, write_seconds, output, "finding cells")
         << scene_line(scene);
