@@ -182,6 +182,35 @@ std::vector<std::string> mesh_seeds(const std::string& format) {
     } else if (format == "off") {
         seeds.emplace_back("COFF\n4 1 0\n0 0 0 255 0 0 255\n1 0 0 0 255 0 255\n1 1 0 9 9 9 9\n"
                            "0 1 0 0 0 0 0\n4 0 1 2 3\n");
+    } else if (format == "usda") {
+        seeds.emplace_back(
+            "#usda 1.0\n(\n    metersPerUnit = 0.01\n    upAxis = \"Y\"\n)\ndef Xform \"W\" (kind "
+            "= "
+            "\"group\")\n{\n    double3 xformOp:translate.timeSamples = { 1: (1, 2, 3), 2: (4, 5, "
+            "6) "
+            "}\n    float3 xformOp:rotateXYZ:a = (90, 0, 30)\n    matrix4d xformOp:transform = ( "
+            "(1, "
+            "0, 0, 0), (0, 2, 0, 0), (0, 0, -1, 0), (5, 6, 7, 1) )\n    uniform token[] "
+            "xformOpOrder = [\"xformOp:translate\", \"!invert!xformOp:rotateXYZ:a\", "
+            "\"xformOp:transform\"]\n    rel material:binding = </M/red>\n    def Mesh \"m\"\n    "
+            "{\n"
+            "        uniform token orientation = \"leftHanded\"\n        int[] faceVertexCounts = "
+            "[4, "
+            "3]\n        int[] faceVertexIndices = [0, 1, 2, 3, 0, 2, 4]\n        point3f[] points "
+            "= "
+            "[(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1)]\n        normal3f[] normals = "
+            "[(0, "
+            "0, 1)] (interpolation = \"constant\")\n        color3f[] primvars:displayColor = [(1, "
+            "0, "
+            "0), (0, 1, 0)] (interpolation = \"uniform\")\n        texCoord2f[] primvars:st = [(0, "
+            "0), "
+            "(1, 1)] (interpolation = \"faceVarying\")\n        int[] primvars:st:indices = [0, 1, "
+            "0, "
+            "1, 0, 1, 0]\n        int[] holeIndices = [1]\n        def GeomSubset \"s\" {\n        "
+            "    "
+            "uniform token elementType = \"face\"\n            int[] indices = [1]\n            "
+            "rel "
+            "material:binding = </M/blue>\n        }\n    }\n}\n");
     } else if (format == "vtk" || format == "vtp" || format == "gii" || format == "freesurfer") {
         return array_seeds(format);
     }

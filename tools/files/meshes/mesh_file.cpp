@@ -404,6 +404,8 @@ constexpr std::array kMeshFormats{
     MeshFormat{"vtp", read_fields_of<read_vtp>},
     MeshFormat{"gii", read_fields_of<read_gifti>},
     MeshFormat{"asc", read_freesurfer_of},
+    MeshFormat{"usda", read_fields_of<read_usd>},
+    MeshFormat{"usd", read_fields_of<read_usd>},
 };
 
 /// Files have no extension that tells them.
@@ -428,6 +430,10 @@ const MeshFormat& format_of(const MeshSources& sources) {
                    listed(mesh_formats()));
     }
     check_no_folder(path);
+    if (const std::string extension = lower_extension(path);
+        extension == ".usdc" || extension == ".usdz") {
+        refuse_binary_usd(path);
+    }
     if (begins_as_freesurfer(path)) {
         return kByMagic;
     }

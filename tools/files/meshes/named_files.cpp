@@ -168,10 +168,31 @@ Names names_in_ply(const std::string& bytes) {
     return names;
 }
 
+/// Returns what stands between one or three '@' in lines of USD.
+Names names_in_usd(const std::string& bytes) {
+    Names names;
+    TextLines lines(bytes);
+    for (std::string_view line; lines.next(line);) {
+        for (std::size_t at = line.find('@'); at != line.npos; at = line.find('@', at)) {
+            const std::string_view mark = line.substr(at).starts_with("@@@") ? "@@@" : "@";
+            const std::size_t begin = at + mark.size(), end = line.find(mark, begin);
+            if (end == line.npos) {
+                break;
+            }
+            names.emplace_back(line.substr(begin, end - begin));
+            at = end + mark.size();
+        }
+    }
+    return names;
+}
+
 Names names_in(const Path& path, const std::string& kind) {
     const std::string bytes = read_file(path);
     if (kind == ".gltf" || kind == ".glb") {
         return names_in_gltf(path, bytes);
+    }
+    if (kind == ".usda" || kind == ".usd") {
+        return names_in_usd(bytes);
     }
     if (kind == ".obj") {
         return names_in_obj(path, bytes);
@@ -183,7 +204,8 @@ Names names_in(const Path& path, const std::string& kind) {
 
 std::vector<Path> files_named_in(const Path& path, const std::string& format) {
     const std::string kind = format.empty() ? lower_extension(path) : '.' + format;
-    constexpr std::array<std::string_view, 5> kNaming{".gltf", ".glb", ".obj", ".ply", ".mtl"};
+    constexpr std::array<std::string_view, 7> kNaming{".gltf", ".glb",  ".obj", ".ply",
+                                                      ".mtl",  ".usda", ".usd"};
     std::error_code ignored;
     if (std::ranges::find(kNaming, kind) == kNaming.end() || input_stream(path) ||
         !std::filesystem::is_regular_file(path, ignored)) {

@@ -115,6 +115,14 @@ PolygonMesh read_gifti(const Path& path, const WantedFields& fields);
 /// Reads triangles of FreeSurfer, binary or text (`.asc`).
 PolygonMesh read_freesurfer(const Path& path, const ReadingProgress& progress);
 
+/// Reads all meshes of a text of USD (`.usda`) that viewers show, placed by the operations of their
+/// prims and of those above. One that is left-handed or mirrored is turned over. Throws
+/// UserError(bad_input) naming the line and the prim, also for what is in other files.
+PolygonMesh read_usd(const Path& path, const WantedFields& fields);
+
+/// Throws UserError(bad_input) that names the command that makes text of a binary file of USD.
+[[noreturn]] void refuse_binary_usd(const Path& path);
+
 /// Returns true for binary surfaces of FreeSurfer, whose files have no common extension. Reads no
 /// stream.
 bool begins_as_freesurfer(const Path& path);

@@ -34,7 +34,7 @@ class Mesh:
         Coordinates, d from 2 to 8, in an array of numpy, torch, CuPy, JAX or Warp. Their unit is
         that of all distances. Or a mesh with faces: the path of a file, an object of trimesh (meshes
         and scenes), Open3D (legacy and tensor meshes), PyVista, VTK, PyMeshLab, meshio, vedo,
-        nibabel, nilearn, PyTorch3D, PyG or Warp, or any object with ``vertices`` and ``faces``.
+        nibabel, nilearn, PyTorch3D, PyG, Warp or USD, or any object with ``vertices`` and ``faces``.
     faces : array_like of int, shape (f, 3) or (f, k), or sequence of sequences
         Vertices of each face. Polygons are split into triangles.
     edge_lengths : array_like of float, shape (f, 3), optional
@@ -53,7 +53,7 @@ class Mesh:
         others), ``"material"``, ``"group"``, and for glTF ``"mesh"``, ``"primitive"`` and
         ``"node"``; 4294967295 for none. Samples have them as well.
     mesh_format : str, optional
-        Read the file as gltf, glb, obj, off, ply, stl, vtk, vtp, gii, asc or freesurfer, ignoring
+        Read the file as gltf, glb, obj, off, ply, stl, vtk, vtp, gii, asc, usda, usd or freesurfer, ignoring
         its extension.
     allow_outside : bool
         Read files that the mesh names outside of its folder too, such as buffers and images.
@@ -90,7 +90,7 @@ class Mesh:
     Notes
     -----
     Files are read as the program reads them: *.gltf, *.glb, *.obj, *.off, *.ply, *.stl,
-    *.vtk, *.vtp, *.gii, *.asc, binary surfaces of FreeSurfer and ``builtin:NAME``.
+    *.vtk, *.vtp, *.gii, *.asc, *.usda, binary surfaces of FreeSurfer and ``builtin:NAME``.
 
     float32 and float64 coordinates are read in place, also as a part of wider arrays; other types
     are copied first. The mesh and samples on it keep references to the arrays, for :func:`verify`

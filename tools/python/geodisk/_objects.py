@@ -11,14 +11,14 @@ from numpy.typing import NDArray
 from . import _errors as e
 from ._arrays import array_of, on_host, unreadable
 from ._attributes import Attribute, is_called
-from ._polygons import Polygons, from_lists, from_padded, from_rows, from_strips, joined
+from ._polygons import Polygons, from_lists, from_padded, from_rows, from_strips, joined, polygons_of
 
 if TYPE_CHECKING:
     from ._surface import Surface
 
 _WHAT_IS_TAKEN = (
     "a mesh is vertices and faces, a path, or a mesh of geodisk, trimesh, Open3D, PyVista, VTK, "
-    "PyMeshLab, meshio, vedo, nibabel, nilearn, PyTorch3D, PyG or Warp"
+    "PyMeshLab, meshio, vedo, nibabel, nilearn, PyTorch3D, PyG, Warp or USD"
 )
 
 #: What has values, "vertices" or "faces", their name, and the values. Those of faces may be of the
@@ -413,6 +413,67 @@ def _from_warp(source: Any) -> Parts:
     return Parts(source.points, array_of(source.indices, "indices").reshape(-1, 3))
 
 
+def _of_usd(attribute: Any) -> Any:
+    """Returns the value of an attribute, or its first one in time; None without one."""
+    from pxr import Usd
+
+    value = attribute.Get()
+    return attribute.Get(Usd.TimeCode.EarliestTime()) if value is None else value
+
+
+def _from_usd(mesh: Any) -> Parts:
+    """Returns a UsdGeom.Mesh, placed in its stage. One that is mirrored or left-handed is turned over."""
+    from pxr import Usd, UsdGeom
+
+    points, corners, counts, holes = (
+        np.asarray([] if (value := _of_usd(one)) is None else value)
+        for one in (
+            mesh.GetPointsAttr(),
+            mesh.GetFaceVertexIndicesAttr(),
+            mesh.GetFaceVertexCountsAttr(),
+            mesh.GetHoleIndicesAttr(),
+        )
+    )
+    counts = counts.astype(np.int64)
+    if (counts < 0).any() or counts.sum() != len(corners):
+        raise e.MeshRejected(
+            f"faceVertexCounts is not for {len(corners)} faceVertexIndices", "mesh_rejected"
+        )
+    matrix = np.array(mesh.ComputeLocalToWorldTransform(Usd.TimeCode.Default()))
+    places = points.reshape(-1, 3).astype(float) @ matrix[:3, :3] + matrix[3, :3]
+    is_left = _of_usd(mesh.GetOrientationAttr()) == UsdGeom.Tokens.leftHanded
+    starts = np.repeat(np.cumsum(counts) - counts, counts)
+    order = np.arange(len(corners))
+    if is_left != (np.linalg.det(matrix[:3, :3]) < 0):
+        order = starts + (starts - order) % np.maximum(np.repeat(counts, counts), 1)
+    is_hole = np.isin(np.arange(len(counts)), holes)
+    order = order[~np.repeat(is_hole, counts)]
+    faces = _plain(polygons_of(corners[order], np.where(is_hole, 0, counts)))
+
+    def values() -> Iterator[Values]:
+        for primvar in UsdGeom.PrimvarsAPI(mesh).GetPrimvarsWithValues():
+            array = np.asarray(primvar.ComputeFlattened())
+            name = {"st": "uv", "displayColor": "color"}.get(name := primvar.GetPrimvarName(), name)
+            kind = primvar.GetInterpolation()
+            if array.dtype.kind not in "biuf" or name in ("normals", "displayOpacity"):
+                continue
+            if name == "color":  # Amounts of light, which sRGB encodes.
+                low, high = 12.92 * array, 1.055 * np.maximum(array, 0) ** (1 / 2.4) - 0.055
+                array = np.where(array <= 0.0031308, low, high)
+            if kind in (UsdGeom.Tokens.vertex, UsdGeom.Tokens.varying):
+                yield "vertices", name, array
+            elif kind == UsdGeom.Tokens.uniform:
+                yield "faces", name, array
+            elif kind == UsdGeom.Tokens.constant:
+                yield "vertices", name, np.repeat(array.reshape(1, *array.shape[1:]), len(places), axis=0)
+            else:
+                corner = array[order] if len(array) == len(corners) else array
+                is_plain = not isinstance(faces, Polygons) and len(corner) == 3 * len(faces)
+                yield "faces", name, corner.reshape(len(faces), 3, -1) if is_plain else corner
+
+    return Parts(places, faces, values())
+
+
 # In this order: some have the attributes of several.
 _KINDS = (
     (_is_scene, _from_scene),
@@ -432,11 +493,14 @@ _KINDS = (
     (_has("verts_list", "faces_list"), _from_pytorch3d),
     (_has("pos", "face"), _from_pyg),
     (_has("points", "indices"), _from_warp),
+    (_has("GetPointsAttr", "GetFaceVertexIndicesAttr"), _from_usd),
 )
 
 #: Objects that are no mesh, and how to make one of them.
 _ADVICE = (
     (_has("GetDataObjectType"), "give pyvista.wrap(mesh).extract_surface().triangulate()"),
+    (_has("GetPrimTypeInfo"), "give UsdGeom.Mesh(prim)"),
+    (_has("GetPseudoRoot"), 'call stage.Flatten().Export("a.usda") and give "a.usda"'),
     (_has("GetOutputPort"), "call source.Update() and give source.GetOutput()"),
     (_has("mesh", "data"), 'give one hemisphere: image.mesh.parts["left"]'),
     (_has("parts"), 'give one hemisphere: mesh.parts["left"]'),

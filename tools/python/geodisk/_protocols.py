@@ -126,6 +126,13 @@ class HasPositions(Protocol):
     def face(self) -> Any: ...
 
 
+class HasUsdAttributes(Protocol):
+    """Attributes of a prim, as meshes of USD (UsdGeom.Mesh) have them."""
+
+    def GetPointsAttr(self) -> Any: ...
+    def GetFaceVertexIndicesAttr(self) -> Any: ...
+
+
 class HasIndices(Protocol):
     """Points and one array of corners, as meshes of Warp have them."""
 
@@ -156,6 +163,7 @@ MeshLike = Union[
     HasLists,
     HasPositions,
     HasIndices,
+    HasUsdAttributes,
     str,
     "os.PathLike[str]",
 ]
