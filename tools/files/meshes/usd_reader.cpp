@@ -40,8 +40,8 @@ struct UsdFaces {
     std::vector<Index> vertices; ///< Of all corners.
     std::vector<std::size_t> ends;
     std::size_t points = 0;
-    std::vector<std::size_t> order; ///< Place in `vertices` of each corner of the result.
-    std::vector<Index> faces;       ///< Face of each place in `vertices`.
+    std::vector<Index> order; ///< Place in `vertices` of each corner of the result.
+    std::vector<Index> faces; ///< Face of each place in `vertices`.
 };
 
 class UsdReader {
@@ -120,13 +120,26 @@ class UsdReader {
         return known->second;
     }
 
-    /// Takes the numbers of an attribute that a mesh must have.
-    std::vector<double> numbers_of(const UsdPrim& prim, std::string_view name) const {
-        const UsdAttribute* const attribute = prim.find(name);
-        if (attribute == nullptr) {
-            fail(prim, prim.line, "has no " + std::string(name));
+    /// Takes the points out of a mesh, three numbers each.
+    std::vector<double> take_points(UsdPrim& prim) const {
+        const auto found = std::ranges::find(prim.attributes, "points", &UsdAttribute::name);
+        if (found == prim.attributes.end()) {
+            fail(prim, prim.line, "has no points");
         }
-        return attribute->value.numbers;
+        std::vector<double> points = std::move(found->value.numbers);
+        if (points.size() % 3 != 0) {
+            fail(prim, found->value.line,
+                 "points has " + counted(points.size(), "number", "numbers") +
+                     ", not three for each");
+        }
+        return points;
+    }
+
+    /// Frees the corners of a mesh, which were read.
+    static void drop_corners(UsdPrim& prim) {
+        std::erase_if(prim.attributes, [](const UsdAttribute& attribute) {
+            return attribute.name == "faceVertexIndices" || attribute.name == "faceVertexCounts";
+        });
     }
 
     /// Returns integers from 0 to below `end`.
@@ -156,6 +169,9 @@ class UsdReader {
                  std::string("has no ") +
                      (corners == nullptr ? "faceVertexIndices" : "faceVertexCounts"));
         }
+        if (corners->value.numbers.size() > std::numeric_limits<Index>::max()) {
+            fail(prim, corners->value.line, "has more corners than can be numbered");
+        }
         faces.vertices = indices_of(prim, *corners, points);
         for (const Index count : indices_of(prim, *counts, faces.vertices.size() + 1)) {
             const std::size_t begin = faces.ends.empty() ? 0 : faces.ends.back();
@@ -163,7 +179,8 @@ class UsdReader {
             if (faces.ends.back() > faces.vertices.size()) {
                 break;
             }
-            faces.faces.insert(faces.faces.end(), count, static_cast<Index>(faces.ends.size() - 1));
+            faces.faces.insert(faces.faces.end(), is_counted_ ? count : 0,
+                               static_cast<Index>(faces.ends.size() - 1));
         }
         if ((faces.ends.empty() ? 0 : faces.ends.back()) != faces.vertices.size()) {
             fail(prim, counts->value.line,
@@ -176,18 +193,13 @@ class UsdReader {
     void add_mesh(UsdPrim& prim, const UsdPlace& place) {
         ++meshes_;
         note_scheme(prim);
-        const std::vector<double> points = numbers_of(prim, "points");
-        if (points.size() % 3 != 0) {
-            fail(prim, prim.find("points")->value.line,
-                 "points has " + counted(points.size(), "number", "numbers") +
-                     ", not three for each");
-        }
+        const std::vector<double> points = take_points(prim);
         UsdFaces faces = faces_of(prim, points.size() / 3);
+        drop_corners(prim);
         const std::size_t first = mesh_.vertex_count();
         if (first + faces.points > std::numeric_limits<Index>::max()) {
             fail_input(path_, "has more vertices than a face can refer to");
         }
-        mesh_.positions.reserve(mesh_.positions.size() + points.size());
         for (std::size_t i = 0; i < points.size(); i += 3) {
             const glm::dvec4 there =
                 place.transform * glm::dvec4(points[i], points[i + 1], points[i + 2], 1);
@@ -224,7 +236,7 @@ class UsdReader {
             const std::size_t end = faces.ends[face], count = is_hole[face] ? 0 : end - begin;
             for (std::size_t k = 0; k < count; ++k) {
                 const std::size_t corner = is_turned && k > 0 ? end - k : begin + k;
-                faces.order.push_back(corner);
+                faces.order.push_back(static_cast<Index>(corner));
                 mesh_.corners.push_back(static_cast<Index>(first) + faces.vertices[corner]);
             }
             mesh_.face_ends.push_back(mesh_.corners.size());
@@ -312,7 +324,7 @@ class UsdReader {
             fail_input(path_, "has more values of " + in_quotes(field.name) + " than can be read");
         }
         field.corners.resize(first_corner, MeshField::kNone);
-        for (const std::size_t corner : faces.order) {
+        for (const Index corner : faces.order) {
             field.corners.push_back(static_cast<Index>(before) + indices[corner]);
         }
         field.values.insert(field.values.end(), values.begin(), values.end());
@@ -426,7 +438,8 @@ class UsdReader {
 
     const Path& path_;
     const WantedFields& wanted_;
-    UsdText text_; ///< Names lines in errors.
+    bool is_counted_ = wanted_.are_given() || wanted_.normals; ///< Faces of corners matter.
+    UsdText text_;                                             ///< Names lines in errors.
     UsdScene scene_;
     PolygonMesh mesh_;
     std::map<std::string, Index> materials_; ///< By their paths.
