@@ -52,6 +52,8 @@ std::optional<FieldOptions> options_for(RequestField field) {
         return FieldOptions{"--keep", {"--keep", "3"}};
     case RequestField::metric:
         return FieldOptions{"--metric euclidean", {"--metric", "euclidean"}};
+    case RequestField::at_vertices:
+        return FieldOptions{"--at-vertices", {"--at-vertices"}};
     case RequestField::update:
         return FieldOptions{"--from", {"--from", "old.ply"}};
     case RequestField::class_counts: // --count has them, or else a field that excludes them.

@@ -113,6 +113,9 @@ class PairRequest {
         case RequestField::split_from:
             request_.split_from = &mesh_;
             break;
+        case RequestField::at_vertices:
+            request_.at_vertices = true;
+            break;
         case RequestField::update:
         case RequestField::processes:
         case RequestField::frames:
@@ -132,7 +135,7 @@ class PairRequest {
     SampleRequest request_;
 };
 
-constexpr auto kLastField = RequestField::split_from;
+constexpr auto kLastField = RequestField::at_vertices;
 
 } // namespace
 

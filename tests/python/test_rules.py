@@ -26,6 +26,7 @@ PARAMETERS = {
     "existing": ("existing", {"existing": POINT}),
     "avoid": ("avoid", {"avoid": (POINT, 0.1)}),
     "features": ("features", {"features": 30}),
+    "at_vertices": ("at_vertices", {"at_vertices": True}),
     "progressive": ("order='progressive'", {"order": "progressive"}),
     "farthest": ("order='farthest'", {"order": "farthest"}),
     "metric": ("metric='euclidean'", {"metric": "euclidean"}),
@@ -47,6 +48,8 @@ def test_parameters_are_refused_by_name_where_their_fields_exclude_each_other(a,
         return  # One parameter has one value, and the other two are refused in another way.
     if "count" not in given:
         given["min_distance"] = 0.5
+    if given.get("at_vertices") and given.get("count"):
+        given["count"] = 3  # Of four vertices.
     fields = {a, b}
     fields |= {"radii"} if "density" in fields else set()
     fields |= {"count"} if "is_exact" in fields else set()

@@ -103,12 +103,13 @@ TEST_CASE("seams are joined by default, and corners of the file are kept") {
     CHECK(mesh.weld->joined_edges == 2);
     CHECK(mesh.weld->merged_vertices == 2);
     CHECK(mesh.warnings.empty());
-    CHECK(values_of_joined(mesh, {1, 2, 3, 2, 5, 6}) == std::vector<double>{1.5, 2, 4, 1.5, 4, 6});
+    CHECK(values_at_vertices(mesh, {1, 2, 3, 2, 5, 6}) ==
+          std::vector<double>{1.5, 2, 4, 1.5, 4, 6});
     sources.keep_seams = true;
     const MeshFile kept = read_mesh(sources);
     CHECK(kept.triangles == kept.corners_in_file());
     CHECK_FALSE(kept.weld);
-    CHECK(values_of_joined(kept, {1, 2}) == std::vector<double>{1, 2});
+    CHECK(values_at_vertices(kept, {1, 2}) == std::vector<double>{1, 2});
 }
 
 TEST_CASE("no built-in shape has seams") {

@@ -1,11 +1,13 @@
 #include "geodisk/cell_run.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include <geodisk/nearest.hpp>
 
 #include "geodisk/inputs/source_points.hpp"
+#include "program/batches.hpp"
 #include "program/failure.hpp"
 #include "program/interrupt.hpp"
 
@@ -14,6 +16,10 @@ namespace {
 
 // A record, and its number in its face.
 constexpr std::uint64_t kBytesPerRecord = 40;
+/// Longest edge of the triangles that cells are cut from, in units of the root of a cell's area.
+constexpr double kLongestInCell = 0.5;
+/// Points whose samples a thread finds at a time.
+constexpr std::size_t kPointsPerBatch = 4096;
 
 } // namespace
 
@@ -56,25 +62,52 @@ CellResult run_cells(std::span<const SampleRow> rows, bool has_dual, const MeshI
     return result;
 }
 
-std::vector<std::uint32_t> nearest_of_vertices(std::span<const SampleRow> rows,
-                                               const MeshInput& mesh, RunDevice& device,
-                                               std::uint64_t bytes, ProgressLine& progress) {
-    progress.begin_stage("finding labels");
-    auto disks = NearestSamples::create(device.runner(), mesh.prepared, samples_of(rows),
+NearestSamples find_nearest(std::span<const SampleRow> rows, const MeshInput& mesh,
+                            RunDevice& device, std::uint64_t bytes, ProgressLine& progress) {
+    device.begin_search(progress);
+    progress.begin_stage("finding nearest samples");
+    auto found = NearestSamples::create(device.runner(), mesh.prepared, samples_of(rows),
                                         max_records(bytes), search_progress(progress, "samples"));
     progress.clear();
     check_interrupted();
-    if (!disks) {
-        check_cells(disks.error(), bytes);
+    if (!found) {
+        check_cells(found.error(), bytes);
     }
-    const NearestSamples nearest = take(std::move(disks));
+    return take(std::move(found));
+}
+
+std::vector<std::uint32_t> samples_at_vertices(const NearestSamples& nearest,
+                                               const MeshInput& mesh) {
     const NumberedPoints vertices = vertices_of(mesh, {});
     const std::vector<NearestSample> found = take(nearest.of(vertices.points));
-    std::vector<std::uint32_t> samples(mesh.prepared.vertex_count(), NearestSample::kNone);
+    std::vector<std::uint32_t> samples(mesh.file.file_vertices(mesh.prepared.vertex_count()),
+                                       NearestSample::kNone);
     for (std::size_t i = 0; i < found.size(); ++i) {
         samples[vertices.numbers[i]] = found[i].sample;
     }
     return samples;
+}
+
+CutCells cut_along_cells(const NearestSamples& nearest, std::size_t samples, const MeshInput& mesh,
+                         ProgressLine& progress) {
+    progress.begin_stage("cutting cells");
+    const double cell = mesh.prepared.statistics().area / static_cast<double>(samples);
+    CutCells cells = cut_cells(
+        mesh.file, mesh.face_mask, kLongestInCell * std::sqrt(cell),
+        [&](std::span<const Sample> points) {
+            std::vector<std::uint32_t> found(points.size());
+            const auto find = [&](std::size_t, std::size_t begin, std::size_t end) {
+                const auto own = take(nearest.of(points.subspan(begin, end - begin)));
+                std::ranges::transform(own, found.begin() + static_cast<std::ptrdiff_t>(begin),
+                                       &NearestSample::sample);
+            };
+            in_batches(
+                points.size(), kPointsPerBatch, [&] { return find; },
+                [](double) { check_interrupted(); });
+            return found;
+        });
+    progress.clear();
+    return cells;
 }
 
 SampleField area_field(const SurfaceCells& cells) {

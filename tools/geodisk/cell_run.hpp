@@ -6,12 +6,14 @@
 #include <vector>
 
 #include <geodisk/cells.hpp>
+#include <geodisk/nearest.hpp>
 
 #include "files/samples/dual_file.hpp"
 #include "files/samples/sample_file.hpp"
 #include "geodisk/device_run.hpp"
 #include "geodisk/inputs/mesh_input.hpp"
 #include "geodisk/outputs/progress.hpp"
+#include "geometry/cell_borders.hpp"
 #include "geometry/triangle_angles.hpp"
 
 namespace geodisk::tools {
@@ -34,11 +36,19 @@ void check_cells(const Error& error, std::uint64_t bytes);
 CellResult run_cells(std::span<const SampleRow> rows, bool has_dual, const MeshInput& mesh,
                      RunDevice& device, std::uint64_t bytes, ProgressLine& progress);
 
-/// Returns the sample nearest to each vertex of the mesh, of the samples in `rows`; kNone where no
-/// path leads to one and for vertices that no face uses. Searches as run_cells() does.
-std::vector<std::uint32_t> nearest_of_vertices(std::span<const SampleRow> rows,
-                                               const MeshInput& mesh, RunDevice& device,
-                                               std::uint64_t bytes, ProgressLine& progress);
+/// Finds the disks of the samples in `rows`, for what follows. Searches as run_cells() does.
+NearestSamples find_nearest(std::span<const SampleRow> rows, const MeshInput& mesh,
+                            RunDevice& device, std::uint64_t bytes, ProgressLine& progress);
+
+/// Returns the sample nearest to each vertex of the file; kNone where no path leads to one and for
+/// vertices that no face uses.
+std::vector<std::uint32_t> samples_at_vertices(const NearestSamples& nearest,
+                                               const MeshInput& mesh);
+
+/// Cuts the mesh, which has coordinates, along the borders of the cells of so many samples, on the
+/// faces of its mask.
+CutCells cut_along_cells(const NearestSamples& nearest, std::size_t samples, const MeshInput& mesh,
+                         ProgressLine& progress);
 
 /// Returns the column `area` of a sample file.
 inline constexpr const char* kAreaColumn = "area";

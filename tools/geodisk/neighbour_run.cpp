@@ -1,6 +1,7 @@
 #include "geodisk/neighbour_run.hpp"
 
 #include <algorithm>
+#include <map>
 #include <numeric>
 #include <utility>
 
@@ -9,6 +10,7 @@
 #include "program/interrupt.hpp"
 
 namespace geodisk::tools {
+
 void keep_masked(const MeshInput& mesh, NumberedPoints& vertices) {
     const auto place = [&](std::uint32_t vertex) {
         return mesh.file.joined.empty() ? vertex : mesh.file.joined[vertex];
@@ -28,6 +30,54 @@ void keep_masked(const MeshInput& mesh, NumberedPoints& vertices) {
     }
     vertices = std::move(kept);
 }
+
+namespace {
+
+/// Puts vertices of the file in the place of copies, which walls made: each once in a row, by the
+/// nearest of its sides. `has_all` says that rows have all vertices of a place, and ascend.
+void fold_copies(const MeshFile& mesh, std::size_t vertices, bool has_all, NeighbourTable& table) {
+    if (mesh.copied.empty()) {
+        return;
+    }
+    std::multimap<std::uint32_t, std::uint32_t> joined; // Vertices by the lowest of their place.
+    for (std::uint32_t v = 0; has_all && v < mesh.file_vertices(vertices); ++v) {
+        if (!mesh.joined.empty() && mesh.joined[v] != v) {
+            joined.emplace(mesh.joined[v], v);
+        }
+    }
+    NeighbourTable folded{std::move(table.sources), {0}, {}, {}};
+    std::vector<std::pair<std::uint32_t, float>> row;
+    const auto add = [&](std::uint32_t vertex, float distance) {
+        const auto known = std::ranges::find(row, vertex, &std::pair<std::uint32_t, float>::first);
+        if (known == row.end()) {
+            row.emplace_back(vertex, distance);
+        } else {
+            known->second = std::min(known->second, distance);
+        }
+    };
+    for (std::size_t r = 0; r + 1 < table.offsets.size(); ++r) {
+        row.clear();
+        for (std::uint64_t i = table.offsets[r]; i < table.offsets[r + 1]; ++i) {
+            const std::uint32_t vertex = mesh.file_vertex(table.targets[i], vertices);
+            add(vertex, table.distances[i]);
+            const auto [first, last] = joined.equal_range(vertex);
+            for (auto other = first; other != last && vertex != table.targets[i]; ++other) {
+                add(other->second, table.distances[i]);
+            }
+        }
+        if (has_all) {
+            std::ranges::sort(row);
+        }
+        for (const auto& [vertex, distance] : row) {
+            folded.targets.push_back(vertex);
+            folded.distances.push_back(distance);
+        }
+        folded.offsets.push_back(folded.targets.size());
+    }
+    table = std::move(folded);
+}
+
+} // namespace
 
 NeighbourResult search_neighbours(const NeighbourJob& job, const MeshInput& mesh, RunDevice& device,
                                   bool is_bounded, ProgressLine& progress) {
@@ -59,6 +109,9 @@ NeighbourResult search_neighbours(const NeighbourJob& job, const MeshInput& mesh
     if (table.sources.empty()) {
         table.sources.resize(job.sources.points.size());
         std::iota(table.sources.begin(), table.sources.end(), 0u);
+    }
+    if (job.kind == NeighbourKind::vertices) {
+        fold_copies(mesh.file, mesh.prepared.vertex_count(), job.nearest == 0, table);
     }
     if (job.kind == NeighbourKind::sources && !job.sources.numbers.empty()) {
         for (std::uint32_t& target : table.targets) {

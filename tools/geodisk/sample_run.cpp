@@ -29,6 +29,7 @@ namespace {
 /// Refuses what goes by the faces of the file, where samples are drawn on parts of them.
 void check_split(const SampleJob& job, const MeshInput& mesh, const RunDevice& device) {
     const char* const what = job.features           ? "--features goes"
+                             : job.at_vertices      ? "--at-vertices goes"
                              : !job.from.empty()    ? "--from goes"
                              : device.has_sampler() ? "geodisk_mpi goes"
                                                     : nullptr;
@@ -75,6 +76,7 @@ SampleRequest request_of(const SampleJob& job, const MeshInput& mesh, const Samp
     request.count = job.wanted_count.samples;
     request.is_exact = job.wanted_count.is_exact;
     request.features = job.features.value_or(0);
+    request.at_vertices = job.at_vertices;
     request.class_counts = job.method.class_counts;
     request.order = job.method.has_levels ? SampleOrder::progressive : SampleOrder::dart;
     request.levels = job.method.levels;
@@ -129,6 +131,21 @@ void note_existing(const SampleJob& job, const MeshInput& mesh, SampleResult& re
          job.constraints.existing});
 }
 
+/// Returns the vertex of the file that each row is at.
+std::vector<std::uint32_t> vertices_of(const MeshInput& mesh, std::span<const SampleRow> rows) {
+    std::vector<std::uint32_t> vertices(rows.size(), kNoPart);
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        const auto* const at = std::ranges::find(rows[i].bary, 1.0f);
+        if (at != std::end(rows[i].bary)) {
+            const std::size_t corner =
+                std::size_t{3} * rows[i].face + static_cast<std::size_t>(at - rows[i].bary);
+            vertices[i] =
+                mesh.file.file_vertex(mesh.file.triangles[corner], mesh.prepared.vertex_count());
+        }
+    }
+    return vertices;
+}
+
 /// The columns that the file has besides those that all have.
 std::vector<ExtraColumn> extra_columns(const SampleJob& job, const MeshInput& mesh,
                                        const SampleResult& result) {
@@ -141,6 +158,9 @@ std::vector<ExtraColumn> extra_columns(const SampleJob& job, const MeshInput& me
     }
     if (job.features && takes_column(job.out, kFeatureColumn)) {
         columns.push_back({std::string(kFeatureColumn), result.features});
+    }
+    if (job.at_vertices && takes_column(job.out, kVertexColumn)) {
+        columns.push_back({std::string(kVertexColumn), vertices_of(mesh, result.rows)});
     }
     if (job.classes.is_given()) {
         columns.push_back({std::string(kClassColumn), result.classes});

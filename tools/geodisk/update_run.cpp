@@ -100,10 +100,15 @@ JobFrame frame_of_samples(const SampleFile& file, const MeshInput& mesh, SampleP
 void check_kind(const SampleFile& file) {
     const SampleHeader& header = file.header;
     const std::pair<std::string_view, const char*> kinds[] = {
-        {"darts", "--method darts"}, {"classes", "--classes"},
-        {"features", "--features"},  {kLevelDistances, "--order progressive"},
-        {"maximal", "--maximal"},    {"exact", "--count --exact"},
-        {"avoid", "--avoid"},        {"metric", "--metric"}};
+        {"darts", "--method darts"},
+        {"classes", "--classes"},
+        {"features", "--features"},
+        {"at_vertices", "--at-vertices"},
+        {kLevelDistances, "--order progressive"},
+        {"maximal", "--maximal"},
+        {"exact", "--count --exact"},
+        {"avoid", "--avoid"},
+        {"metric", "--metric"}};
     for (const auto& [key, option] : kinds) {
         if (header.find(key) != nullptr) {
             fail_input(file.path, std::string("has samples of ") + option +
@@ -158,8 +163,8 @@ void check_job(const SampleFile& file, const SampleJob& job, const MeshInput& me
                                    told(should) + "; give the options it was made with");
     };
     for (const char* const key :
-         {"coordinates", "edge_lengths", "lift", "weld", "keep_seams", "density", "radius_factor",
-          "radius_factor_floor", "mask", "only"}) {
+         {"coordinates", "edge_lengths", "lift", "weld", "keep_seams", "walls", "density",
+          "radius_factor", "radius_factor_floor", "mask", "only"}) {
         const std::string is = values_of(key, file.header.entries);
         const std::string should = values_of(key, mesh.additions);
         if (is != should) {

@@ -99,13 +99,22 @@ struct MeshFile {
     std::optional<WeldCounts> weld; ///< Set if vertices were joined.
     /// Lowest vertex that each one is joined with. Empty where none are.
     std::vector<std::uint32_t> joined;
-    /// Corners of triangles as the file has them, where vertices are joined. Else empty.
+    /// Vertex of the file that each one behind those of the file is a copy of, where walls cut.
+    std::vector<std::uint32_t> copied;
+    /// Corners of triangles as the file has them, where vertices are joined or copied. Else empty.
     std::vector<std::uint32_t> file_triangles;
     ElementNames names;
     std::vector<MeshWarning> warnings; ///< Warnings about what was dropped or ignored.
 
     std::size_t triangle_count() const { return triangles.size() / 3; }
-    /// Vertices of all corners, before any were joined.
+    /// Returns the number of vertices of the file, of the mesh's.
+    std::size_t file_vertices(std::size_t vertices) const { return vertices - copied.size(); }
+    /// Returns the vertex of the file that a vertex is or is a copy of.
+    std::uint32_t file_vertex(std::size_t vertex, std::size_t vertices) const {
+        const std::size_t own = file_vertices(vertices);
+        return vertex < own ? static_cast<std::uint32_t>(vertex) : copied[vertex - own];
+    }
+    /// Vertices of all corners, before any were joined or copied.
     const std::vector<std::uint32_t>& corners_in_file() const {
         return file_triangles.empty() ? triangles : file_triangles;
     }

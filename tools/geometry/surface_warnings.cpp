@@ -157,8 +157,9 @@ std::vector<MeshWarning> surface_warnings(const MeshFile& file, const PreparedMe
         add_warning(warnings, "components", statistics.components, "", "",
                     "components: no path leads from one to another");
     }
+    const std::uint64_t unwelded = file.copied.empty() ? statistics.coinciding_border_edges : 0;
     add_warning(
-        warnings, "unwelded", statistics.coinciding_border_edges, "",
+        warnings, "unwelded", unwelded, "",
         "edge coincides with another one but is not connected: spacing is not kept across it. "
         "Leave out --keep-seams to join them",
         "edges coincide but are not connected: spacing is not kept across them. "

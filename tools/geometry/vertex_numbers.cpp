@@ -88,7 +88,7 @@ std::vector<double> means_of_corners(const MeshFile& mesh, const MeshField& numb
 
 std::vector<double> vertex_numbers(const MeshFile& mesh, const MeshField& number) {
     if (number.of == MeshField::Of::vertices) {
-        return values_of_joined(mesh, number.values);
+        return values_at_vertices(mesh, number.values);
     }
     const auto& corners = mesh.triangles;
     const std::size_t vertices =

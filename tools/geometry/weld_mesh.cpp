@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <utility>
 
 #include <geodisk/weld.hpp>
@@ -58,8 +59,14 @@ void join_mesh_seams(const std::string& path, MeshFile& mesh) {
     }
 }
 
-std::vector<double> values_of_joined(const MeshFile& mesh, const std::vector<double>& values) {
-    return mesh.joined.empty() ? values : take(means_of_joined(mesh.joined, values));
+std::vector<double> values_at_vertices(const MeshFile& mesh, std::vector<double> values) {
+    if (!mesh.joined.empty()) {
+        values = take(means_of_joined(std::span(mesh.joined).first(values.size()), values));
+    }
+    for (const std::uint32_t vertex : mesh.copied) {
+        values.push_back(values[vertex]);
+    }
+    return values;
 }
 
 } // namespace geodisk::tools

@@ -19,7 +19,8 @@ void weld_mesh(const std::string& path, MeshFile& mesh, const Length& distance);
 /// weld_mesh().
 void join_mesh_seams(const std::string& path, MeshFile& mesh);
 
-/// Returns `values`, one per vertex of the file, with the mean for those that are joined.
-std::vector<double> values_of_joined(const MeshFile& mesh, const std::vector<double>& values);
+/// Returns values of the mesh's vertices, of those of the file: means for those that are joined,
+/// and for copies what they are copies of have.
+std::vector<double> values_at_vertices(const MeshFile& mesh, std::vector<double> values);
 
 } // namespace geodisk::tools

@@ -65,6 +65,22 @@ geodesic_distances(const PreparedMesh& mesh, const DistanceQuery& query,
                    const ThreadOptions& threads = {},
                    const ProgressCallback& progress = {}) noexcept;
 
+/// Finds the radius of the geodesic disk around each source that holds an area, in square mesh
+/// units; if the part of the mesh is smaller, the radius that covers it. Exact distances are taken
+/// at vertices, and between them in faces where the disk has few, and are linear in between: areas
+/// err by about 1 in 1,000. Takes the time of two searches as far as the disk and the longest edge
+/// reach, or more if the surface is folded. Each source is computed by one thread.
+///
+/// Progress counts sources as candidates. It may be called by any of the threads, by one at a time;
+/// returns `cancelled` if it asks to stop.
+///
+/// Errors: `invalid_argument` for an area that is not positive and finite; for a source, naming it,
+/// as geodesic_distances(); `mesh_rejected` as there; `out_of_host_memory`.
+GEODISK_API Result<std::vector<double>> disk_radii(const PreparedMesh& mesh,
+                                                   std::span<const Sample> sources, double area,
+                                                   const ThreadOptions& threads = {},
+                                                   const ProgressCallback& progress = {}) noexcept;
+
 /// A point of a path.
 struct PathPoint {
     std::uint32_t face;

@@ -301,6 +301,29 @@ GEODISK_C_API geodisk_status geodisk_mesh_describe(const geodisk_mesh *mesh,
 /* Releases the mesh. Stable. */
 GEODISK_C_API void geodisk_mesh_release(geodisk_mesh *mesh);
 
+/* Faces and edges of a mesh that no path crosses. */
+typedef struct geodisk_walls {
+    size_t struct_size;
+    const void *indices;     /* Three vertex indices per face. */
+    geodisk_type index_type; /* GEODISK_UINT32 or GEODISK_UINT16; 0 for GEODISK_UINT32. */
+    size_t face_count;
+    size_t index_stride;     /* Bytes from one index to the next; 0 if packed. */
+    size_t vertex_count;
+    const uint8_t *faces;    /* A byte per face, other than 0 for a wall; NULL for none. */
+    const uint32_t *edges;   /* Two vertices per edge that is a wall; NULL for none. */
+    size_t edge_count;
+} geodisk_walls;
+
+/* Cuts a mesh along walls, for geodisk_mesh_create with keep_seams. Writes three indices per face to
+ * `indices`: a face that is a wall names one vertex three times. A vertex that walls of edges pass
+ * is copied, so that each side has its own. Writes the number of copies to `count`, and to `copied`
+ * the vertex that each is a copy of, if `capacity` is large enough; 3 * face_count always is. Copies
+ * are numbered from vertex_count on: append their positions. Seams that are to be joined must be
+ * joined before. Experimental. */
+GEODISK_C_API geodisk_status geodisk_cut(const geodisk_walls *walls, uint32_t *indices,
+                                         uint32_t *copied, size_t capacity, size_t *count,
+                                         geodisk_error *error);
+
 /* Radii that vary over a mesh. The radius at a point is half of min_distance times a factor, 0.001
  * to 1, given per vertex and linear in each face. Two samples are at least the sum of their radii
  * apart. */
@@ -559,6 +582,8 @@ typedef struct geodisk_request {
      * is copied; NULL for all. Existing samples count, and are kept. If a class has fewer, it has
      * what the run gave. */
     const uint32_t *class_counts;
+    /* Not 0: sample at vertices alone. Each is a candidate, drawn by its share of the area. */
+    int32_t at_vertices;
 } geodisk_request;
 
 /* Two fields of requests that exclude each other, as geodisk/request_rules.hpp names them. */
@@ -1026,6 +1051,24 @@ GEODISK_C_API const geodisk_path_point *geodisk_path_points(const geodisk_path *
 
 /* Releases the path. Experimental. */
 GEODISK_C_API void geodisk_path_release(geodisk_path *path);
+
+/* Writes the radius of the geodesic disk around each of `params->sources` or `source_vertices` that
+ * holds an area, in square mesh units, to `radii`; if the part of the mesh is smaller, the radius that
+ * covers it. Areas err by about 1 in 1,000. Only these fields of `params`, and `joined` and
+ * `max_threads`, are used. `progress` may be NULL, and counts sources as candidates; it is called by
+ * any thread of this call, by one at a time. Experimental. */
+GEODISK_C_API geodisk_status geodisk_disk_radii(const geodisk_mesh *mesh,
+                                                const geodisk_distance_params *params, double area,
+                                                geodisk_progress_fn progress, void *user,
+                                                double *radii, geodisk_error *error);
+
+/* Finds which faces of a mesh are seen from outside: by `share` (0 to 1; 0.02 is a good one) of the
+ * rays from one of their sides. Writes a byte per face to `mask`, 1 or 0, as
+ * geodisk_surface_params.face_mask takes it. Needs a mesh with three coordinates per vertex.
+ * `progress` may be NULL; any thread may call it, one at a time. Experimental. */
+GEODISK_C_API geodisk_status geodisk_outside_faces(const geodisk_mesh *mesh, double share,
+                                                   geodisk_progress_fn progress, void *user,
+                                                   uint8_t *mask, geodisk_error *error);
 
 /* ---- Updates ----------------------------------------------------------------------------------- */
 

@@ -25,6 +25,7 @@
 #include <geodisk/mesh_view.hpp>
 #include <geodisk/nearest.hpp>
 #include <geodisk/neighbours.hpp>
+#include <geodisk/outside_faces.hpp>
 #include <geodisk/params.hpp>
 #include <geodisk/placement.hpp>
 #include <geodisk/process_report.hpp>
@@ -38,4 +39,5 @@
 #include <geodisk/threads.hpp>
 #include <geodisk/update.hpp>
 #include <geodisk/version.hpp>
+#include <geodisk/walls.hpp>
 #include <geodisk/weld.hpp>

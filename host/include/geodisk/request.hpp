@@ -48,6 +48,10 @@ struct SampleRequest {
     /// Sample corners first, then edges whose faces meet at more than this angle in degrees, 1 to
     /// 180, borders and edges of more than two faces, then the faces. 0 for no features.
     double features = 0;
+    /// Sample at vertices alone: each is a candidate, drawn by its share of the area, a third of
+    /// each of its faces that take samples. The pool ratio has no effect, and no set has more
+    /// samples than there are vertices.
+    bool at_vertices = false;
     /// Number of samples of each class to keep, the first ones of each; empty for all. Existing
     /// samples count, and are kept. If a class has fewer, it has what the run gave.
     std::span<const std::uint32_t> class_counts{};

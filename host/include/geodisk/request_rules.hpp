@@ -33,13 +33,14 @@ enum class RequestField : std::uint8_t {
     metric,
     frame,
     split_from,
+    at_vertices,
     update,    ///< Samples that follow an edit of their mesh (Updater).
     processes, ///< Several processes that divide a surface.
     frames,    ///< Frames of an engine, into which a run is recorded (FrameSampler).
 };
 
 /// Number of fields.
-inline constexpr std::uint32_t kRequestFields = 22;
+inline constexpr std::uint32_t kRequestFields = 23;
 
 /// Returns the name of a field as spelled above.
 GEODISK_API const char* to_string(RequestField field) noexcept;

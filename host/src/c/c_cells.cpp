@@ -144,10 +144,7 @@ geodisk_status geodisk_nearest_cells(const geodisk_nearest* nearest, geodisk_pro
         if (nearest == nullptr || cells == nullptr) {
             return wrong("nearest or cells is NULL");
         }
-        auto found = nearest->disks.cells([&](const Progress& state) {
-            const geodisk_progress told = progress_of(state);
-            return progress == nullptr || progress(user, &told) == 0;
-        });
+        auto found = nearest->disks.cells(heard_by(progress, user));
         GEODISK_TRY(found);
         *cells = new geodisk_cells{std::move(*found)};
         return Done{};

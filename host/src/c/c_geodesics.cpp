@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <geodisk/geodesics.hpp>
+#include <geodisk/outside_faces.hpp>
 
 #include "c/c_call.hpp"
 #include "c/c_mesh.hpp"
@@ -34,21 +35,31 @@ Result<Sample> end_of(const Mesh& mesh, const geodisk_surface_point* point, std:
     return places->points.front();
 }
 
-Result<Done> find_distances(const Mesh& mesh, const geodisk_distance_params& params,
-                            const ProgressCallback& progress, double* distances,
-                            std::uint32_t* nearest) {
+ThreadOptions threads_of(const geodisk_distance_params& params) {
+    ThreadOptions threads;
+    threads.max_threads = params.max_threads != 0 ? params.max_threads : threads.max_threads;
+    return threads;
+}
+
+/// Returns the sources, which must be given.
+Result<NeighbourSources> distance_sources(const Mesh& mesh, const geodisk_distance_params& params) {
     if (params.sources == nullptr && params.source_vertices == nullptr) {
         return wrong("params->sources and params->source_vertices are NULL");
     }
+    return sources_of(mesh, params.sources, params.source_vertices, params.source_count,
+                      joined_of(mesh, params.joined));
+}
+
+Result<Done> find_distances(const Mesh& mesh, const geodisk_distance_params& params,
+                            const ProgressCallback& progress, double* distances,
+                            std::uint32_t* nearest) {
     if (params.targets == nullptr && params.target_count != 0) {
         return wrong("params->targets is NULL");
     }
     if (params.targets != nullptr && params.target_count == 0) {
         return Done{};
     }
-    const auto joined = joined_of(mesh, params.joined);
-    const auto sources =
-        sources_of(mesh, params.sources, params.source_vertices, params.source_count, joined);
+    const auto sources = distance_sources(mesh, params);
     GEODISK_TRY(sources);
     const std::vector<Sample> targets = samples_of(params.targets, params.target_count);
     DistanceQuery query;
@@ -56,10 +67,8 @@ Result<Done> find_distances(const Mesh& mesh, const geodisk_distance_params& par
     query.targets = targets;
     query.each = params.each != 0;
     query.within = params.within != 0 ? params.within : query.within;
-    query.joined = joined;
-    ThreadOptions threads;
-    threads.max_threads = params.max_threads != 0 ? params.max_threads : threads.max_threads;
-    const auto found = geodesic_distances(mesh.prepared, query, threads, progress);
+    query.joined = joined_of(mesh, params.joined);
+    const auto found = geodesic_distances(mesh.prepared, query, threads_of(params), progress);
     GEODISK_TRY(found);
     std::ranges::copy(found->distances, distances);
     if (nearest != nullptr) {
@@ -87,14 +96,7 @@ geodisk_status geodisk_geodesic_distances(const geodisk_mesh* mesh,
         }
         const auto wanted = taken(params, "params");
         GEODISK_TRY(wanted);
-        ProgressCallback heard;
-        if (progress != nullptr) {
-            heard = [&](const Progress& state) {
-                const geodisk_progress told = progress_of(state);
-                return progress(user, &told) == 0;
-            };
-        }
-        return find_distances(*mesh->shared, *wanted, heard, distances, nearest);
+        return find_distances(*mesh->shared, *wanted, heard_by(progress, user), distances, nearest);
     });
 }
 
@@ -118,6 +120,42 @@ geodisk_status geodisk_geodesic_path(const geodisk_mesh* mesh, const geodisk_pat
                 return geodisk_path_point{p.face, {p.weights[0], p.weights[1], p.weights[2]}};
             });
         *path = made.release();
+        return Done{};
+    });
+}
+
+geodisk_status geodisk_disk_radii(const geodisk_mesh* mesh, const geodisk_distance_params* params,
+                                  double area, geodisk_progress_fn progress, void* user,
+                                  double* radii, geodisk_error* error) {
+    return answer(error, [&]() -> Result<Done> {
+        if (mesh == nullptr || radii == nullptr) {
+            return wrong("mesh or radii is NULL");
+        }
+        const auto given = taken(params, "params");
+        GEODISK_TRY(given);
+        const auto sources = distance_sources(*mesh->shared, *given);
+        GEODISK_TRY(sources);
+        const auto found = disk_radii(mesh->shared->prepared, sources->points, area,
+                                      threads_of(*given), heard_by(progress, user));
+        GEODISK_TRY(found);
+        std::ranges::copy(*found, radii);
+        return Done{};
+    });
+}
+
+geodisk_status geodisk_outside_faces(const geodisk_mesh* mesh, double share,
+                                     geodisk_progress_fn progress, void* user, uint8_t* mask,
+                                     geodisk_error* error) {
+    return answer(error, [&]() -> Result<Done> {
+        if (mesh == nullptr || mask == nullptr) {
+            return wrong("mesh or mask is NULL");
+        }
+        if (mesh->shared->dimension == 0) {
+            return wrong("the mesh has no coordinates, so no face is seen");
+        }
+        const auto seen = outside_faces(mesh->shared->view(), share, {}, heard_by(progress, user));
+        GEODISK_TRY(seen);
+        std::ranges::copy(*seen, mask);
         return Done{};
     });
 }

@@ -1,11 +1,16 @@
 #include "c/c_mesh.hpp"
 
+#include <algorithm>
+#include <array>
+#include <cstdint>
 #include <cstring>
 #include <limits>
 #include <optional>
 #include <span>
 #include <utility>
+#include <vector>
 
+#include <geodisk/walls.hpp>
 #include <geodisk/weld.hpp>
 
 #include "c/c_call.hpp"
@@ -41,19 +46,24 @@ Result<PositionView> positions_of(const geodisk_mesh_params& params, std::uint32
     }
 }
 
-template <class Number>
-Result<IndexView> index_view(const geodisk_mesh_params& params) {
+/// Views the indices of a geodisk_mesh_params or geodisk_walls.
+template <class Number, class Params>
+Result<IndexView> index_view(const Params& params) {
     const std::size_t stride = params.index_stride != 0 ? params.index_stride : sizeof(Number);
     if (!is_aligned<Number>(params.indices, stride)) {
-        return wrong("params->indices are not aligned as their type asks");
+        return wrong("indices are not aligned as their type asks");
     }
     if (params.face_count > SIZE_MAX / 3) {
-        return wrong("params->face_count is too large");
+        return wrong("face_count is too large");
     }
     return IndexView(static_cast<const Number*>(params.indices), 3 * params.face_count, stride);
 }
 
-Result<IndexView> indices_of(const geodisk_mesh_params& params) {
+template <class Params>
+Result<IndexView> indices_of(const Params& params) {
+    if (params.indices == nullptr) {
+        return wrong("indices is NULL");
+    }
     switch (params.index_type) {
     case 0:
     case GEODISK_UINT32:
@@ -61,7 +71,7 @@ Result<IndexView> indices_of(const geodisk_mesh_params& params) {
     case GEODISK_UINT16:
         return index_view<std::uint16_t>(params);
     default:
-        return wrong("params->index_type is neither GEODISK_UINT32 nor GEODISK_UINT16");
+        return wrong("index_type is neither GEODISK_UINT32 nor GEODISK_UINT16");
     }
 }
 
@@ -123,9 +133,6 @@ Result<Mesh> make_by_positions(const geodisk_mesh_params& params, const IndexVie
 }
 
 Result<Mesh> make_mesh(const geodisk_mesh_params& params) {
-    if (params.indices == nullptr) {
-        return wrong("params->indices is NULL");
-    }
     if ((params.positions == nullptr) == (params.edge_lengths == nullptr)) {
         return wrong("one of params->positions and params->edge_lengths must be given");
     }
@@ -137,6 +144,24 @@ Result<Mesh> make_mesh(const geodisk_mesh_params& params) {
     }
     return params.positions != nullptr ? make_by_positions(params, *indices, threads)
                                        : make_by_lengths(params, *indices, threads);
+}
+
+Result<CutMesh> cut_along(const geodisk_walls& walls) {
+    const auto indices = indices_of(walls);
+    GEODISK_TRY(indices);
+    if (walls.vertex_count > UINT32_MAX) {
+        return wrong("vertex_count is too large");
+    }
+    if (walls.edges == nullptr && walls.edge_count > 0) {
+        return wrong("walls->edges is NULL");
+    }
+    std::vector<std::array<std::uint32_t, 2>> edges(walls.edge_count);
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+        edges[i] = {walls.edges[2 * i], walls.edges[2 * i + 1]};
+    }
+    const std::size_t faces = walls.faces != nullptr ? walls.face_count : 0;
+    return cut(*indices, static_cast<std::uint32_t>(walls.vertex_count),
+               {std::span(walls.faces, faces), edges});
 }
 
 /// Reads one value per vertex; `name` is for errors.
@@ -284,6 +309,25 @@ geodisk_status geodisk_mesh_describe(const geodisk_mesh* mesh, geodisk_mesh_info
 
 void geodisk_mesh_release(geodisk_mesh* mesh) {
     delete mesh;
+}
+
+geodisk_status geodisk_cut(const geodisk_walls* walls, uint32_t* indices, uint32_t* copied,
+                           size_t capacity, size_t* count, geodisk_error* error) {
+    return answer(error, [&]() -> Result<Done> {
+        if (indices == nullptr || count == nullptr) {
+            return wrong("indices or count is NULL");
+        }
+        const auto given = taken(walls, "walls");
+        GEODISK_TRY(given);
+        auto made = cut_along(*given);
+        GEODISK_TRY(made);
+        std::ranges::copy(made->triangles, indices);
+        *count = made->copied.size();
+        if (copied != nullptr && capacity >= made->copied.size()) {
+            std::ranges::copy(made->copied, copied);
+        }
+        return Done{};
+    });
 }
 
 geodisk_status geodisk_radii_create(const geodisk_mesh* mesh, const void* factors,

@@ -42,6 +42,7 @@ Result<std::shared_ptr<RequestState>> request_of(const geodisk_mesh* mesh,
     wanted.count = given->count;
     wanted.is_exact = given->is_exact != 0;
     wanted.features = given->features;
+    wanted.at_vertices = given->at_vertices != 0;
     wanted.order = *order;
     wanted.levels.count = given->levels;
     wanted.levels.factor = given->level_factor != 0 ? given->level_factor : kLevelFactor;

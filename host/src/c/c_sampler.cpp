@@ -21,6 +21,16 @@ geodisk_progress progress_of(const Progress& state) {
             state.accepted,           state.disks,   state.windows};
 }
 
+ProgressCallback heard_by(geodisk_progress_fn progress, void* user) {
+    if (progress == nullptr) {
+        return {};
+    }
+    return [=](const Progress& state) {
+        const geodisk_progress told = progress_of(state);
+        return progress(user, &told) == 0;
+    };
+}
+
 ProgressCallback SamplerState::callback(geodisk_progress_fn progress, void* user) {
     return [this, progress, user](const Progress& so_far) {
         if (is_cancelled || progress == nullptr) {

@@ -43,6 +43,9 @@ Error run_in_progress();
 
 geodisk_progress progress_of(const Progress& state);
 
+/// Returns what calls `progress`, which may be null, with `user`.
+ProgressCallback heard_by(geodisk_progress_fn progress, void* user);
+
 } // namespace geodisk::c
 
 struct geodisk_sampler {

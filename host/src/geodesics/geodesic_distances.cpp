@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <atomic>
 #include <iterator>
-#include <mutex>
 #include <string>
 #include <vector>
 
 #include "engine/neighbours/check_query.hpp"
+#include "geodesics/shared_run.hpp"
 #include "geodesics/wavefront.hpp"
 #include "mesh/checks.hpp"
 #include "support/blocks.hpp"
@@ -19,6 +19,7 @@
 namespace geodisk {
 namespace {
 
+using geodesics::SharedRun;
 using geodesics::Wavefront;
 
 Result<Done> check(const PreparedMesh& mesh, const DistanceQuery& query) {
@@ -33,44 +34,6 @@ Result<Done> check(const PreparedMesh& mesh, const DistanceQuery& query) {
     GEODISK_TRY(check_points(mesh, "source", query.sources));
     return check_points(mesh, "target", query.targets);
 }
-
-/// State that several wavefronts share: their progress, told one call at a time, and first error.
-class SharedRun {
-  public:
-    explicit SharedRun(const ProgressCallback& heard) : heard_(heard) {}
-
-    bool goes_on() const { return !is_over_; }
-
-    /// Returns false if the work is to stop.
-    bool tell(std::uint32_t done, std::uint32_t all) {
-        if (heard_ && goes_on()) {
-            const std::lock_guard lock(mutex_);
-            is_over_ = is_over_ || !heard_(Progress{done, all, 0, 0, 0});
-        }
-        return goes_on();
-    }
-
-    /// Ends the work with the error, if there is one.
-    bool check(const Result<Done>& result) {
-        if (result) {
-            return true;
-        }
-        const std::lock_guard lock(mutex_);
-        is_over_ = true;
-        if (result_) {
-            result_ = result;
-        }
-        return false;
-    }
-
-    const Result<Done>& result() const { return result_; }
-
-  private:
-    const ProgressCallback& heard_;
-    std::mutex mutex_;
-    std::atomic<bool> is_over_ = false;
-    Result<Done> result_ = Done{};
-};
 
 /// Writes the distance of each target or vertex to `row`, and its source, where that is asked for.
 void copy_paths(const Wavefront& front, std::span<const std::uint32_t> joined,

@@ -45,6 +45,18 @@ double number_at(const Path& path, std::size_t line, std::string_view token) {
     return *value;
 }
 
+/// Returns a vertex, numbered from 0.
+std::uint32_t vertex_at(const Path& path, std::size_t line, std::string_view token,
+                        std::uint32_t first_vertex) {
+    const std::optional<std::uint32_t> vertex = parse_integer<std::uint32_t>(token);
+    if (!vertex || *vertex < first_vertex) {
+        fail_line(path, line,
+                  in_quotes(token) + " is not a vertex; they are numbered from " +
+                      std::to_string(first_vertex));
+    }
+    return *vertex - first_vertex;
+}
+
 std::uint64_t key_of(std::uint32_t a, std::uint32_t b) {
     return std::uint64_t{std::min(a, b)} << 32 | std::max(a, b);
 }
@@ -109,24 +121,32 @@ VertexValues read_values(const Path& path, std::size_t vertex_count) {
     return {std::move(values), {}, false};
 }
 
+std::vector<NamedEdge> read_edges(const Path& path, std::uint32_t first_vertex) {
+    std::vector<NamedEdge> edges;
+    const std::string bytes = read_text(path);
+    for_each_line(bytes, [&](std::size_t line, const std::vector<std::string_view>& tokens) {
+        if (tokens.size() != 2) {
+            fail_line(path, line, "an edge reads 'VERTEX VERTEX'");
+        }
+        edges.push_back({{vertex_at(path, line, tokens[0], first_vertex),
+                          vertex_at(path, line, tokens[1], first_vertex)},
+                         line});
+    });
+    if (edges.empty()) {
+        fail_input(path, "has no edges");
+    }
+    return edges;
+}
+
 EdgeLengths::EdgeLengths(const Path& path, std::uint32_t first_vertex)
     : path_(path), first_vertex_(first_vertex) {
-    const auto vertex_at = [&](std::size_t line, std::string_view token) {
-        const std::optional<std::uint32_t> vertex = parse_integer<std::uint32_t>(token);
-        if (!vertex || *vertex < first_vertex_) {
-            fail_line(path_, line,
-                      in_quotes(token) + " is not a vertex; they are numbered from " +
-                          std::to_string(first_vertex_));
-        }
-        return *vertex - first_vertex_;
-    };
     const std::string bytes = read_text(path_);
     for_each_line(bytes, [&](std::size_t line, const std::vector<std::string_view>& tokens) {
         if (tokens.size() != 3) {
             fail_line(path_, line, "an edge reads 'VERTEX VERTEX LENGTH'");
         }
-        const std::uint32_t a = vertex_at(line, tokens[0]);
-        const std::uint32_t b = vertex_at(line, tokens[1]);
+        const std::uint32_t a = vertex_at(path_, line, tokens[0], first_vertex_);
+        const std::uint32_t b = vertex_at(path_, line, tokens[1], first_vertex_);
         add(line, a, b, number_at(path_, line, tokens[2]));
     });
 }

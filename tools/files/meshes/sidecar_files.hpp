@@ -2,6 +2,7 @@
 // of vertices, and the lengths of edges. Blank lines and what follows a '#' are ignored.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -19,13 +20,22 @@ struct Coordinates {
 };
 
 /// Reads one line per vertex of 3 to 8 finite numbers, the same on all lines. Throws
-/// UserError(bad_input) naming the file and the line, like the next two.
+/// UserError(bad_input) naming the file and the line, like the others.
 Coordinates read_coordinates(const Path& path);
 
 /// Reads one finite number per line, or the values of vertices in a file of value_files.hpp, for a
 /// mesh of so many vertices. Of these, only a list of vertices needs their number; other files may
 /// have more or fewer values.
 VertexValues read_values(const Path& path, std::size_t vertex_count);
+
+/// An edge by its vertices, numbered from 0, and the line of the file that names it.
+struct NamedEdge {
+    std::array<std::uint32_t, 2> vertices;
+    std::size_t line;
+};
+
+/// Reads one line "V0 V1" per edge. Vertices are numbered from `first_vertex` there.
+std::vector<NamedEdge> read_edges(const Path& path, std::uint32_t first_vertex);
 
 /// Lengths by edge. Vertices are numbered from 0 here, whatever the file does.
 class EdgeLengths {

@@ -51,6 +51,9 @@ inline constexpr std::string_view kRowColumn = "row";
 /// The column that tells samples on corners (2) and curves (1) from those on faces (0).
 inline constexpr std::string_view kFeatureColumn = "feature";
 
+/// The column of --at-vertices: the vertex that each sample is at, 4294967295 for none.
+inline constexpr std::string_view kVertexColumn = "vertex";
+
 /// The attribute and the columns of --frames: a quaternion that turns z to the normal.
 inline constexpr std::string_view kFramesField = "frames";
 inline constexpr std::array<std::string_view, 4> kFrameColumnNames{"qx", "qy", "qz", "qw"};

@@ -33,7 +33,8 @@ std::string face_fault(const SampleRow& row, const MeshInput& mesh) {
                "; is it of another mesh?";
     }
     if (!mesh.file.takes_part(row.face)) {
-        return face + " repeats a vertex or is a copy in " + mesh.path + ", which holds no samples";
+        return face + " repeats a vertex, is a copy or a wall in " + mesh.path +
+               ", so it holds no samples";
     }
     const auto polygon = mesh.polygon(row.face);
     if (row.polygon && polygon && *row.polygon != *polygon) {
@@ -191,11 +192,11 @@ void warn_of_other_surface(const SampleFile& samples, const MeshInput& mesh,
         for (const auto& [key, value] : entries) {
             if (key == "keep_seams") {
                 text.append(" --keep-seams");
-            } else if (key == "lift" || key == "weld") {
-                text.append(" --").append(key).append(key == "lift" ? " " : "=").append(value);
+            } else if (key == "lift" || key == "weld" || key == "walls") {
+                text.append(" --").append(key).append(key == "weld" ? "=" : " ").append(value);
             }
         }
-        return text.empty() ? " no --lift, --weld and --keep-seams" : text;
+        return text.empty() ? " no --lift, --weld, --keep-seams and --walls" : text;
     };
     const std::string used = options_of(samples.header.entries);
     if (used == options_of(mesh.additions)) {

@@ -42,8 +42,9 @@ std::vector<std::uint32_t> masked_samples(const SampleFile& samples, const MeshI
 /// Returns what is to be said of samples by another version of the sampling; "" of all others.
 std::string other_sampling_text(const SampleHeader& header);
 
-/// Adds a warning where the samples' header tells of another --lift, --weld or --keep-seams than
-/// the mesh here: samples of another surface would show as violations, or worse, would not.
+/// Adds a warning where the samples' header tells of another --lift, --weld, --keep-seams or
+/// --walls than the mesh here: samples of another surface would show as violations, or worse, would
+/// not.
 void warn_of_other_surface(const SampleFile& samples, const MeshInput& mesh,
                            std::vector<MeshWarning>& warnings);
 

@@ -8,6 +8,7 @@
 #include <geodisk/nearest.hpp>
 #include <geodisk/version.hpp>
 
+#include "files/samples/cell_file.hpp"
 #include "files/samples/gifti_writer.hpp"
 #include "files/samples/sample_fields.hpp"
 #include "files/samples/sample_format.hpp"
@@ -37,6 +38,7 @@ constexpr const char* kCellsExamples[] = {
     "geodisk cells bunny.ply points.ply -o areas.ply --dual remeshed.obj",
     "geodisk cells lh.white points.ply -o areas.csv --labels lh.cells.label.gii",
     "geodisk cells scan.ply points.ply -o areas.csv --dual remeshed.ply --attributes all",
+    "geodisk cells bunny.ply points.ply -o areas.csv --split cells.vtp --outlines lines.obj",
 };
 
 struct CellOptions {
@@ -44,7 +46,9 @@ struct CellOptions {
     MaskOptions mask;
     OutputOptions out;
     RunOptions run;
-    std::string samples, dual, labels, tolerance;
+    std::string samples, dual, labels, split, outlines, tolerance;
+
+    bool has_geometry() const { return !split.empty() || !outlines.empty(); }
 };
 
 void check_files(const CellOptions& options) {
@@ -62,8 +66,17 @@ void check_files(const CellOptions& options) {
         }
         further.push_back({"the labels", options.labels});
     }
+    if (!options.split.empty()) {
+        cell_format(options.split, "meshes of cells");
+        further.push_back({"the mesh of cells", options.split});
+    }
+    if (!options.outlines.empty()) {
+        cell_format(options.outlines, "outlines of cells");
+        further.push_back({"the outlines", options.outlines});
+    }
     check_outputs(options.out, "the samples", read, nullptr, further);
-    for (const std::string& path : {options.dual, options.labels}) {
+    for (const std::string& path :
+         {options.dual, options.labels, options.split, options.outlines}) {
         if (!path.empty()) {
             check_writable(path);
         }
@@ -148,6 +161,10 @@ void run_cells_command(CellOptions options) {
     MeshInput mesh = load_masked_mesh(options.mesh, progress, options.mask);
     check_dimension(options.out.target(), mesh.dimension());
     check_attributes(options, mesh);
+    if (options.has_geometry() && mesh.dimension() != 3) {
+        fail_usage(std::string(options.split.empty() ? "--outlines" : "--split") +
+                   " needs a mesh with 3 coordinates per vertex");
+    }
     std::vector<MeshWarning> warnings;
     SampleFile file =
         read_samples_silently_on(options.samples, mesh, options.tolerance, warnings, progress);
@@ -162,10 +179,16 @@ void run_cells_command(CellOptions options) {
     RunDevice device(options.run.device, runner);
     const CellResult result =
         run_cells(file.rows, !options.dual.empty(), mesh, device, runner.device_bytes, progress);
-    const std::vector<std::uint32_t> nearest =
-        options.labels.empty()
-            ? std::vector<std::uint32_t>()
-            : nearest_of_vertices(file.rows, mesh, device, runner.device_bytes, progress);
+    std::vector<std::uint32_t> at_vertices;
+    CutCells cuts;
+    if (options.has_geometry() || !options.labels.empty()) {
+        const NearestSamples nearest =
+            find_nearest(file.rows, mesh, device, runner.device_bytes, progress);
+        at_vertices = samples_at_vertices(nearest, mesh);
+        if (options.has_geometry()) {
+            cuts = cut_along_cells(nearest, file.rows.size(), mesh, progress);
+        }
+    }
     check_validation(device.context());
     print_precision_note(options.out, file.rows, mesh.dimension());
     const SampleHeader header = header_with_areas(options, file.header, result.cells);
@@ -181,7 +204,19 @@ void run_cells_command(CellOptions options) {
     }
     if (!options.labels.empty()) {
         further.push_back({{"the labels", options.labels}, [&](AtomicFile& labels) {
-                               write_labels(labels, options.mesh.mesh, file.rows.size(), nearest);
+                               write_labels(labels, options.mesh.mesh, file.rows.size(),
+                                            at_vertices);
+                           }});
+    }
+    if (!options.split.empty()) {
+        further.push_back({{"the mesh of cells", options.split}, [&](AtomicFile& split) {
+                               write_cell_mesh(split, cell_format(options.split, ""), cuts);
+                           }});
+    }
+    if (!options.outlines.empty()) {
+        further.push_back({{"the outlines", options.outlines}, [&](AtomicFile& outlines) {
+                               write_cell_outlines(outlines, cell_format(options.outlines, ""),
+                                                   cuts);
                            }});
     }
     const CellReport report{mesh,
@@ -190,6 +225,8 @@ void run_cells_command(CellOptions options) {
                             options.out.output,
                             options.dual,
                             options.labels,
+                            options.split,
+                            options.outlines,
                             scene_frame(options.out, options.mesh, mesh)};
     write_outputs(
         options.out, "the samples", progress, report,
@@ -223,6 +260,12 @@ void add_cells_command(Command app) {
     command.add_option("--labels", options->labels, "FILE",
                        "Write the cell of each vertex of MESH too, as *.label.gii\n"
                        "(GIFTI): the row of its sample plus 1; 0 if no path leads to one");
+    command.add_option("--split", options->split, "FILE",
+                       "Write the mesh too, cut along the borders of cells: *.vtp, *.ply\n"
+                       "(faces with the numbers sample and face) or *.obj (a group for\n"
+                       "each sample)");
+    command.add_option("--outlines", options->outlines, "FILE",
+                       "Write the borders of cells too, as lines: *.vtp, *.ply or *.obj");
     add_attributes_option(command, options->out.record);
     add_mesh_options(command, options->mesh);
     options->mask.lacking = "no cell has an area";

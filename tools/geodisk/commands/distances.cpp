@@ -194,6 +194,47 @@ std::function<void(AtomicFile&)> writer_of(const DistanceCommand& options,
     return [&table, target](AtomicFile& file) { write_distances(file, target, table); };
 }
 
+/// Returns the largest distance that is finite, or 0.
+double largest_in(const DistanceTable& table) {
+    double largest = 0;
+    for (const double distance : table.distances) {
+        largest = std::isfinite(distance) ? std::max(largest, distance) : largest;
+    }
+    return largest;
+}
+
+/// Takes out the copies of vertices, which walls made: each vertex gets the nearest distance of all
+/// its sides.
+void fold_copies(const MeshFile& mesh, std::size_t vertices, DistanceTable& table) {
+    if (mesh.copied.empty()) {
+        return;
+    }
+    const std::size_t own = mesh.file_vertices(vertices);
+    DistanceTable folded{table.sources, {}, {}};
+    for (std::size_t row = 0; row < table.distances.size(); row += vertices) {
+        const auto nearer = [&](std::size_t at, std::size_t than) {
+            if (table.distances[row + at] < table.distances[row + than]) {
+                table.distances[row + than] = table.distances[row + at];
+                if (!table.nearest.empty()) {
+                    table.nearest[than] = table.nearest[at];
+                }
+            }
+        };
+        for (std::size_t v = own; v < vertices; ++v) {
+            nearer(v, mesh.copied[v - own]);
+        }
+        for (std::size_t v = 0; v < own && !mesh.joined.empty(); ++v) {
+            nearer(mesh.joined[v], v);
+        }
+        const auto first = table.distances.begin() + static_cast<std::ptrdiff_t>(row);
+        folded.distances.insert(folded.distances.end(), first,
+                                first + static_cast<std::ptrdiff_t>(own));
+    }
+    table.nearest.resize(table.nearest.empty() ? 0 : own);
+    folded.nearest = std::move(table.nearest);
+    table = std::move(folded);
+}
+
 void run_distances(const DistanceCommand& options) {
     DistanceTable table;
     const std::function<void(AtomicFile&)> write = writer_of(options, table);
@@ -222,22 +263,19 @@ void run_distances(const DistanceCommand& options) {
     warnings.insert(warnings.begin(), mesh.warnings.begin(), mesh.warnings.end());
     const double seconds =
         seconds_of([&] { table = measure(options, within, std::move(sources), mesh, progress); });
-    std::size_t reached = 0;
-    double largest = 0;
-    for (const double distance : table.distances) {
-        if (std::isfinite(distance)) {
-            ++reached;
-            largest = std::max(largest, distance);
-        }
-    }
     std::vector<FurtherFile> further;
     if (!options.picture.empty()) {
         further.push_back(
             {{"the picture", options.picture},
-             [pixels = draw_distances(options, mesh, table, largest, progress).picture.pixels](
+             [pixels =
+                  draw_distances(options, mesh, table, largest_in(table), progress).picture.pixels](
                  AtomicFile& file) { picture::write_png(file, pixels); }});
     }
-    const DistanceReport report{options, mesh, warnings, table, reached, largest, seconds};
+    fold_copies(mesh.file, mesh.prepared.vertex_count(), table);
+    const auto reached = static_cast<std::size_t>(
+        std::ranges::count_if(table.distances, [](double d) { return std::isfinite(d); }));
+    const DistanceReport report{options,           mesh,   warnings, table, reached,
+                                largest_in(table), seconds};
     write_outputs(options.out, "the distances", progress, report, write, further);
 }
 

@@ -3,7 +3,11 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
+
+#include <geodisk/geodesics.hpp>
 
 #include "geodisk/commands/commands.hpp"
 #include "geodisk/commands/help_text.hpp"
@@ -22,6 +26,7 @@
 #include "program/exact_text.hpp"
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
+#include "program/interrupt.hpp"
 
 namespace geodisk::tools {
 namespace {
@@ -30,6 +35,7 @@ constexpr const char* kNeighboursExamples[] = {
     "geodisk neighbours brain.obj --within 10 -o near.npz",
     "geodisk neighbours brain.obj electrodes.csv --within 10 -o near.csv",
     "geodisk neighbours terrain.ply wells.csv --within reach --among houses.csv -o near.csv",
+    "geodisk neighbours cortex.gii --vertices 0,100 --within area:1% -o patches.csv",
     "geodisk neighbours bunny.ply points.ply --within 5% --among sources --nearest 6 -o graph.npz",
 };
 
@@ -45,11 +51,14 @@ struct NeighbourOptions {
     std::string searched() const { return among == "vertices" || among == "sources" ? "" : among; }
 };
 
-/// The distance of all sources, or the column that has one for each.
+/// The distance of all sources, the column that has one for each, or the area that disks hold.
 struct Within {
-    std::optional<Length> length;
-    std::string column;
+    std::optional<Length> length{};
+    std::string column{};
+    std::optional<Length> area{}; ///< In square mesh units, or % of the area of the mesh.
 };
+
+constexpr std::string_view kArea = "area:";
 
 Within parsed_within(const NeighbourOptions& options) {
     if (options.within.empty()) {
@@ -57,6 +66,9 @@ Within parsed_within(const NeighbourOptions& options) {
             fail_usage("give --within, the distance within which neighbours are, or --nearest");
         }
         return {};
+    }
+    if (options.within.starts_with(kArea)) {
+        return {{}, {}, parse_length("--within", options.within.substr(kArea.size()))};
     }
     const char first = options.within.front();
     const bool is_number = (first >= '0' && first <= '9') || first == '+' || first == '-' ||
@@ -93,6 +105,22 @@ std::vector<double> radii_in(const std::string& path, const std::string& column,
     return file.numbers;
 }
 
+/// Returns the radius of the disk around each source that holds an area.
+std::vector<double> radii_of_area(const Length& area, const std::vector<Sample>& sources,
+                                  const MeshInput& mesh, ProgressLine& progress) {
+    const double whole = mesh.prepared.statistics().area;
+    progress.begin_stage("measuring disks");
+    auto radii =
+        disk_radii(mesh.prepared, sources, area.is_percent ? area.in_mesh_units(whole) : area.value,
+                   {}, [&](const Progress& state) {
+                       progress.update(static_cast<double>(state.decided) / state.candidates, "");
+                       return !is_interrupted();
+                   });
+    progress.clear();
+    check_interrupted();
+    return take(std::move(radii), mesh.path);
+}
+
 NeighbourJob make_job(const NeighbourOptions& options, const Within& within,
                       const std::vector<VertexRange>& vertices, const MeshInput& mesh,
                       std::vector<MeshWarning>& warnings, ProgressLine& progress) {
@@ -110,6 +138,9 @@ NeighbourJob make_job(const NeighbourOptions& options, const Within& within,
         if (!within.column.empty()) {
             job.radii = radii_in(options.source.points, within.column, file);
         }
+    }
+    if (within.area) {
+        job.radii = radii_of_area(*within.area, job.sources.points, mesh, progress);
     }
     if (within.length) {
         job.within = distance_on_mesh(*within.length, mesh.prepared.statistics());
@@ -179,7 +210,9 @@ void add_neighbours_command(Command app) {
                         "distances) or *.csv (source, target, distance)");
     command.add_option("--within", options->within, "R",
                        "Distance along the surface: in mesh units, or 1% of the\n"
-                       "diagonal, or the column of POINTS that has one for each");
+                       "diagonal, or the column of POINTS that has one for each;\n"
+                       "area:1%: as far as the disk holds so much of the area, and\n"
+                       "area:A in square mesh units");
     add_source_options(command, options->source,
                        "Sources are only these vertices, such as 0,5,10-20, or @FILE\n"
                        "with such numbers, separated by blanks or lines");

@@ -2,8 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <optional>
 #include <set>
+#include <utility>
+
+#include <geodisk/outside_faces.hpp>
 
 #include "files/images/image.hpp"
 #include "files/meshes/value_fields.hpp"
@@ -13,6 +17,7 @@
 #include "program/exact_text.hpp"
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
+#include "program/interrupt.hpp"
 #include "program/suggestion.hpp"
 
 namespace geodisk::tools {
@@ -110,8 +115,8 @@ class PartIndex {
         constexpr std::size_t kMax = 10;
         const Naming naming = naming_of(kind_);
         if (known_.empty()) {
-            fail_input(path, "has no " + std::string(naming.plural) + " for --only " + rule.text +
-                                 naming.source);
+            fail_input(path, "has no " + std::string(naming.plural) + " for " + rule.option + " " +
+                                 rule.text + naming.source);
         }
         std::vector<std::string> names, shown;
         for (const std::uint32_t number : known_) {
@@ -126,7 +131,7 @@ class PartIndex {
         if (names.size() > kMax) {
             shown.push_back(std::to_string(names.size() - kMax) + " more");
         }
-        fail_input(path, "no face is of " + rule.text + ", as --only requests; the " +
+        fail_input(path, "no face is of " + rule.text + ", as " + rule.option + " requests; the " +
                              naming.plural + " are " + listed(shown) +
                              did_you_mean(rule.name, names));
     }
@@ -151,11 +156,24 @@ void choose_component(const std::string& path, const MeshFile& mesh, const OnlyR
         count = parts[t] == kNoPart ? count : std::max(count, parts[t] + 1);
     }
     if (!is_known) {
-        fail_input(path, "has no " + rule.text + ", as --only requests; its " +
+        fail_input(path, "has no " + rule.text + ", as " + rule.option + " requests; its " +
                              (count == 1 ? "only part is 0"
                                          : counted(count, "part", "parts") + " are 0 to " +
                                                std::to_string(count - 1)));
     }
+}
+
+/// Marks the triangles that are seen from outside.
+void choose_outside(const std::string& path, const MeshFile& mesh, const OnlyRule& rule,
+                    Mask& chosen) {
+    if (mesh.positions.empty() || mesh.dimension != 3) {
+        fail_usage(rule.option + " " + rule.text + " needs a mesh with 3 coordinates per vertex");
+    }
+    auto seen = outside_faces({mesh.positions, mesh.triangles, 3}, rule.share, {},
+                              [](const Progress&) { return !is_interrupted(); });
+    check_interrupted();
+    std::ranges::transform(chosen, take(std::move(seen), path), chosen.begin(),
+                           std::bit_or<std::uint8_t>());
 }
 
 Mask chosen_by(const std::string& path, const MeshFile& mesh, const std::vector<OnlyRule>& rules) {
@@ -164,6 +182,8 @@ Mask chosen_by(const std::string& path, const MeshFile& mesh, const std::vector<
     for (const OnlyRule& rule : rules) {
         if (rule.kind == RuleKind::part) {
             choose_component(path, mesh, rule, chosen);
+        } else if (rule.kind == RuleKind::outside) {
+            choose_outside(path, mesh, rule, chosen);
         } else {
             PartIndex(mesh, rule.kind).choose(path, rule, parts);
         }
@@ -186,15 +206,15 @@ struct RuleValues {
 
 std::vector<double> coordinates_for(const MaskRule& rule, std::size_t axis, const MeshFile& mesh) {
     if (axis >= mesh.dimension && !mesh.positions.empty()) {
-        fail_usage("--mask " + rule.name + ": the mesh has " + std::to_string(mesh.dimension) +
-                   " coordinates per vertex");
+        fail_usage(rule.option + " " + rule.name + ": the mesh has " +
+                   std::to_string(mesh.dimension) + " coordinates per vertex");
     }
     std::vector<double> coordinates;
     for (std::size_t i = axis; i < mesh.positions.size(); i += mesh.dimension) {
         coordinates.push_back(mesh.positions[i]);
     }
     if (coordinates.empty()) {
-        fail_usage("--mask " + rule.name + " needs a mesh with coordinates");
+        fail_usage(rule.option + " " + rule.name + " needs a mesh with coordinates");
     }
     return coordinates;
 }
@@ -348,6 +368,18 @@ void add_to(std::vector<MeshWarning>& warnings, const std::vector<MeshWarning>& 
 }
 
 } // namespace
+
+std::vector<std::uint8_t> faces_of(const OnlyRule& part, const std::string& path,
+                                   const MeshFile& mesh) {
+    return chosen_by(path, mesh, {part});
+}
+
+std::vector<std::uint8_t> faces_of(const MaskRule& rule, const MeshFile& mesh) {
+    const bool has_number = !rule.is_map && !rule.axis();
+    Mask mask(mesh.triangle_count(), 1);
+    RuleEffect(rule, mesh, has_number ? &mesh.number(rule.name) : nullptr, mask);
+    return mask;
+}
 
 LoadedMask load_mask(const MaskOptions& options, const std::string& path, const MeshFile& mesh,
                      const SplitFaces* split) {

@@ -14,6 +14,14 @@
 
 namespace geodisk::tools {
 
+/// Returns a byte per triangle, 1 for those of a part of the mesh at `path`. Throws
+/// UserError(bad_input) for a part that the mesh does not have.
+std::vector<std::uint8_t> faces_of(const OnlyRule& part, const std::string& path,
+                                   const MeshFile& mesh);
+
+/// Returns a byte per triangle, 1 where the rule holds for the whole of it.
+std::vector<std::uint8_t> faces_of(const MaskRule& rule, const MeshFile& mesh);
+
 struct LoadedMask {
     std::vector<std::uint8_t> faces; ///< A byte per triangle, 1 where it takes samples.
     std::vector<MeshWarning> warnings;

@@ -10,6 +10,7 @@
 #include "files/samples/told_samples.hpp"
 #include "geodisk/inputs/mask_input.hpp"
 #include "geodisk/inputs/radii_input.hpp"
+#include "geodisk/inputs/wall_input.hpp"
 #include "geodisk/outputs/outputs.hpp"
 #include "geometry/lift.hpp"
 #include "geometry/surface_warnings.hpp"
@@ -189,6 +190,7 @@ MeshInput load_silently(const MeshOptions& options, ProgressLine& progress,
     const std::string& path = options.mesh;
     const std::optional<DensitySource> source = density.source();
     const std::vector<Lift> lifts = options.parsed_lifts();
+    const std::vector<WallRule> walls = wall_rules(options.walls);
     std::vector<DensitySource> densities;
     if (source) {
         densities.push_back(*source);
@@ -202,12 +204,18 @@ MeshInput load_silently(const MeshOptions& options, ProgressLine& progress,
     }
     progress.begin_stage("reading the mesh");
     Stopwatch watch;
-    MeshSources sources = sources_of(options, lifts, densities, masks);
+    std::vector<MaskRule> compared = masks;
+    const std::vector<MaskRule> compared_for_walls = mask_rules_of(walls);
+    compared.insert(compared.end(), compared_for_walls.begin(), compared_for_walls.end());
+    MeshSources sources = sources_of(options, lifts, densities, compared);
     sources.progress = [&](double part) {
         check_interrupted();
         progress.update(part, "");
     };
     MeshFile file = read_unless_samples(path, hint, [&] { return read_mesh(sources); });
+    if (!walls.empty()) {
+        cut_walls(path, walls, file);
+    }
     const double load_seconds = watch.seconds();
     check_interrupted();
 

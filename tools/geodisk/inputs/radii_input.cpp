@@ -146,14 +146,17 @@ Values loaded_values(const DensitySource& of, const std::string& path, const Mes
         values = {of.name, map_values(GreyImage(of.name), file, split,
                                       split ? mesh.vertex_count() : vertex_count)};
     } else {
-        values = values_of(of, path, file, vertex_count);
-        if (values.values.size() != vertex_count) {
-            fail_input(values.source,
-                       "has " + counted(values.values.size(), "value", "values") + " for the " +
-                           counted(vertex_count, "vertex", "vertices") + " of the mesh");
+        values = values_of(of, path, file, file.file_vertices(vertex_count));
+        // Of a file there is what each of its vertices has.
+        const std::size_t wanted =
+            of.kind == Kind::file ? file.file_vertices(vertex_count) : vertex_count;
+        if (values.values.size() != wanted) {
+            fail_input(values.source, "has " + counted(values.values.size(), "value", "values") +
+                                          " for the " + counted(wanted, "vertex", "vertices") +
+                                          " of the mesh");
         }
-        if (of.kind == Kind::file) { // What each vertex of the file has.
-            values.values = values_of_joined(file, values.values);
+        if (of.kind == Kind::file) {
+            values.values = values_at_vertices(file, std::move(values.values));
         }
         values.values = split ? split->parts().extended(values.values) : values.values;
     }

@@ -64,6 +64,15 @@ std::vector<VertexRange> vertices_in(const std::string& file) {
     return ranges;
 }
 
+/// Leaves out copies of vertices, which walls made.
+NumberedPoints of_file(const MeshInput& mesh, VertexPoints points) {
+    const std::size_t count = mesh.file.file_vertices(mesh.prepared.vertex_count());
+    const auto first = std::ranges::lower_bound(points.vertices, count);
+    points.points.resize(static_cast<std::size_t>(first - points.vertices.begin()));
+    points.vertices.resize(points.points.size());
+    return {std::move(points.points), std::move(points.vertices)};
+}
+
 } // namespace
 
 void SourceOptions::add_files(std::vector<NamedFile>& read) const {
@@ -114,28 +123,27 @@ void add_source_options(Command command, SourceOptions& options, const std::stri
 }
 
 NumberedPoints places_of(const MeshInput& mesh) {
-    VertexPoints places = take(vertex_points(mesh.prepared));
-    return {std::move(places.points), std::move(places.vertices)};
+    return of_file(mesh, take(vertex_points(mesh.prepared)));
 }
 
 NumberedPoints vertices_of(const MeshInput& mesh, const std::vector<VertexRange>& wanted) {
-    VertexPoints all = take(vertex_points(mesh.prepared, mesh.file.joined));
+    const NumberedPoints all = of_file(mesh, take(vertex_points(mesh.prepared, mesh.file.joined)));
     if (wanted.empty()) {
-        return {std::move(all.points), std::move(all.vertices)};
+        return all;
     }
+    const std::size_t count = mesh.file.file_vertices(mesh.prepared.vertex_count());
     NumberedPoints found;
     for (const auto& [first, last] : wanted) {
-        if (last >= mesh.prepared.vertex_count()) {
+        if (last >= count) {
             fail_usage("--vertices: there is no vertex " + std::to_string(last) +
-                       ", since the mesh has " + grouped(mesh.prepared.vertex_count()) +
-                       ", counted from 0");
+                       ", since the mesh has " + grouped(count) + ", counted from 0");
         }
-        auto at = std::ranges::lower_bound(all.vertices, first);
+        auto at = std::ranges::lower_bound(all.numbers, first);
         for (std::uint32_t vertex = first; vertex <= last; ++vertex, ++at) {
-            if (at == all.vertices.end() || *at != vertex) {
+            if (at == all.numbers.end() || *at != vertex) {
                 fail_usage("--vertices: no face uses vertex " + std::to_string(vertex));
             }
-            found.points.push_back(all.points[static_cast<std::size_t>(at - all.vertices.begin())]);
+            found.points.push_back(all.points[static_cast<std::size_t>(at - all.numbers.begin())]);
             found.numbers.push_back(vertex);
         }
     }

@@ -43,6 +43,8 @@ struct SourceOptions {
 /// Adds the option of the vertices, and that of the tolerance of points.
 void add_source_options(Command command, SourceOptions& options, const std::string& vertices_help);
 
+// Of a vertex on walls, its place is on the side of its lowest face.
+
 /// Returns the places of vertices that faces use, each by the lowest of those that are joined.
 NumberedPoints places_of(const MeshInput& mesh);
 

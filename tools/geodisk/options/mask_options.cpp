@@ -9,6 +9,8 @@
 #include <utility>
 
 #include "files/meshes/value_fields.hpp"
+#include <geodisk/outside_faces.hpp>
+
 #include "files/samples/sample_columns.hpp"
 #include "geodisk/options/class_options.hpp"
 #include "program/arguments.hpp"
@@ -37,6 +39,7 @@ constexpr std::array<std::pair<std::string_view, Comparison>, 6> kComparisons{
      {"<", Comparison::less},
      {">", Comparison::greater},
      {"=", Comparison::equal}}};
+constexpr std::string_view kOutside = "outside";
 constexpr const char* kMask = "--mask";
 constexpr const char* kClassMask = "--class-mask";
 constexpr const char* kClassDensity = "--class-density";
@@ -57,18 +60,11 @@ std::string key_of(const std::string& option) {
 }
 
 OnlyRule parse_only(const std::string& text) {
-    for (const auto& [prefix, kind] : kKinds) {
-        if (text.starts_with(prefix) && text.size() > prefix.size()) {
-            OnlyRule rule{kind, text.substr(prefix.size()), text};
-            if (kind == RuleKind::part && !parse_integer<std::uint32_t>(rule.name)) {
-                fail_usage("--only: " + in_quotes(text) +
-                           " is not the number of a part; --columns part tells the numbers");
-            }
-            return rule;
-        }
+    if (auto rule = parse_part("--only", text)) {
+        return *std::move(rule);
     }
     fail_usage("--only: " + in_quotes(text) +
-               " is none of material:NAME, group:NAME, node:NAME and part:N");
+               " is none of material:NAME, group:NAME, node:NAME, part:N and outside");
 }
 
 bool is_file(const std::string& name) {
@@ -117,26 +113,56 @@ MaskRule parse_file(const std::string& option, const std::string& text, std::str
     return rule;
 }
 
-MaskRule parse_mask(const std::string& option, const std::string& text) {
-    for (const std::string_view prefix : {kMap, kValueFile}) {
-        if (text.starts_with(prefix)) {
-            return parse_file(option, text, prefix);
+} // namespace
+
+std::optional<OnlyRule> parse_part(const std::string& option, const std::string& text) {
+    if (text == kOutside) {
+        return OnlyRule{RuleKind::outside, "", kOutsideShare, text, option};
+    }
+    if (text.starts_with(std::string(kOutside) + ':')) {
+        const auto share = parse_real(std::string_view(text).substr(kOutside.size() + 1));
+        if (!share || !(*share >= 0 && *share <= 1)) {
+            fail_usage(option + ": " + in_quotes(text) +
+                       " has no share of rays from 0 to 1, as outside:0.1");
+        }
+        return OnlyRule{RuleKind::outside, "", *share, text, option};
+    }
+    for (const auto& [prefix, kind] : kKinds) {
+        if (text.starts_with(prefix) && text.size() > prefix.size()) {
+            OnlyRule rule{kind, text.substr(prefix.size()), 0, text, option};
+            if (kind == RuleKind::part && !parse_integer<std::uint32_t>(rule.name)) {
+                fail_usage(option + ": " + in_quotes(text) +
+                           " is not the number of a part; --columns part tells the numbers");
+            }
+            return rule;
         }
     }
-    const std::size_t at = text.find_first_of("<>=!");
-    if (at == std::string::npos && is_file(text)) {
-        fail_usage(option + ": " + in_quotes(text) + " is a file; give map:" + text +
-                   " for an image, file:" + text + " for values, or a property and a comparison");
-    }
-    return parse_comparison(option, text, std::min(at, text.size()));
+    return std::nullopt;
 }
 
-/// Returns the file that a rule reads; nothing for a property of the mesh.
+MaskRule parse_mask(const std::string& option, const std::string& text) {
+    MaskRule rule;
+    if (text.starts_with(kMap)) {
+        rule = parse_file(option, text, kMap);
+    } else if (text.starts_with(kValueFile)) {
+        rule = parse_file(option, text, kValueFile);
+    } else {
+        const std::size_t at = text.find_first_of("<>=!");
+        if (at == std::string::npos && is_file(text)) {
+            fail_usage(option + ": " + in_quotes(text) + " is a file; give map:" + text +
+                       " for an image, file:" + text +
+                       " for values, or a property and a comparison");
+        }
+        rule = parse_comparison(option, text, std::min(at, text.size()));
+    }
+    rule.option = option;
+    return rule;
+}
+
 std::optional<std::string> file_of(const MaskRule& rule) {
     return rule.is_map ? std::optional(rule.name) : value_file(rule.name);
 }
 
-/// Puts `place(name)` for the file of a value of an option like --mask.
 void place_file(const std::string& option, std::string& text,
                 const std::function<std::string(const std::string&)>& place) {
     const MaskRule rule = parse_mask(option, text);
@@ -146,8 +172,6 @@ void place_file(const std::string& option, std::string& text,
         text = prefix + place(*file) + comparison;
     }
 }
-
-} // namespace
 
 bool MaskRule::holds(double of) const {
     switch (comparison) {
@@ -304,9 +328,10 @@ void add_mask_options(Command command, MaskOptions& options, OptionUse use) {
         .add_option("--only", options.only, "PART",
                     help_for(use, "Sample only", "Samples lie on", "Take only") +
                         " material:NAME, group:NAME (OBJ group or object),\n"
-                        "node:NAME (with the nodes below it) or part:N (no path joins\n"
-                        "it to others). A number may replace NAME. Repeat to select\n"
-                        "more faces. Paths cross faces that are left out",
+                        "node:NAME (with the nodes below it), part:N (no path joins it\n"
+                        "to others) or outside (what can be seen from there; outside:S\n"
+                        "if a share S of rays sees it). A number may replace NAME.\n"
+                        "Repeat to select more faces. Paths cross what is left out",
                     group)
         .takes_one_value();
     command

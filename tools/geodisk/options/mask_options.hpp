@@ -19,11 +19,13 @@ class Command;
 
 /// A part of a mesh that takes samples.
 struct OnlyRule {
-    enum class Kind { material, group, node, part };
+    enum class Kind { material, group, node, part, outside };
 
     Kind kind = Kind::material;
-    std::string name; ///< Name or number; of a part, its number.
+    std::string name; ///< Name or number; of a part, its number; "" for what is outside.
+    double share = 0; ///< Of the rays of a face, for what is outside.
     std::string text; ///< As given.
+    std::string option = "--only";
 };
 
 /// A comparison that holds where samples may lie.
@@ -35,6 +37,7 @@ struct MaskRule {
     Comparison comparison = Comparison::at_least;
     double value = 0;
     std::string value_name{}; ///< As given for values of a file, which may have names. Or "".
+    std::string option = "--mask";
 
     /// False for a value that is not a number.
     bool holds(double of) const;
@@ -83,6 +86,20 @@ struct MaskOptions {
     /// Names the options that are given, for messages.
     std::string names() const;
 };
+
+/// Returns the part that a value of `option` names; nothing if its beginning is of no part. Throws
+/// UserError(usage) for what is no number of a part, and no share.
+std::optional<OnlyRule> parse_part(const std::string& option, const std::string& text);
+
+/// Returns the rule that a value of `option` is. Throws UserError(usage) for one that is none.
+MaskRule parse_mask(const std::string& option, const std::string& text);
+
+/// Returns the file that a rule reads; nothing for a property of the mesh.
+std::optional<std::string> file_of(const MaskRule& rule);
+
+/// Puts `place(name)` for the file of a rule that is a value of `option`.
+void place_file(const std::string& option, std::string& text,
+                const std::function<std::string(const std::string&)>& place);
 
 /// Returns `entries` with those of the options behind them.
 HeaderEntries with_entries(HeaderEntries entries, const MaskOptions& options);

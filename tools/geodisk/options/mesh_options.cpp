@@ -5,6 +5,7 @@
 #include "files/meshes/image_tiles.hpp"
 #include "files/meshes/mesh_file.hpp"
 #include "files/meshes/value_fields.hpp"
+#include "geodisk/options/wall_options.hpp"
 #include "program/command.hpp"
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
@@ -60,6 +61,7 @@ void MeshOptions::add_files(std::vector<NamedFile>& read, const std::string& wha
     for (const std::string& file : value_files(fields)) {
         read.push_back({"the attribute", file});
     }
+    add_wall_files(walls, read);
     if (const auto tiles = tile_name(texture); tiles && tiles->is_pattern) {
         for (const auto& [number, image] : find_tiles("", *tiles)) {
             read.push_back({"the texture", image});
@@ -86,6 +88,9 @@ HeaderEntries MeshOptions::additions() const {
     }
     if (keep_seams) {
         result.emplace_back("keep_seams", "yes");
+    }
+    for (const std::string& wall : walls) {
+        result.emplace_back("walls", wall);
     }
     return result;
 }
@@ -154,11 +159,24 @@ void add_weld_options(Command command, MeshOptions& options, const std::string& 
                      kSurfaceGroup);
 }
 
+void add_walls_option(Command command, MeshOptions& options) {
+    command
+        .add_option("--walls", options.walls, "WALL",
+                    "No path crosses these: faces of material:NAME, group:NAME,\n"
+                    "node:NAME or part:N, faces where PROPERTY<VALUE holds or that\n"
+                    "are white in map:FILE, edges of creases[:DEGREES], or those in\n"
+                    "edges:FILE with a line VERTEX VERTEX each; may be given several\n"
+                    "times",
+                    kSurfaceGroup)
+        .takes_one_value();
+}
+
 void add_mesh_options(Command command, MeshOptions& options) {
     add_reader_options(command, options);
     add_weld_options(command, options);
     add_sidecar_options(command, options, "MESH");
     add_lift_option(command, options);
+    add_walls_option(command, options);
 }
 
 } // namespace geodisk::tools

@@ -20,9 +20,10 @@ struct MeshOptions {
     std::vector<std::string> lifts;
     std::string weld; ///< A length, or what a flag without a value gets; "" for not at all.
     bool keep_seams = false;
-    bool allows_outside = false; ///< As in MeshSources.
-    WantedFields fields;         ///< Attributes to read for samples.
-    std::string texture;         ///< Image whose colours samples get, or "".
+    std::vector<std::string> walls; ///< As wall_rules() takes them.
+    bool allows_outside = false;    ///< As in MeshSources.
+    WantedFields fields;            ///< Attributes to read for samples.
+    std::string texture;            ///< Image whose colours samples get, or "".
 
     /// Throws UserError(usage) for what is no lift, and where there is nothing to lift.
     std::vector<Lift> parsed_lifts() const;
@@ -56,6 +57,9 @@ void add_lift_option(Command command, MeshOptions& options, const std::string& s
 
 /// Adds --weld and --keep-seams, with `suffix`.
 void add_weld_options(Command command, MeshOptions& options, const std::string& suffix = "");
+
+/// Adds --walls.
+void add_walls_option(Command command, MeshOptions& options);
 
 /// Adds all options besides MESH.
 void add_mesh_options(Command command, MeshOptions& options);

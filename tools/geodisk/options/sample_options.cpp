@@ -5,6 +5,7 @@
 
 #include "files/meshes/part_columns.hpp"
 #include "files/meshes/value_fields.hpp"
+#include "geodisk/options/wall_options.hpp"
 #include "program/command.hpp"
 #include "program/failure.hpp"
 #include "program/suggestion.hpp"
@@ -109,6 +110,7 @@ GivenFields given_fields(const SampleOptions& options, const ClassTable& classes
     given.add(Field::existing, "--existing", !options.constraints.existing.empty());
     given.add(Field::avoid, "--avoid", !options.constraints.avoid.empty());
     given.add(Field::features, "--features", !options.features.empty());
+    given.add(Field::at_vertices, "--at-vertices", options.at_vertices);
     given.add(Field::metric, metric, parse_metric(options.metric).has_value());
     given.add(Field::update, "--from", !options.from.empty());
     return given;
@@ -127,6 +129,7 @@ void place_files(SampleOptions& options,
     if (!options.density.given().empty()) {
         options.density.place_files(place);
     }
+    place_wall_files(options.mesh.walls, place);
     options.mask.place_files(place);
     options.constraints.place_files(place);
     place_class_file(options.classes, place);
@@ -163,6 +166,11 @@ SampleJob parse_job(const SampleOptions& options) {
     if (!options.features.empty()) {
         job.features = parse_ratio("--features", options.features, 1, 180);
     }
+    job.at_vertices = options.at_vertices;
+    if (options.at_vertices && (options.method.is_dense || !options.method.pool_ratio.empty())) {
+        fail_usage(std::string(options.method.is_dense ? "--dense" : "--pool-ratio") +
+                   " is for candidates that are drawn; --at-vertices has the vertices");
+    }
     check_distance(options, job.classes);
     if (!options.min_distance.empty()) {
         job.min_distance = parse_length("--min-distance", options.min_distance);
@@ -188,6 +196,7 @@ SampleJob parse_job(const SampleOptions& options) {
     job.constraints.check_classes(job.classes.count);
     job.mesh.parsed_lifts(); // Wrong ones are known before a mesh is read.
     job.mesh.weld_distance();
+    wall_rules(job.mesh.walls);
     job.density.is_given();
     job.mask.check(job.classes.count);
     job.mask.class_count = job.classes.count;
@@ -241,6 +250,10 @@ void add_subject_options(Command command, SampleOptions& options) {
                        "edges of more than two faces, then faces. The column feature is\n"
                        "2, 1 and 0",
                        "Constraints");
+    command.add_flag("--at-vertices", options.at_vertices,
+                     "Sample at vertices alone: each is a candidate, drawn by its share\n"
+                     "of the area. The column vertex has its number, from 0",
+                     "Constraints");
 
     command
         .add_option("--metric", options.metric, "NAME",

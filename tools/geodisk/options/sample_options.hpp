@@ -39,6 +39,7 @@ struct SampleOptions : SampleInputs {
     MethodOptions method;
     std::string min_distance, radius, count;
     std::string classes, features;
+    bool at_vertices = false;
     std::string metric = "geodesic";
 };
 
@@ -63,8 +64,9 @@ void add_job_options(Command command, SampleOptions& options);
 /// Job that is asked for, checked as far as that is possible without the mesh.
 struct SampleJob : SampleInputs {
     ClassTable classes;
-    std::string classes_option;       ///< As given.
-    std::optional<double> features;   ///< Degrees from which on edges are features.
+    std::string classes_option;     ///< As given.
+    std::optional<double> features; ///< Degrees from which on edges are features.
+    bool at_vertices = false;
     std::vector<float> class_factors; ///< SampleParams::class_factors.
     std::vector<std::string> columns; ///< Columns of the samples, besides those that all have.
     std::optional<Metric> metric;     ///< Through space; without it, distances are geodesic.

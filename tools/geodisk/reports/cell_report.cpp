@@ -77,6 +77,8 @@ std::string CellReport::json(double write_seconds) const {
                   {"error", cells.distance_error},
                   {"dual", dual_json(*this)},
                   {"labels", labels.empty() ? Json() : Json(labels)},
+                  {"split", split.empty() ? Json(nullptr) : Json(split)},
+                  {"outlines", outlines.empty() ? Json(nullptr) : Json(outlines)},
                   {"disks", cells.report.disks},
                   {"windows", cells.report.windows},
                   {"scene", scene_json(scene)},
@@ -100,6 +102,12 @@ std::string CellReport::summary(double write_seconds) const {
     }
     if (!labels.empty()) {
         out << "labels file   " << one_line(labels) << '\n';
+    }
+    if (!split.empty()) {
+        out << "split mesh    " << one_line(split) << '\n';
+    }
+    if (!outlines.empty()) {
+        out << "outlines      " << one_line(outlines) << '\n';
     }
     out << search_text(mesh, result.done, write_seconds, output, "finding cells")
         << scene_line(scene);

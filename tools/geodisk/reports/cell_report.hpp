@@ -17,8 +17,9 @@ struct CellReport {
     const std::vector<MeshWarning>& warnings; ///< Warnings about mesh and samples.
     const CellResult& result;
     const std::string& output;
-    const std::string& dual;   ///< File of the dual graph, or "".
-    const std::string& labels; ///< File of the labels of vertices, or "".
+    const std::string& dual;             ///< File of the dual graph, or "".
+    const std::string& labels;           ///< File of the labels of vertices, or "".
+    const std::string &split, &outlines; ///< Files of cells as geometry, or "".
     std::optional<SceneFrame> scene;
 
     std::string json(double write_seconds) const;

@@ -80,7 +80,7 @@ Json mesh_json(const MeshInput& input) {
     const bool has_box = mesh.diagonal > 0; // Edge lengths have none.
     Json json{{"path", input.path}};
     for (const auto& [name, value] : input.additions) {
-        if (name == "lift" || name == "only" || name.ends_with("mask") ||
+        if (name == "lift" || name == "walls" || name == "only" || name.ends_with("mask") ||
             name == "class_density") { // There may be several.
             json[name].push_back(value);
         } else {

@@ -295,6 +295,9 @@ SampleHeader SampleReport::header() const {
     if (job_.features) {
         header.entries.emplace_back("features", exact_text(*job_.features));
     }
+    if (job_.at_vertices) {
+        header.entries.emplace_back("at_vertices", "yes");
+    }
     if (job_.classes.is_given()) {
         header.entries.emplace_back("classes", job_.classes.text(distance));
     }

@@ -26,11 +26,12 @@ from ._errors import (
     OutOfMemory,
 )
 from ._farthest import FarthestOrder, farthest_order
-from ._geodesics import GeodesicPath, geodesic_distances, geodesic_path
+from ._geodesics import GeodesicPath, disk_radii, geodesic_distances, geodesic_path
 from ._library import version
 from ._many import sample_many
 from ._mesh import Mesh
 from ._neighbours import Neighbours, neighbours
+from ._outside import outside_faces
 from ._picture import Picture, render
 from ._reading import read
 from ._sample import Sample
@@ -66,10 +67,12 @@ __all__ = [
     "cells",
     "compat",
     "devices",
+    "disk_radii",
     "farthest_order",
     "geodesic_distances",
     "geodesic_path",
     "neighbours",
+    "outside_faces",
     "read",
     "render",
     "sample",

@@ -204,6 +204,88 @@ def geodesic_distances(
     return distances, np.where(nearest == 2**32 - 1, -1, nearest.astype(np.int64))
 
 
+def disk_radii(
+    vertices: ArrayLike | MeshLike,
+    faces: Faces | Any | None = None,
+    sources: Any = None,
+    area: float | None = None,
+    *,
+    edge_lengths: ArrayLike | None = None,
+    weld: bool | float = False,
+    keep_seams: bool = False,
+    mesh_format: str | None = None,
+    allow_outside: bool = False,
+    progress: bool | ProgressCallback = False,
+) -> NDArray[np.float64]:
+    """Returns the radius of the disk around each source that holds an area, along the surface.
+
+    Parameters
+    ----------
+    vertices, faces, edge_lengths, weld, keep_seams, mesh_format, allow_outside
+        The mesh, as for :class:`Mesh`. After a :class:`Mesh` or a file, `sources` may come second.
+    sources : int, array_like of int or bool, Samples, coordinates, or faces and weights
+        As for :func:`geodesic_distances`.
+    area : float
+        In square units of the mesh. A disk that would be larger than its part of the mesh covers
+        that part.
+    progress
+        As for :func:`sample`; counts sources.
+
+    Returns
+    -------
+    ndarray of float64, shape (n,)
+        For ``within`` of :func:`neighbours`. Areas err by about 1 in 1,000.
+
+    Raises
+    ------
+    InvalidArgument, TypeError
+        For an area that is not positive, and sources that are not on the mesh.
+
+    Examples
+    --------
+    >>> import geodisk
+    >>> square = geodisk.Mesh([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], [[0, 1, 2, 3]])
+    >>> geodisk.disk_radii(square, 0, area=0.1).round(2).tolist()  # A quarter of a circle.
+    [0.36]
+    """
+    mesh, after = _mesh_and_after(
+        vertices, faces, edge_lengths, weld, keep_seams, mesh_format, allow_outside
+    )
+    sources = after if sources is None else sources
+    if sources is None or area is None:
+        raise e.invalid("give sources and area: from where, and how much the disks hold")
+    area = number(area, "area")
+    if not 0 < area < np.inf:
+        raise e.invalid(f"area is {area}, not positive and finite")
+    kept: list[NDArray[Any]] = []  # What the library reads.
+
+    def address(array: NDArray[Any]) -> int:
+        kept.append(array)
+        return int(array.ctypes.data)
+
+    params = s.DistanceParams()
+    if isinstance(sources, (int, np.integer)) and not isinstance(sources, bool):
+        sources = [integer(sources, "sources", 2**32 - 1)]
+    count = set_sources(params, mesh, sources, address)
+    assert count is not None
+    if mesh._surface.joined is not None:
+        params.joined = address(np.ascontiguousarray(mesh._surface.joined, np.uint32))
+    radii = np.empty(count, np.float64)
+    listened(
+        progress,
+        lambda hear: c.call(
+            "geodisk_disk_radii",
+            mesh._handle.value,
+            byref(params),
+            area,
+            hear,
+            None,
+            radii.ctypes.data,
+        ),
+    )
+    return radii
+
+
 def geodesic_path(
     vertices: ArrayLike | MeshLike,
     faces: Faces | EndLike | None = None,

@@ -40,6 +40,7 @@ TOLD = {
     "metric": "metric",
     "classes": "classes",
     "features": "features",
+    "at_vertices": "at_vertices",
     "level_distances": "order",
     "kept_of": "order",
     "maximal": "maximal",
@@ -52,18 +53,20 @@ TOLD = {
 
 #: Entries of one value each, which samples keep and headers tell again; also how the mesh was joined.
 VALUES = (
-    *("pool_ratio", "darts", "exact", "metric", "features", "maximal", "kept_of"),
-    *("weld", "keep_seams"),
+    *("pool_ratio", "darts", "exact", "metric", "features", "at_vertices", "maximal", "kept_of"),
+    *("weld", "keep_seams", "walls"),
 )
 
 
-def joins_of(weld: bool | float, keep_seams: bool) -> dict[str, str]:
-    """Returns how a mesh was joined, as headers tell it."""
+def joins_of(weld: bool | float, keep_seams: bool, walls: str = "") -> dict[str, str]:
+    """Returns how a mesh was joined and cut, as headers tell it."""
     told = {}
     if weld is not False:
         told["weld"] = "exact" if weld is True or weld == 0 else exact_text(weld)
     if keep_seams:
         told["keep_seams"] = "yes"
+    if walls:
+        told["walls"] = walls
     return told
 
 

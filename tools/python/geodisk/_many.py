@@ -56,6 +56,7 @@ def sample_many(
     class_densities: Sequence[Mapping[int, ArrayLike] | None] | None = None,
     class_avoid: Sequence[Mapping[int, AvoidLike] | None] | None = None,
     features: float | None = None,
+    at_vertices: bool = False,
     metric: str = "geodesic",
     weld: bool | float = False,
     keep_seams: bool = False,
@@ -87,7 +88,7 @@ def sample_many(
     class_avoid : sequence of one per mesh, or None
         As for :func:`sample`; None for a mesh without.
     exact, pool_ratio, darts, stop_count, maximal, order, levels, level_factor, classes,
-    class_counts, features, metric, weld, keep_seams, columns, attributes, texture, normals, frames,
+    class_counts, features, at_vertices, metric, weld, keep_seams, columns, attributes, texture, normals, frames,
     up, mesh_format, allow_outside, device, progress
         As for :func:`sample`, for all meshes.
 

@@ -17,12 +17,13 @@ from ._arrays import array_of, indices
 from ._background import interruptible
 from ._objects import Values, arrays_of, attributes_of, faces_of, is_object
 from ._oddities import oddities_of, warn
-from ._polygons import Polygons
+from ._polygons import Polygons, from_rows
 from ._protocols import Faces, MeshLike
 from ._record import NOTHING, Record, check_record
 from ._source import MeshFile, Source, absolute, read_file, split
 from ._surface import Surface
 from ._values import flag, names, text, weld_of
+from ._walls import cut
 
 
 class Mesh:
@@ -45,6 +46,10 @@ class Mesh:
     keep_seams : bool
         Do not join border edges that coincide exactly, as along seams of texture coordinates.
         By default they are joined; ``info["joined_edges"]`` counts them.
+    walls : array_like of bool, shape (f,), or of int, shape (k, 2), optional
+        Triangles (or faces as given) that no path crosses, as a mask; they hold no samples. Or edges
+        that no path crosses, by their vertices: both sides then have vertices of their own, and
+        `vertices` has copies at its end.
     attributes : sequence of str, or "all"
         Names of attributes to read from a file or an object of another package: ``"color"``,
         ``"uv"`` and others as the file or object calls them. Samples have their values.
@@ -118,6 +123,7 @@ class Mesh:
         edge_lengths: ArrayLike | None = None,
         weld: bool | float = False,
         keep_seams: bool = False,
+        walls: ArrayLike | None = None,
         attributes: str | Sequence[str] = (),
         columns: str | Sequence[str] = (),
         mesh_format: str | None = None,
@@ -168,6 +174,8 @@ class Mesh:
             if hasattr(points, "__dlpack__"):  # As numpy has it as well.
                 points = array_of(points, "vertices")
             given = faces_of(faces)
+            if walls is not None and edge_lengths is None and not isinstance(given, Polygons):
+                given = from_rows(given)  # Seams are joined before the mesh is cut.
             if isinstance(given, Polygons):
                 if edge_lengths is not None:
                     raise e.invalid("with edge lengths, all faces must be triangles")
@@ -179,6 +187,8 @@ class Mesh:
             if attributes:
                 found, left_out = attributes_of(values, attributes, surface, len(given))
                 surface = dataclasses.replace(surface, attributes=found)
+        if walls is not None:
+            surface = cut(surface, walls)
         _record.check(surface)
         self._source = source.handle if source else None
         check_record(self, _record)
@@ -288,7 +298,7 @@ def created(surface: Surface) -> c.Handle:
     if surface.weld is not False:
         params.weld = 1
         params.weld_distance = 0.0 if surface.weld is True else float(surface.weld)
-    params.keep_seams = surface.keep_seams
+    params.keep_seams = surface.keep_seams or surface.copied is not None
     if surface.edge_lengths is None:
         coordinates = surface.coordinates()
         params.positions = coordinates.ctypes.data

@@ -128,10 +128,10 @@ class Samples:
     polygon_index : ndarray of uint32, shape (n,) or None
         Numbers of the given faces, if polygons were split into triangles.
     columns : dict of ndarray of uint32, shape (n,)
-        Numbers that the triangles have in a file, as requested from :class:`Mesh`. ``"given"``
+        Numbers that the triangles have in a file, as requested from :class:`Mesh`. ``"existing"``
         is 1 for existing samples that a run kept, else 0. ``"class"`` is the class of each sample,
         ``"level"`` its level in progressive order. ``"feature"`` is 2 on a corner, 1 on a curve, 0
-        on a face.
+        on a face. ``"vertex"`` is `vertices`.
     attributes : dict of ndarray, shape (n,) or (n, k)
         Attributes of the mesh file at the samples, as requested from :class:`Mesh`: numbers by the
         weights of corners, integers of the corner with the largest weight.
@@ -272,6 +272,14 @@ class Samples:
     def classes(self) -> NDArray[np.uint32] | None:
         """Class of each sample, ``columns["class"]``; None if samples have no classes."""
         return self.columns.get("class")
+
+    @property
+    def vertices(self) -> NDArray[np.uint32] | None:
+        """Vertex of each sample, ``columns["vertex"]``; None unless samples are `at_vertices`.
+
+        4294967295 for existing samples that are at none.
+        """
+        return self.columns.get("vertex")
 
     def __len__(self) -> int:
         return len(self.radius)
@@ -432,7 +440,10 @@ class Samples:
                 return np.asarray(array[polygons[faces]])
             return np.asarray(values_of(values, len(corners), "faces")[faces])
         if of == "vertices":
-            found = values_of(values, surface.vertex_count(), "vertices")[corners[faces]]
+            count = surface.own_vertex_count()
+            if values.shape[:1] == (surface.vertex_count(),):  # With those of copies.
+                values = values[:count]
+            found = values_of(values, count, "vertices")[corners[faces]]
         else:
             array = values_of(values, len(corners), "triangles")
             if array.ndim < 2 or array.shape[1] != 3:

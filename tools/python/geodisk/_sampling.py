@@ -55,6 +55,7 @@ def sample(
     class_densities: Mapping[int, ArrayLike] | None = None,
     class_avoid: Mapping[int, AvoidLike] | None = None,
     features: float | None = None,
+    at_vertices: bool = False,
     metric: str = "geodesic",
     edge_lengths: ArrayLike | None = None,
     weld: bool | float = False,
@@ -155,6 +156,9 @@ def sample(
         Sample corners first, then edges whose triangles meet at more than this angle in degrees (1
         to 180), borders and edges of more than two triangles, then the triangles.
         ``columns["feature"]`` is 2, 1 and 0.
+    at_vertices : bool
+        Sample at vertices alone: each is a candidate, drawn by its share of the area. ``vertices`` of
+        the samples are their indices. `pool_ratio` has no effect.
     metric : {"geodesic", "euclidean", "approximate"}
         Distance to use; the last two are for comparison.
     edge_lengths, weld, keep_seams, columns, attributes, mesh_format, allow_outside

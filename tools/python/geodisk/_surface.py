@@ -42,9 +42,13 @@ class Surface:
     joined : ndarray of uint32, shape (v,), optional
         The lowest vertex that each one was joined with as the mesh was read.
     corners : ndarray of uint32, shape (f, 3), optional
-        The faces before vertices were joined as the mesh was read.
+        The faces before vertices were joined as the mesh was read, or copied at walls.
     is_y_up : bool
         True for a file of a format in which y points up.
+    copied : ndarray of uint32, shape (k,), optional
+        The vertex that each one of the last k is a copy of, where walls cut.
+    walls : str
+        What was cut, as headers tell it.
     """
 
     vertices: Any
@@ -58,6 +62,8 @@ class Surface:
     columns: dict[str, NDArray[np.uint32]] = field(default_factory=dict)
     corners: NDArray[np.uint32] | None = None
     is_y_up: bool = False
+    copied: NDArray[np.uint32] | None = None
+    walls: str = ""
 
     def indices(self) -> NDArray[Any]:
         """Returns the faces as uint32 or uint16."""
@@ -67,7 +73,7 @@ class Surface:
         return array
 
     def own_corners(self) -> NDArray[Any]:
-        """Returns the vertices of each triangle, also those that were joined with others."""
+        """Returns the vertices of each triangle, also those that were joined or copied."""
         return self.indices() if self.corners is None else self.corners
 
     def coordinates(self) -> NDArray[Any]:
@@ -94,6 +100,10 @@ class Surface:
             return vertex_number(self.vertices)
         return len(self.coordinates())
 
+    def own_vertex_count(self) -> int:
+        """Returns the number of vertices without copies, which `own_corners` refers to."""
+        return self.vertex_count() - (0 if self.copied is None else len(self.copied))
+
     def vertex_values(self, values: ArrayLike, name: str) -> NDArray[Any]:
         """Returns the values as float64 or float32, one for each vertex."""
         if isinstance(values, str):
@@ -102,6 +112,8 @@ class Surface:
         if array.dtype == bool and name != "radius_factor":  # A mask.
             array = array.astype(np.float64)
         array = np.ascontiguousarray(real(array, name))
+        if self.copied is not None and array.shape == (self.own_vertex_count(),):
+            array = np.concatenate([array, array[self.copied]])
         if array.shape != (self.vertex_count(),):
             return self._means(array, name)
         if self.joined is not None:  # Both sides of a seam have a say.

@@ -196,7 +196,7 @@ def update(
     there = dataclasses.replace(
         there,
         _job=dataclasses.replace(edited, source=file),
-        _told=samples._told,
+        _told=_told_of(samples, mesh),
         _frame=frames_of_run[-1],
     )
     there = recorded(there, mesh, record)
@@ -206,10 +206,16 @@ def update(
     return there
 
 
+def _told_of(samples: Samples, mesh: Mesh) -> dict[str, str]:
+    """Returns what headers tell of the samples before, with the walls of the edited mesh."""
+    told = {name: value for name, value in samples._told.items() if name != "walls"}
+    return {**told, "walls": mesh._surface.walls} if mesh._surface.walls else told
+
+
 def _check_joins(samples: Samples, mesh: Mesh) -> None:
     """Raises if the mesh before is joined in another way than that of the samples."""
-    own = joins_of(mesh._surface.weld, mesh._surface.keep_seams)
-    for name in ("weld", "keep_seams"):
+    own = joins_of(mesh._surface.weld, mesh._surface.keep_seams, mesh._surface.walls)
+    for name in ("weld", "keep_seams", "walls"):
         told = samples._told.get(name)
         if told != own.get(name):
             made = f"with {name}={told}" if told else f"without {name}"
@@ -422,6 +428,8 @@ def _edited_mesh(
         if to_faces is not None:
             raise TypeError("to_faces are of an edited mesh whose vertices are given")
     is_moved = to is not None and not is_mesh(to) and to_faces is None
+    if source.walls and to is not None and not is_mesh(to):
+        raise TypeError("the mesh before has walls; give the edited one as a geodisk.Mesh with its own")
 
     def make(record: Record, read: Sequence[str]) -> Mesh:
         if to is not None and is_mesh(to):

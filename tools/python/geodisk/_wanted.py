@@ -8,7 +8,7 @@ from ctypes import addressof, byref
 from typing import Any, Callable, Mapping, Sequence
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from . import _errors as e
 from . import _library as c
@@ -29,6 +29,7 @@ from ._results import report_of, samples_of
 from ._rules import check_fields
 from ._running import ProgressCallback
 from ._samples import Samples
+from ._surface import Surface
 from ._values import check_exact, check_pool, choice, distance_of, flag, integer, seed_of
 
 
@@ -63,6 +64,7 @@ class Wanted:
         class_densities: Mapping[int, ArrayLike] | None,
         class_avoid: Mapping[int, AvoidLike] | None,
         features: float | None,
+        at_vertices: bool,
         metric: str,
     ) -> None:
         darts = integer(darts, "darts", 2**32 - 1)
@@ -79,7 +81,7 @@ class Wanted:
         check_pool(count, pool_ratio, darts)
         choice(metric, "metric", s.METRICS)
         choice(order, "order", ("dart", "progressive", "farthest"))
-        maximal = flag(maximal, "maximal")
+        maximal, at_vertices = flag(maximal, "maximal"), flag(at_vertices, "at_vertices")
         radii_name = one_of(density, radius_factor)
         chosen = {
             "pool_ratio": pool_ratio != 20,
@@ -97,6 +99,7 @@ class Wanted:
             "class_densities": class_densities is not None,
             "class_avoid": class_avoid is not None,
             "features": features is not None,
+            "at_vertices": at_vertices,
             "order": order != "dart",
             "maximal": maximal,
             "existing": existing is not None,
@@ -168,6 +171,7 @@ class Wanted:
             is_exact=int(exact),
             order=s.ORDERS["dart" if in_levels is None else "progressive"],
             features=degrees,
+            at_vertices=int(at_vertices),
         )
         self._class_counts = None
         if class_counts is not None:
@@ -183,13 +187,17 @@ class Wanted:
         self._count, self._stop_count, self._darts = count, stop_count, darts
         self._existing, self._avoids, self._classes = len(kept), len(places.points) > 0, kinds
         self._is_farthest, self._degrees = order == "farthest", degrees
-        self._told = joins_of(mesh._surface.weld, mesh._surface.keep_seams)
+        self._told = joins_of(
+            mesh._surface.weld, mesh._surface.keep_seams, mesh._surface.walls
+        )
         if metric != "geodesic":
             self._told["metric"] = metric
         if pool_ratio != 20:
             self._told["pool_ratio"] = exact_text(pool_ratio)
         if features is not None:
             self._told["features"] = exact_text(degrees)
+        if at_vertices:
+            self._told["at_vertices"] = "yes"
         self._job = Job(
             None,
             pool_ratio,
@@ -226,6 +234,8 @@ class Wanted:
             _frame=self._frame_at(run_distance),
         )
         samples.report["options"] = self._options
+        if self.request.at_vertices:
+            samples.columns["vertex"] = vertices_at(samples, self.mesh._surface)
         if self._is_farthest:
             samples = put_farthest_first(
                 self.mesh._handle, samples, self._existing, device, progress
@@ -265,6 +275,20 @@ class Wanted:
             for number in np.flatnonzero(made < self._class_counts):
                 text = f"class {number} has {made[number]} of {self._class_counts[number]} samples"
                 warn([e.GeodiskWarning(f"{prefix}{text}", "few_of_class", int(made[number]))])
+
+
+def vertices_at(samples: Samples, surface: Surface) -> NDArray[np.uint32]:
+    """Returns the vertex that each sample is at, 4294967295 for one that is at none."""
+    faces, weights = samples.face_index, samples.barycentric
+    assert faces is not None and weights is not None
+    vertices: NDArray[np.uint32]
+    vertices = surface.indices()[faces, weights.argmax(axis=1)].astype(np.uint32)
+    if surface.copied is not None and len(surface.copied):
+        first = surface.vertex_count() - len(surface.copied)
+        copies = vertices >= first
+        vertices[copies] = surface.copied[vertices[copies] - first]
+    vertices[weights.max(axis=1) < 1] = 2**32 - 1
+    return vertices
 
 
 _ARGUMENTS = inspect.signature(Wanted).parameters.keys() - {"read_mesh"}

@@ -34,7 +34,7 @@ ARRAYS = ("points", "normals", "face_index", "barycentric", "radius", "polygon_i
 SELECTION = "selection"
 
 #: Names of columns of whole numbers: what part of its file a triangle lies in, whether the sample
-#: was given, its class, its feature, and its level.
+#: was given, its class, its feature, its level, and the vertex that it is at.
 WHOLE_COLUMNS = (
     "mesh",
     "primitive",
@@ -46,6 +46,7 @@ WHOLE_COLUMNS = (
     "class",
     "feature",
     "level",
+    "vertex",
 )
 
 

@@ -45,6 +45,14 @@ constexpr RequestRule kRules[] = {
     {Field::metric, Field::frame, "frames are for distances along the surface"},
     {Field::frame, Field::count, "a frame has a distance already"},
     {Field::frame, Field::split_from, "samples in a frame are told on the faces that it samples"},
+    {Field::at_vertices, Field::darts, "each vertex is one dart"},
+    {Field::at_vertices, Field::maximal, "gaps are those between all points of the surface"},
+    {Field::at_vertices, Field::density, "vertices have the density that they have"},
+    {Field::at_vertices, Field::class_factors, "vertices are drawn without classes"},
+    {Field::at_vertices, Field::features, "samples on features lie between vertices"},
+    {Field::at_vertices, Field::metric, "vertices keep distances along the surface"},
+    {Field::at_vertices, Field::frame, "vertices are those of a whole mesh"},
+    {Field::at_vertices, Field::split_from, "vertices are those of the mesh before it was split"},
     {Field::update, Field::count, "an update keeps the distance"},
     {Field::update, Field::darts, "the last dart of a number may lie anywhere"},
     {Field::update, Field::stop_count, "the last sample of a number may lie anywhere"},
@@ -54,11 +62,14 @@ constexpr RequestRule kRules[] = {
     {Field::update, Field::progressive, "each level would be an update of its own"},
     {Field::update, Field::farthest, "an edit changes the order of all samples"},
     {Field::update, Field::metric, "an edit reaches as far as distances along the surface"},
+    {Field::update, Field::at_vertices, "an edit numbers vertices anew"},
+    {Field::processes, Field::at_vertices, "processes draw the candidates of faces"},
     {Field::processes, Field::maximal, "gaps are found on the whole surface"},
     {Field::processes, Field::class_factors, "processes exchange samples without classes"},
     {Field::processes, Field::metric, "processes divide a surface by distances along it"},
     {Field::processes, Field::frame, "processes have the frame of their own surface"},
     {Field::processes, Field::update, "processes sample a surface anew"},
+    {Field::frames, Field::at_vertices, "frames draw the candidates of faces"},
     {Field::frames, Field::count, "a distance is found for a count by several runs"},
     {Field::frames, Field::class_counts, "samples are left out when all are there"},
     {Field::frames, Field::maximal, "gaps are filled by several runs"},
@@ -99,6 +110,7 @@ RequestFields fields_of(const SampleRequest& request) noexcept {
     fields.add(Field::metric, request.metric.has_value());
     fields.add(Field::frame, request.frame != nullptr);
     fields.add(Field::split_from, request.split_from != nullptr);
+    fields.add(Field::at_vertices, request.at_vertices);
     return fields;
 }
 
@@ -107,7 +119,7 @@ const char* to_string(RequestField field) noexcept {
         "min_distance", "count",       "is_exact",      "darts",        "stop_count", "maximal",
         "radii",        "density",     "class_factors", "class_counts", "existing",   "avoid",
         "features",     "progressive", "farthest",      "keep",         "metric",     "frame",
-        "split_from",   "update",      "processes",     "frames"};
+        "split_from",   "at_vertices", "update",        "processes",    "frames"};
     static_assert(std::size(kNames) == kRequestFields);
     return kNames[static_cast<std::size_t>(field)];
 }

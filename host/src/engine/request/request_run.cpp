@@ -13,7 +13,9 @@
 
 #include "engine/domain/classes.hpp"
 #include "engine/domain/existing.hpp"
+#include "engine/domain/face_mask.hpp"
 #include "engine/domain/stages.hpp"
+#include "engine/domain/vertex_darts.hpp"
 #include "engine/request/check_fields.hpp"
 #include "engine/request/tries.hpp"
 #include "support/guard.hpp"
@@ -143,6 +145,14 @@ Result<Done> SurfaceSteps::prepare() {
                        std::to_string(existing) + " existing samples are kept too");
     }
     GEODISK_TRY(check_class_counts(request_));
+    if (request_.at_vertices && request_.count != 0) {
+        GEODISK_TRY(check_mask(mesh_, request_.params));
+        const std::size_t most = vertex_darts(mesh_, request_.params).size() + existing;
+        if (request_.count > static_cast<double>(most)) {
+            return invalid("count is " + number_text(request_.count) + ", but there are only " +
+                           std::to_string(most) + " vertices that take samples");
+        }
+    }
     const Levels& levels = request_.levels;
     if (!has_levels() && (levels.count != 0 || levels.factor != Levels{0}.factor)) {
         return invalid("levels are for the progressive order");
@@ -244,10 +254,15 @@ Result<RequestStep> SurfaceSteps::on_faces(double distance, const Levels& levels
     GEODISK_TRY(made);
     RequestStep step{std::move(*made), params, request_.metric ? nullptr : &mesh_};
     step.may_share = step.surface != nullptr && request_.frame == nullptr &&
-                     request_.split_from == nullptr && params.darts == 0 &&
+                     request_.split_from == nullptr && !request_.at_vertices && params.darts == 0 &&
                      params.stop_count == 0 && params.class_factors.empty() && !params.maximal;
     step.expected = expected_of(expected_count(effective_area(mesh_, params), params.min_distance),
                                 params.stop_count);
+    if (request_.at_vertices) { // As a list, it has no more candidates.
+        const double most =
+            static_cast<double>(standing.size()) + step.domain.stages().max_expected;
+        step.expected = std::min(step.expected, most);
+    }
     step.level = level;
     return step;
 }
@@ -258,6 +273,9 @@ Result<Domain> SurfaceSteps::domain(const SampleParams& params) const {
     }
     if (request_.frame != nullptr) {
         return Domain::surface(mesh_, params, *request_.frame);
+    }
+    if (request_.at_vertices) {
+        return vertex_domain(mesh_, params);
     }
     if (request_.split_from == nullptr) {
         return Domain::surface(mesh_, params);

@@ -1,0 +1,99 @@
+"""Walls: faces and edges that no path crosses."""
+
+from __future__ import annotations
+
+import dataclasses
+from ctypes import byref, c_size_t
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _errors as e
+from . import _library as c
+from . import _structs as s
+from ._arrays import array_of, indices
+from ._surface import Surface
+
+
+def cut(surface: Surface, walls: ArrayLike) -> Surface:
+    """Returns a surface cut along walls, whose seams are joined already where they are to be.
+
+    Parameters
+    ----------
+    surface : Surface
+    walls : array_like of bool, shape (f,), or of int, shape (k, 2)
+        A mask of triangles, or of faces as given; or edges by their vertices.
+    """
+    given = array_of(walls, "walls")
+    triangles, vertices = surface.indices(), surface.vertex_count()
+    params = s.Walls(
+        indices=triangles.ctypes.data,
+        index_type=s.UINT16 if triangles.dtype == np.uint16 else s.UINT32,
+        face_count=len(triangles),
+        vertex_count=vertices,
+    )
+    if given.dtype == bool:
+        mask = _mask_of(surface, given)
+        params.faces = mask.ctypes.data
+        told = f"{int(mask.sum())} faces"
+    else:
+        edges = _edges_of(surface, given)
+        params.edges, params.edge_count = edges.ctypes.data, len(edges)
+        told = f"{len(edges)} edges"
+    made = np.empty((len(triangles), 3), np.uint32)
+    copied, count = np.empty(3 * len(triangles), np.uint32), c_size_t()
+    c.call(
+        "geodisk_cut", byref(params), made.ctypes.data, copied.ctypes.data, len(copied), byref(count)
+    )
+    copied = copied[: count.value].copy()
+    return dataclasses.replace(
+        surface,
+        vertices=_with_copies(surface, copied),
+        faces=made,
+        corners=surface.own_corners(),
+        joined=_joined_with(surface, copied),
+        copied=copied,
+        walls=told,
+    )
+
+
+def _mask_of(surface: Surface, given: NDArray[Any]) -> NDArray[np.uint8]:
+    triangles, polygons = len(surface.indices()), surface.polygons
+    if polygons is not None and given.shape == (int(polygons.max()) + 1,):
+        given = given[polygons]
+    if given.shape != (triangles,):
+        raise e.invalid(f"walls is a mask of the shape {given.shape}, not ({triangles},)")
+    return np.ascontiguousarray(given).view(np.uint8)
+
+
+def _edges_of(surface: Surface, given: NDArray[Any]) -> NDArray[np.uint32]:
+    edges = indices(given, "walls")
+    if edges.ndim != 2 or edges.shape[1] != 2:
+        raise e.invalid(
+            f"walls have the shape {edges.shape}: neither a mask of type bool, of triangles, nor (k, 2), "
+            "the vertices of edges"
+        )
+    if edges.size and int(edges.max()) >= surface.vertex_count():
+        raise e.invalid(f"walls has the vertex {edges.max()}, the mesh has {surface.vertex_count()}")
+    kept = edges.astype(np.uint32)
+    return kept if surface.joined is None else np.ascontiguousarray(surface.joined[kept])
+
+
+def _with_copies(surface: Surface, copied: NDArray[np.uint32]) -> Any:
+    """Returns the vertices with copies of some behind them."""
+    if len(copied) == 0:
+        return surface.vertices
+    if surface.edge_lengths is not None:
+        return surface.vertex_count() + len(copied)
+    coordinates = surface.coordinates()
+    return np.concatenate([coordinates, coordinates[copied]])
+
+
+def _joined_with(surface: Surface, copied: NDArray[np.uint32]) -> NDArray[np.uint32] | None:
+    if surface.joined is None:
+        return None
+    first = len(surface.joined)
+    own = np.arange(first, first + len(copied), dtype=np.uint32)
+    joined: NDArray[np.uint32] = np.concatenate([surface.joined, own])
+    return joined
