@@ -8,11 +8,14 @@
 #include <numeric>
 #include <sstream>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <nlohmann/json.hpp>
 
 #include "cli/command.hpp"
+#include "files/meshes/mesh_file.hpp"
+#include "geometry/vec.hpp"
 
 namespace geodisk::test {
 namespace {
@@ -206,6 +209,65 @@ TEST_CASE("cells: what cannot be found leaves no file") {
     REQUIRE(run(folder, {"sample", large, "-n", "100", "-o", "few.ply", "-q"}).status == 0);
     check_cells_refused(folder, 6, "give more with --memory",
                         {large, "few.ply", "-o", "no.csv", "--memory", "16M"});
+}
+
+/// Returns the area of the triangles of a mesh that have each number of an attribute.
+std::vector<double> areas_by_number(const std::string& path, std::size_t count) {
+    tools::MeshSources sources;
+    sources.mesh = path;
+    sources.fields.numbers = {"sample"};
+    const tools::MeshFile mesh = tools::read_mesh(sources);
+    const tools::MeshField& number = mesh.number("sample");
+    std::vector<double> areas(count);
+    for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
+        const auto corner = [&](std::size_t k) {
+            return tools::point_at(mesh.positions, mesh.triangles[3 * t + k]);
+        };
+        const tools::Vec3 normal = cross(corner(1) - corner(0), corner(2) - corner(0));
+        areas[static_cast<std::size_t>(number.values[mesh.value_index(number, 3 * t)])] +=
+            length(normal) / 2;
+    }
+    return areas;
+}
+
+TEST_CASE("cells as geometry have the areas of cells, and outlines are lines between them") {
+    const TemporaryFolder folder;
+    REQUIRE(run(folder, {"sample", "builtin:cube:3", "-n", "40", "-o", "a.csv", "-q"}).status == 0);
+    for (const char* const format : {"vtp", "ply", "obj"}) {
+        CAPTURE(format);
+        const std::string split = std::string("cells.") + format,
+                          lines = std::string("lines.") + format;
+        const Outcome made = run(folder, {"cells", "builtin:cube:3", "a.csv", "-o", "areas.csv",
+                                          "--split", split, "--outlines", lines});
+        INFO(made.err);
+        REQUIRE(made.status == 0);
+        CHECK(contains(made.out, "split mesh    " + split));
+        CHECK(contains(made.out, "outlines      " + lines));
+        const std::vector<double> areas =
+            last_column(tools::bytes_of(folder / "areas.csv"), "area");
+        if (std::string_view(format) != "obj") {
+            const auto found = areas_by_number((folder / split).string(), areas.size());
+            for (std::size_t i = 0; i < areas.size(); ++i) {
+                CHECK(found[i] == doctest::Approx(areas[i]).epsilon(0.01));
+            }
+        }
+    }
+    // Each is of use: a cell to sample on, and borders to keep away from.
+    CHECK(run(folder,
+              {"sample", "cells.obj", "-d", "0.05", "-o", "b.csv", "--only", "group:sample_7"})
+              .status == 0);
+    CHECK(run(folder, {"sample", "cells.vtp", "-d", "0.05", "-o", "c.csv", "--mask", "sample=7"})
+              .status == 0);
+    CHECK(run(folder, {"sample", "builtin:cube:3", "-d", "0.05", "-o", "d.csv", "--avoid",
+                       "lines.obj:0.02"})
+              .status == 0);
+    check_cells_refused(folder, 2, "no.stl: meshes of cells are written as .obj, .ply or .vtp",
+                        {"builtin:cube", "a.csv", "-o", "no.csv", "--split", "no.stl"});
+    check_cells_refused(folder, 2, "no.npz: outlines of cells are written as .obj, .ply or .vtp",
+                        {"builtin:cube", "a.csv", "-o", "no.csv", "--outlines", "no.npz"});
+    check_cells_refused(
+        folder, 2, "no.obj",
+        {"builtin:cube:3", "a.csv", "-o", "no.csv", "--outlines", "no.obj", "--split", "no.obj"});
 }
 
 TEST_CASE("cells give vertices labels beside areas, or nothing is written") {

@@ -106,6 +106,45 @@ TEST_CASE("samples lie on the parts of a mesh that are named") {
     CHECK(*file.header.find("material") == "0 red wood");
 }
 
+TEST_CASE("faces that are seen from outside take samples, and shells within do not") {
+    const TemporaryFolder folder;
+    std::string shells;
+    for (const double size : {1.0, 0.5}) { // Octahedra.
+        for (int axis = 0; axis < 3; ++axis) {
+            for (const double end : {size, -size}) {
+                double point[3] = {};
+                point[axis] = end;
+                shells += "v " + std::to_string(point[0]) + " " + std::to_string(point[1]) + " " +
+                          std::to_string(point[2]) + "\n";
+            }
+        }
+    }
+    for (int shell = 0; shell < 2; ++shell) {
+        for (int face = 0; face < 8; ++face) {
+            shells += "f";
+            for (int axis = 0; axis < 3; ++axis) {
+                shells += " " + std::to_string(1 + 6 * shell + 2 * axis + (face >> axis & 1));
+            }
+            shells += "\n";
+        }
+    }
+    folder.write("m.obj", shells);
+    const std::vector<std::uint32_t> outer{0, 1, 2, 3, 4, 5, 6, 7};
+    check_faces(folder, "m.obj", {"--only", "outside"}, outer);
+    check_faces(folder, "m.obj", {"--only", "outside:1"}, outer);
+    const Arguments end{"-d", "0.1", "-o", "no.csv"};
+    check_fails(folder, 2, "--only: 'outside:2' has no share of rays from 0 to 1",
+                joined({"sample", "m.obj", "--only", "outside:2"}, end));
+    check_fails(folder, 2,
+                "--only: 'outsid' is none of material:NAME, group:NAME, node:NAME, part:N "
+                "and outside",
+                joined({"sample", "m.obj", "--only", "outsid"}, end));
+    folder.write("lengths.txt", "1 3 1\n");
+    check_fails(
+        folder, 3, "lengths.txt",
+        joined({"sample", "m.obj", "--only", "outside", "--edge-lengths", "lengths.txt"}, end));
+}
+
 TEST_CASE("values of vertices in files are masks, by number or by name") {
     const TemporaryFolder folder;
     folder.write("m.obj", kObj);

@@ -190,6 +190,20 @@ TEST_CASE("neighbours go to archives and streams") {
     CHECK(streamed.out == "source,target,distance\n0,0,0\n1,1,0\n2,2,0\n3,3,0\n");
 }
 
+TEST_CASE("neighbours within the disk that holds an area") {
+    const TemporaryFolder folder;
+    const auto found = [&](const char* within) {
+        REQUIRE(run(folder, {"neighbours", "builtin:icosphere:4", "--vertices", "0,99", "--within",
+                             within, "-o", "near.csv"})
+                    .status == 0);
+        return std::ssize(lines_of(bytes_of(folder / "near.csv"))) - 1;
+    };
+    // 2,562 vertices, which are spread evenly; twice.
+    CHECK(found("area:10%") == doctest::Approx(2 * 256).epsilon(0.06));
+    CHECK(found("area:6.283") == doctest::Approx(2 * 1281).epsilon(0.03));
+    CHECK(found("area:200%") == 2 * 2562);
+}
+
 TEST_CASE("neighbours that cannot be found are refused, and no file is left") {
     const TemporaryFolder folder;
     write(folder, "square.obj", kSquare);
@@ -204,6 +218,9 @@ TEST_CASE("neighbours that cannot be found are refused, and no file is left") {
     refused(2, "--within: 'reach' is no length", {"--within", "reach"});
     for (const char* const length : {"inf", "nan", "1e999", "-1", "0"}) {
         refused(2, "is not a positive, finite length", {"--within", length});
+    }
+    for (const char* const area : {"area:0", "area:x", "area:-1%", "area:inf"}) {
+        refused(2, "' is no positive, finite area", {"--within", area});
     }
     refused(2, "the distance is too small for this mesh", {"--within", "1e-5"});
     refused(2, "--vertices: 'x' is neither", {"--within", "1", "--vertices", "x"});

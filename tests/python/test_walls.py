@@ -61,6 +61,15 @@ def test_walls_of_edges_part_a_mesh_and_data_of_vertices_stays_valid(tmp_path):
         geodisk.update(made, to=vertices * 1.1)
 
 
+def test_walls_change_no_other_face():
+    vertices, faces = square()
+    copied = np.concatenate([faces, faces[:1]])  # A copy, which stays where arrays are given.
+    plain, walled = geodisk.Mesh(vertices, copied), geodisk.Mesh(vertices, copied, walls=copied[:, 0] < 0)
+    assert plain.area == walled.area == 64.5
+    walls = np.arange(len(faces)) == 9
+    assert not [one for one in geodisk.Mesh(vertices, faces, walls=walls).warnings]
+
+
 def test_faces_of_polygons_are_walls_as_they_are_given():
     quads = [[0, 1, 4, 3], [1, 2, 5, 4]]
     points = [[0, 0, 0], [1, 0, 0], [2, 0, 0], [0, 1, 0], [1, 1, 0], [2, 1, 0]]

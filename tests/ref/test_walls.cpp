@@ -159,6 +159,17 @@ TEST_CASE("no path leads through a vertex that walls pass, also between other fa
     CHECK(prepared(mesh_of(mesh, made)).statistics().components == 3);
 }
 
+TEST_CASE("walls along borders part faces that touch in a vertex, unless they end there") {
+    TestMesh bow;
+    bow.positions = {0, 0, 0, 1, -1, 0, 1, 1, 0, 2, 0, 0, 2, 2, 0};
+    bow.triangles = {0, 1, 2, 2, 3, 4};
+    const Edges through{{0, 2}, {2, 4}}, end{{0, 2}};
+    const CutMesh parted = cut_along(bow, {{}, through});
+    CHECK(parted.copied == std::vector<std::uint32_t>{2});
+    CHECK(prepared(mesh_of(bow, parted)).statistics().components == 2);
+    CHECK(cut_along(bow, {{}, end}).copied.empty());
+}
+
 TEST_CASE("walls at an edge of three faces part all of them") {
     TestMesh mesh; // Three pages of a book, each of two triangles.
     mesh.positions = {0, 0, 0, 0, 0, 1, 1, 0, 0, 0, 1, 0, -1, -1, 0};

@@ -66,7 +66,7 @@ geodesic_distances(const PreparedMesh& mesh, const DistanceQuery& query,
                    const ProgressCallback& progress = {}) noexcept;
 
 /// Finds the radius of the geodesic disk around each source that holds an area, in square mesh
-/// units; if the part of the mesh is smaller, the radius that covers it. Exact distances are taken
+/// units; if the part of the mesh is smaller, a radius that covers it. Exact distances are taken
 /// at vertices, and between them in faces where the disk has few, and are linear in between: areas
 /// err by about 1 in 1,000. Takes the time of two searches as far as the disk and the longest edge
 /// reach, or more if the surface is folded. Each source is computed by one thread.

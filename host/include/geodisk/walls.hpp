@@ -34,8 +34,8 @@ struct CutMesh {
 
 /// Cuts a mesh along walls. Faces that are walls vanish: the rest is connected as if the mesh never
 /// had them. Edges that are walls become borders of the faces on all their sides. A vertex that
-/// walls of edges pass is copied, so that each side has its own; around the end of a wall paths
-/// still lead. The lowest face of a vertex keeps it.
+/// walls of edges pass is copied, so that each side has its own, also where they pass along a
+/// border; around the end of a wall paths still lead. The lowest face of a vertex keeps it.
 ///
 /// Prepare the result with MeshView::keep_seams, or its borders are joined again: if seams are to
 /// be joined, cut what join_seams() or weld() makes. Takes the time of sorting the edges at walls.

@@ -32,6 +32,8 @@ constexpr double kTriangles = 1024;
 constexpr double kMostTriangles = 0x1p18;
 /// Halvings that lead to a radius.
 constexpr int kHalvings = 52;
+/// Factor on the distance of the farthest point, so that a search in single precision finds it.
+constexpr double kBeyond = 1 + 0x1p-10;
 /// Factor from a radius that is too small to the next one.
 constexpr double kGrowth = 1.5;
 
@@ -76,7 +78,7 @@ class DiskArea {
                 return halved(radius, area);
             }
             if (farthest <= radius) {
-                return farthest; // The whole part of the mesh.
+                return farthest * kBeyond; // The whole part of the mesh.
             }
         }
     }

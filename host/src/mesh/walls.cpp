@@ -119,6 +119,12 @@ class Sides {
             edges.emplace_back(triangles[previous_in_face(corners[i].corner)], i);
         }
         std::sort(edges.begin(), edges.end());
+        std::uint32_t passing = 0; // Walls at the vertex; two pass it, also along a border.
+        for (std::size_t i = 0; i < edges.size(); ++i) {
+            const bool is_first = i == 0 || edges[i].first != edges[i - 1].first;
+            passing += is_first && walls.has(corners.front().vertex, edges[i].first) ? 1u : 0u;
+        }
+        is_passed_ = passing > 1;
         for (std::size_t i = 1; i < edges.size(); ++i) {
             if (edges[i].first != edges[i - 1].first) {
                 continue;

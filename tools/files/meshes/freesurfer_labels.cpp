@@ -89,7 +89,9 @@ void read_label(AnnotationBytes& bytes, double number, ColourTable& table) {
         colour |= static_cast<std::uint32_t>(bytes.number("the colour of a label")) << shift;
     }
     bytes.number("the transparency of a label");
-    table.labels.emplace(static_cast<std::int32_t>(colour), number);
+    // Vertices tell no label from another one of the same colour.
+    table.names.back().value =
+        table.labels.emplace(static_cast<std::int32_t>(colour), number).first->second;
 }
 
 /// Reads the table of either form: labels in order, or with their numbers.

@@ -468,6 +468,9 @@ PolygonMesh read_usd(const Path& path, const WantedFields& fields) {
                                        : "is no text of USD: it does not begin with "
                                          "'#usda'");
     }
+    if (!bytes.starts_with(std::string(kUsdText) + " 1.")) {
+        fail_input(path, "line 1: is no text of USD in version 1");
+    }
     return UsdReader(path, bytes, fields).read();
 }
 

@@ -60,6 +60,19 @@ struct Within {
 
 constexpr std::string_view kArea = "area:";
 
+/// Reads an area: in square mesh units, or % of that of the mesh.
+Length parse_area(const std::string& within) {
+    std::string_view number = std::string_view(within).substr(kArea.size());
+    const bool is_percent = number.ends_with('%');
+    number.remove_suffix(is_percent ? 1 : 0);
+    const auto value = parse_real(number);
+    if (!value || !(*value > 0) || !std::isfinite(*value)) {
+        fail_usage("--within: " + in_quotes(within) +
+                   " is no positive, finite area; give area:1% of the mesh, or square mesh units");
+    }
+    return {*value, is_percent};
+}
+
 Within parsed_within(const NeighbourOptions& options) {
     if (options.within.empty()) {
         if (options.nearest.empty()) {
@@ -68,7 +81,7 @@ Within parsed_within(const NeighbourOptions& options) {
         return {};
     }
     if (options.within.starts_with(kArea)) {
-        return {{}, {}, parse_length("--within", options.within.substr(kArea.size()))};
+        return {{}, {}, parse_area(options.within)};
     }
     const char first = options.within.front();
     const bool is_number = (first >= '0' && first <= '9') || first == '+' || first == '-' ||

@@ -117,6 +117,25 @@ void check_connectivity(const TransferOptions& options, const MeshFile& from, co
     }
 }
 
+/// Adds a warning where the header of the samples tells of other walls than the options.
+void warn_of_other_walls(const SampleFile& samples, const std::vector<std::string>& walls,
+                         std::vector<MeshWarning>& warnings) {
+    std::vector<std::string> told;
+    for (const auto& [key, value] : samples.header.entries) {
+        if (key == "walls") {
+            told.push_back(value);
+        }
+    }
+    if (told != walls) {
+        warnings.push_back({"other_surface", 1, "",
+                            told.empty() ? "made without --walls, so distances may differ"
+                                         : "made with --walls " + listed(told) +
+                                               "; give the same, or distances cross them",
+                            samples.path});
+        print_warning(samples.path + ": " + warnings.back().message);
+    }
+}
+
 /// Returns the header of the new samples: first what holds of them, then the header of the old
 /// ones, as "source_KEY".
 SampleHeader transferred_header(const TransferOptions& options, const Transfer& done) {
@@ -224,7 +243,9 @@ void run_transfer(const TransferOptions& options) {
     check_files(options);
     check_tolerance(options.tolerance);
     ProgressLine progress(options.out.quiet);
-    Transfer done{load(options.from, progress), load(target_mesh(options), progress)};
+    MeshOptions from = options.from;
+    from.walls = options.to.walls; // The faces of both are the same.
+    Transfer done{load(from, progress), load(target_mesh(options), progress)};
     const MeshInput& to = done.to;
     check_connectivity(options, done.from.file, to.file);
     check_dimension(options.out.target(), to.dimension());
@@ -233,6 +254,7 @@ void run_transfer(const TransferOptions& options) {
     samples = read_samples_exactly_on(options.samples, done.from, options.tolerance,
                                       done.from.warnings, progress, {.compares_surface = false});
     warn_of_no_samples(samples, done.from.warnings);
+    warn_of_other_walls(samples, options.to.walls, done.from.warnings);
     if (options.is_farthest()) {
         done.farthest = put_farthest_first(options, runner, order, to, samples, progress);
     }
@@ -273,6 +295,7 @@ void add_transfer_command(Command app) {
     add_sidecar_options(command, options->from, "MESH_A", "-a");
     add_sidecar_options(command, options->to, "MESH_B", "-b");
     add_lift_option(command, options->to, "-b");
+    add_walls_option(command, options->to);
     add_weld_options(command, options->from, "-a");
     add_weld_options(command, options->to, "-b");
     add_tolerance_option(command, options->tolerance);

@@ -247,6 +247,14 @@ MaskRule with_value(MaskRule rule, const MeshField& number) {
     });
     if (!rule.value_name.empty() && found != names.end()) {
         rule.value = found->value;
+        const auto other = std::ranges::find_if(names, [&](const ValueName& one) {
+            return one.value == found->value && one.name != found->name;
+        });
+        if (other != names.end()) {
+            fail_input(value_file(rule.name).value_or(rule.name),
+                       "the labels " + in_quotes(found->name) + " and " + in_quotes(other->name) +
+                           " have one number or colour, so that nothing tells them apart");
+        }
     } else if (std::isnan(rule.value)) {
         std::vector<std::string> known;
         for (const ValueName& one : names) {

@@ -26,6 +26,10 @@ from ._values import flag, names, text, weld_of
 from ._walls import cut
 
 
+#: Oddities that walls make: faces that are none now, and borders beside each other.
+_OF_WALLS = ("repeated_vertices", "unwelded")
+
+
 class Mesh:
     """A mesh, prepared for any number of runs.
 
@@ -175,8 +179,8 @@ class Mesh:
                 points = array_of(points, "vertices")
             given = faces_of(faces)
             if walls is not None and edge_lengths is None and not isinstance(given, Polygons):
-                given = from_rows(given)  # Seams are joined before the mesh is cut.
-            if isinstance(given, Polygons):
+                surface = joined_surface(points, given, weld, keep_seams)  # Before it is cut.
+            elif isinstance(given, Polygons):
                 if edge_lengths is not None:
                     raise e.invalid("with edge lengths, all faces must be triangles")
                 polygons, places = given, Surface(points, None).coordinates()
@@ -194,6 +198,8 @@ class Mesh:
         check_record(self, _record)
         self._prepare(surface, source.joined_edges if source else 0)
         oddities = oddities_of(self._handle, source.handle if source else None)
+        if walls is not None:
+            oddities = tuple(one for one in oddities if one.kind not in _OF_WALLS)
         self.warnings = (*left_out, *oddities)
         warn(self.warnings)
 
@@ -285,6 +291,17 @@ def surface_from(source: Source, vertices: Any, keep_seams: bool) -> Surface:
         corners=source.corners if source.joined is not None else None,
         is_y_up=source.is_y_up,
     )
+
+
+def joined_surface(vertices: Any, faces: Any, weld: bool | float, keep_seams: bool) -> Surface:
+    """Returns a surface of triangles whose vertices are joined; other faces stay as they are."""
+    plain = Surface(vertices, faces, keep_seams=keep_seams)
+    places, rows = plain.coordinates(), from_rows(plain.indices())
+    joined = interruptible(lambda stop: split(places, rows, weld, keep_seams, stop)).joined
+    if joined is None:
+        return plain
+    corners = plain.indices()
+    return dataclasses.replace(plain, faces=joined[corners], corners=corners, joined=joined)
 
 
 def created(surface: Surface) -> c.Handle:

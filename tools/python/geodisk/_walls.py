@@ -68,6 +68,9 @@ def _mask_of(surface: Surface, given: NDArray[Any]) -> NDArray[np.uint8]:
 
 
 def _edges_of(surface: Surface, given: NDArray[Any]) -> NDArray[np.uint32]:
+    if given.size and given.dtype.kind not in "iu":
+        raise e.invalid("walls are neither a mask of type bool, of triangles, nor (k, 2) integers, the "
+                        "vertices of edges")
     edges = indices(given, "walls")
     if edges.ndim != 2 or edges.shape[1] != 2:
         raise e.invalid(
