@@ -198,7 +198,7 @@ TEST_CASE("samples name the triangles and faces of the mesh file, whatever of it
     folder.write("c.csv", header + "radius\n0,0,0,2,1,0,0,1\n");
     const Outcome dropped = run(folder, {"verify", "mesh.ply", "c.csv"});
     CHECK(dropped.status == 3);
-    CHECK(contains(dropped.err, "face 2 repeats a vertex or is a copy"));
+    CHECK(contains(dropped.err, "face 2 repeats a vertex, is a copy or a wall"));
 }
 
 TEST_CASE("header comments tell where the samples come from") {

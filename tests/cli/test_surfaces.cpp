@@ -85,7 +85,7 @@ TEST_CASE("welding joins faces along open seams, and verify wants the same") {
     CHECK(contains(run(folder, {"verify", "mesh.obj", "a.ply"}).err,
                    "made with --weld=0.1%, but this command"));
     CHECK(contains(run(folder, {"verify", "mesh.obj", "b.ply", "--weld=0.1%"}).err,
-                   "made with no --lift, --weld and --keep-seams, but this command"));
+                   "made with no --lift, --weld, --keep-seams and --walls, but this command"));
     const Outcome moved = run(folder, {"transfer", "a.ply", "mesh.obj", "mesh.obj", "-o", "c.ply",
                                        "--weld-a=0.1%", "--weld-b=0.1%", "--json", "c.json"});
     CHECK(moved.status == 0);
@@ -136,7 +136,7 @@ TEST_CASE("seams of coinciding borders are joined, and verify wants the same") {
     CHECK(contains(same.out, "keep_seams yes\n"));
     CHECK(contains(same.err, "box.obj: 24 edges coincide but are not connected"));
     CHECK(contains(run(folder, {"verify", "box.obj", "a.ply", "--keep-seams"}).err,
-                   "made with no --lift, --weld and --keep-seams, but this command"));
+                   "made with no --lift, --weld, --keep-seams and --walls, but this command"));
     CHECK(run(folder, {"transfer", "b.ply", "box.obj", "box.obj", "-o", "c.ply", "--keep-seams-a",
                        "--keep-seams-b"})
               .status == 0);

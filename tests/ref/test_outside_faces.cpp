@@ -67,7 +67,7 @@ TEST_CASE("of nested shells the outermost is seen, and of separate ones all") {
 }
 
 TEST_CASE("more of a shell with a hole is seen, the wider the hole and the smaller the share") {
-    const TestMesh ball = builtin("icosphere", 4);
+    const TestMesh ball = builtin("icosphere", 3);
     const auto with_hole = [&](double height) {
         TestMesh open{ball.positions, {}, 3};
         for (std::uint32_t f = 0; f < ball.face_count(); ++f) {
@@ -112,8 +112,8 @@ TEST_CASE("sheets, faces without area and odd scales") {
 
 TEST_CASE("threads change nothing, and a run can be stopped") {
     TestMesh mesh;
-    append(mesh, builtin("showpiece", 60), 1);
-    append(mesh, builtin("icosphere", 4), 0.3);
+    append(mesh, builtin("torus-knot", 24), 1);
+    append(mesh, builtin("icosphere", 3), 0.3);
     const auto all = outside_faces(mesh.view(), 0.1, {.max_threads = 1});
     REQUIRE(all);
     CHECK(*all == *outside_faces(mesh.view(), 0.1, {.max_threads = 4}));

@@ -163,17 +163,9 @@ def geodesic_distances(
         raise e.invalid("give sources: from where to measure")
     if flag(each, "each") and flag(return_nearest, "return_nearest"):
         raise e.invalid("each and return_nearest exclude each other: each source has a row")
-    kept: list[NDArray[Any]] = []  # What the library reads.
-
-    def address(array: NDArray[Any]) -> int:
-        kept.append(array)
-        return int(array.ctypes.data)
-
-    params = s.DistanceParams(each=int(each))
-    if isinstance(sources, (int, np.integer)) and not isinstance(sources, bool):
-        sources = [integer(sources, "sources", 2**32 - 1)]
-    count = set_sources(params, mesh, sources, address)
-    assert count is not None
+    query = _Query(mesh, sources)
+    params, count = query.params, query.count
+    params.each = int(each)
     if within is not None:
         params.within = number(within, "within")
         if not params.within > 0:
@@ -181,10 +173,8 @@ def geodesic_distances(
     width = mesh._surface.vertex_count()
     if targets is not None:
         points = points_of(mesh._handle, targets, "targets")
-        params.targets, params.target_count = address(points), len(points)
+        params.targets, params.target_count = query.address(points), len(points)
         width = len(points)
-    if mesh._surface.joined is not None:
-        params.joined = address(np.ascontiguousarray(mesh._surface.joined, np.uint32))
     distances = np.empty((count, width) if each else width, np.float64)
     nearest = np.empty(width, np.uint32)
     listened(
@@ -257,26 +247,14 @@ def disk_radii(
     area = number(area, "area")
     if not 0 < area < np.inf:
         raise e.invalid(f"area is {area}, not positive and finite")
-    kept: list[NDArray[Any]] = []  # What the library reads.
-
-    def address(array: NDArray[Any]) -> int:
-        kept.append(array)
-        return int(array.ctypes.data)
-
-    params = s.DistanceParams()
-    if isinstance(sources, (int, np.integer)) and not isinstance(sources, bool):
-        sources = [integer(sources, "sources", 2**32 - 1)]
-    count = set_sources(params, mesh, sources, address)
-    assert count is not None
-    if mesh._surface.joined is not None:
-        params.joined = address(np.ascontiguousarray(mesh._surface.joined, np.uint32))
-    radii = np.empty(count, np.float64)
+    query = _Query(mesh, sources)
+    radii = np.empty(query.count, np.float64)
     listened(
         progress,
         lambda hear: c.call(
             "geodisk_disk_radii",
             mesh._handle.value,
-            byref(params),
+            byref(query.params),
             area,
             hear,
             None,
@@ -353,6 +331,27 @@ def geodesic_path(
         corners = mesh.vertices[mesh.triangles[faces_of]].astype(np.float64)
         place = np.einsum("nk,nkd->nd", weights, corners)
     return GeodesicPath(place, c.ask("geodisk_path_length", path.value), faces_of, weights)
+
+
+class _Query:
+    """Sources of distances as the library takes them, with the arrays that it reads."""
+
+    def __init__(self, mesh: Mesh, sources: Any) -> None:
+        self._kept: list[NDArray[Any]] = []
+        self.params = s.DistanceParams()
+        if isinstance(sources, (int, np.integer)) and not isinstance(sources, bool):
+            sources = [integer(sources, "sources", 2**32 - 1)]
+        count = set_sources(self.params, mesh, sources, self.address)
+        assert count is not None
+        self.count = count
+        if mesh._surface.joined is not None:
+            joined = np.ascontiguousarray(mesh._surface.joined, np.uint32)
+            self.params.joined = self.address(joined)
+
+    def address(self, array: NDArray[Any]) -> int:
+        """Keeps an array, and returns where it is."""
+        self._kept.append(array)
+        return int(array.ctypes.data)
 
 
 def _mesh_and_after(

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include <geodisk/domain.hpp>
+#include <geodisk/export.hpp>
 #include <geodisk/mesh.hpp>
 #include <geodisk/params.hpp>
 #include <geodisk/status.hpp>
@@ -16,7 +17,8 @@ namespace geodisk {
 /// them: each dart hits one with a probability by its share of the area, a third of each of its
 /// faces. A function of the seed and of the numbers of vertices. Points are in faces that take
 /// samples.
-std::vector<ListedCandidate> vertex_darts(const PreparedMesh& mesh, const SampleParams& params);
+GEODISK_API std::vector<ListedCandidate> vertex_darts(const PreparedMesh& mesh,
+                                                      const SampleParams& params);
 
 /// Makes the domain of samples at vertices alone. The pool ratio has no effect. `mesh` and `params`
 /// as for Domain::surface().
