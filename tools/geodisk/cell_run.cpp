@@ -64,8 +64,7 @@ CellResult run_cells(std::span<const SampleRow> rows, bool has_dual, const MeshI
 
 NearestSamples find_nearest(std::span<const SampleRow> rows, const MeshInput& mesh,
                             RunDevice& device, std::uint64_t bytes, ProgressLine& progress) {
-    device.begin_search(progress);
-    progress.begin_stage("finding nearest samples");
+    progress.begin_stage("finding cells");
     auto found = NearestSamples::create(device.runner(), mesh.prepared, samples_of(rows),
                                         max_records(bytes), search_progress(progress, "samples"));
     progress.clear();

@@ -36,7 +36,8 @@ void check_cells(const Error& error, std::uint64_t bytes);
 CellResult run_cells(std::span<const SampleRow> rows, bool has_dual, const MeshInput& mesh,
                      RunDevice& device, std::uint64_t bytes, ProgressLine& progress);
 
-/// Finds the disks of the samples in `rows`, for what follows. Searches as run_cells() does.
+/// Finds the disks of the samples in `rows`, with --memory `bytes`. The device has begun a search.
+/// Throws UserError.
 NearestSamples find_nearest(std::span<const SampleRow> rows, const MeshInput& mesh,
                             RunDevice& device, std::uint64_t bytes, ProgressLine& progress);
 

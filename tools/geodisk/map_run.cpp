@@ -122,15 +122,7 @@ MapResult run_map(std::span<const SampleRow> rows, MapSize size, const MeshInput
                   ProgressLine& progress) {
     Texels texels = texels_of(mesh.file, size.texture, mesh.path, progress);
     DeviceRun done = device.begin_search(progress);
-    progress.begin_stage("finding cells");
-    auto nearest = NearestSamples::create(device.runner(), mesh.prepared, samples_of(rows),
-                                          max_records(bytes), search_progress(progress, "samples"));
-    progress.clear();
-    check_interrupted();
-    if (!nearest) {
-        check_cells(nearest.error(), bytes);
-    }
-    const NearestSamples disks = take(std::move(nearest));
+    const NearestSamples disks = find_nearest(rows, mesh, device, bytes, progress);
     std::vector<std::array<std::uint32_t, 2>> touching;
     if (has_touching) {
         touching = find_touching(disks, progress);

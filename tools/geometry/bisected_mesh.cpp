@@ -6,6 +6,8 @@
 #include <tuple>
 #include <utility>
 
+#include "geometry/triangle_edges.hpp"
+
 namespace geodisk::tools {
 namespace {
 
@@ -17,10 +19,6 @@ constexpr std::int64_t kStep = kWholeOne / kPartSteps;
 
 using Corners = std::array<std::uint32_t, 3>;
 using Weights = std::array<std::uint16_t, 2>;
-
-bool names_three(const std::uint32_t* v) {
-    return v[0] != v[1] && v[1] != v[2] && v[2] != v[0];
-}
 
 Weights middle_weights(const Weights& a, const Weights& b) {
     return {static_cast<std::uint16_t>((a[0] + b[0]) / 2),
@@ -65,42 +63,6 @@ Sample sample_with(std::uint32_t face, std::int64_t second, std::int64_t third) 
 }
 
 } // namespace
-
-/// The edges of all triangles that take part: the number of each, and the triangles on it.
-struct BisectedMesh::Edges {
-    explicit Edges(const std::vector<std::uint32_t>& triangles)
-        : of_corner(triangles.size(), kNone) {
-        std::vector<std::tuple<std::uint32_t, std::uint32_t, std::uint32_t>> sorted;
-        sorted.reserve(triangles.size());
-        for (std::uint32_t i = 0; i < triangles.size(); ++i) {
-            if (names_three(&triangles[i - i % 3])) {
-                const std::uint32_t next = i % 3 == 2 ? i - 2 : i + 1;
-                const auto [low, high] = std::minmax(triangles[i], triangles[next]);
-                sorted.emplace_back(low, high, i);
-            }
-        }
-        std::ranges::sort(sorted);
-        for (std::size_t i = 0; i < sorted.size(); ++i) {
-            const auto& [low, high, corner] = sorted[i];
-            if (i == 0 || std::get<0>(sorted[i - 1]) != low || std::get<1>(sorted[i - 1]) != high) {
-                starts.push_back(i);
-                ends.push_back({low, high});
-            }
-            of_corner[corner] = static_cast<std::uint32_t>(ends.size() - 1);
-            corners.push_back(corner);
-        }
-        starts.push_back(sorted.size());
-    }
-
-    std::span<const std::uint32_t> on(std::uint32_t edge) const {
-        return std::span(corners).subspan(starts[edge], starts[edge + 1] - starts[edge]);
-    }
-
-    std::vector<std::uint32_t> of_corner; ///< Edge from each corner to the next.
-    std::vector<Ends> ends;
-    std::vector<std::size_t> starts;
-    std::vector<std::uint32_t> corners; ///< Corners where the edges of triangles begin, by edge.
-};
 
 BisectedMesh::BisectedMesh(const MeshFile& mesh)
     : dimension_(mesh.dimension), positions_(mesh.positions), triangles_(mesh.triangles),
@@ -148,7 +110,7 @@ bool BisectedMesh::has_middle(std::size_t triangle, std::size_t edge) const {
 
 std::optional<std::vector<std::uint32_t>> BisectedMesh::split(const std::vector<bool>& wanted,
                                                               std::size_t most) {
-    const Edges edges(triangles_);
+    const TriangleEdges edges(triangles_);
     std::vector<std::uint32_t> middles(edges.ends.size(), kNone);
     std::vector<std::uint32_t> marked, open; // Edges, and triangles whose longest edge is to split.
     for (std::uint32_t t = 0; t < wanted.size(); ++t) {

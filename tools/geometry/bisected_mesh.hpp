@@ -61,8 +61,6 @@ class BisectedMesh {
     Sample part(const Sample& sample) const;
 
   private:
-    struct Edges;
-
     /// Returns the place of the longest edge of a triangle, 0 to 2; ties are decided by vertices.
     std::size_t longest(std::size_t triangle) const;
     std::size_t longest(const std::array<std::uint32_t, 3>& corners) const;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "geometry/bisected_mesh.hpp"
+#include "geometry/triangle_edges.hpp"
 
 namespace geodisk::tools {
 namespace {
@@ -22,46 +23,9 @@ constexpr int kFinerSplits = 6;
 /// Triangles that a mesh is split into at most, besides those that it has.
 constexpr std::size_t kMostTriangles = std::size_t{1} << 22;
 
-/// Returns true for a triangle that names three vertices.
 bool takes_part(const BisectedMesh& mesh, std::size_t triangle) {
-    const std::uint32_t* const v = &mesh.triangles()[3 * triangle];
-    return v[0] != v[1] && v[1] != v[2] && v[2] != v[0];
+    return names_three(&mesh.triangles()[3 * triangle]);
 }
-
-/// The edges of triangles that take part, by number.
-class EdgeNumbers {
-  public:
-    explicit EdgeNumbers(const BisectedMesh& mesh)
-        : of_corner_(mesh.triangles().size(), kNoSample) {
-        const std::vector<std::uint32_t>& triangles = mesh.triangles();
-        std::vector<std::pair<std::array<std::uint32_t, 2>, std::uint32_t>> sorted;
-        for (std::uint32_t corner = 0; corner < triangles.size(); ++corner) {
-            if (takes_part(mesh, corner / 3)) {
-                const std::uint32_t next = corner % 3 == 2 ? corner - 2 : corner + 1;
-                const auto [low, high] = std::minmax(triangles[corner], triangles[next]);
-                sorted.push_back({{low, high}, corner});
-            }
-        }
-        std::ranges::sort(sorted);
-        for (const auto& [ends, corner] : sorted) {
-            if (ends_.empty() || ends_.back() != ends) {
-                ends_.push_back(ends);
-                corners_.push_back(corner);
-            }
-            of_corner_[corner] = static_cast<std::uint32_t>(ends_.size() - 1);
-        }
-    }
-
-    std::size_t count() const { return ends_.size(); }
-    std::uint32_t of_corner(std::size_t corner) const { return of_corner_[corner]; }
-    const std::array<std::uint32_t, 2>& ends(std::size_t edge) const { return ends_[edge]; }
-    /// Returns a corner from which an edge leads to the next corner of its triangle.
-    std::uint32_t corner(std::size_t edge) const { return corners_[edge]; }
-
-  private:
-    std::vector<std::uint32_t> of_corner_, corners_;
-    std::vector<std::array<std::uint32_t, 2>> ends_; ///< The lower one first.
-};
 
 /// A place on an edge where one cell ends and another begins.
 struct Crossing {
@@ -82,7 +46,7 @@ class Cutter {
   public:
     Cutter(const BisectedMesh& mesh, std::uint32_t dimension, std::span<const std::uint8_t> mask,
            const FindNearest& nearest)
-        : mesh_(mesh), mask_(mask), nearest_(nearest), edges_(mesh) {
+        : mesh_(mesh), mask_(mask), nearest_(nearest), edges_(mesh.triangles()) {
         result_.dimension = dimension;
         result_.positions = mesh.positions();
     }
@@ -111,8 +75,8 @@ class Cutter {
 
     /// Returns the point of an edge this far from its lower end.
     Sample point_on(std::uint32_t edge, double at) const {
-        const std::uint32_t corner = edges_.corner(edge);
-        const bool is_upward = mesh_.triangles()[corner] == edges_.ends(edge)[0];
+        const std::uint32_t corner = edges_.on(edge).front();
+        const bool is_upward = mesh_.triangles()[corner] == edges_.ends[edge][0];
         Sample point{corner / 3, {}};
         const std::uint32_t next = corner % 3 == 2 ? 0 : corner % 3 + 1;
         point.weights[next] = static_cast<float>(is_upward ? at : 1 - at);
@@ -135,13 +99,13 @@ class Cutter {
         at_vertex_.assign(mesh_.vertex_count(), kNoSample);
         std::vector<std::pair<std::uint32_t, double>> places;
         std::vector<std::uint32_t> vertices;
-        for (std::uint32_t edge = 0; edge < edges_.count(); ++edge) {
+        for (std::uint32_t edge = 0; edge < edges_.ends.size(); ++edge) {
             for (std::size_t end = 0; end < 2; ++end) {
-                std::uint32_t& known = at_vertex_[edges_.ends(edge)[end]];
+                std::uint32_t& known = at_vertex_[edges_.ends[edge][end]];
                 if (known == kNoSample) {
                     known = 0;
                     places.emplace_back(edge, static_cast<double>(end));
-                    vertices.push_back(edges_.ends(edge)[end]);
+                    vertices.push_back(edges_.ends[edge][end]);
                 }
             }
         }
@@ -154,17 +118,17 @@ class Cutter {
     void find_crossings() {
         find_vertices();
         std::vector<std::pair<std::uint32_t, double>> places;
-        for (std::uint32_t edge = 0; edge < edges_.count(); ++edge) {
+        for (std::uint32_t edge = 0; edge < edges_.ends.size(); ++edge) {
             for (std::size_t i = 1; i < kProbes; ++i) {
                 places.emplace_back(edge, static_cast<double>(i) / kProbes);
             }
         }
         const std::vector<std::uint32_t> found = samples_at(places);
         std::vector<Gap> gaps;
-        for (std::uint32_t edge = 0; edge < edges_.count(); ++edge) {
+        for (std::uint32_t edge = 0; edge < edges_.ends.size(); ++edge) {
             std::array<std::uint32_t, kProbes + 1> own{};
-            own.front() = at_vertex_[edges_.ends(edge)[0]];
-            own.back() = at_vertex_[edges_.ends(edge)[1]];
+            own.front() = at_vertex_[edges_.ends[edge][0]];
+            own.back() = at_vertex_[edges_.ends[edge][1]];
             std::copy_n(&found[edge * (kProbes - 1)], kProbes - 1, &own[1]);
             for (std::size_t i = 0; i < kProbes; ++i) {
                 if (own[i] != own[i + 1]) {
@@ -176,14 +140,14 @@ class Cutter {
         for (int halving = 0; halving < kHalvings && !gaps.empty(); ++halving) {
             halve(gaps);
         }
-        crossings_.resize(edges_.count());
+        crossings_.resize(edges_.ends.size());
         for (const Gap& gap : gaps) {
             crossings_[gap.edge].push_back({(gap.begin + gap.end) / 2, gap.before, gap.behind});
         }
-        for (std::uint32_t edge = 0; edge < edges_.count(); ++edge) {
+        for (std::uint32_t edge = 0; edge < edges_.ends.size(); ++edge) {
             std::ranges::sort(crossings_[edge], {}, &Crossing::at);
             for (Crossing& crossing : crossings_[edge]) {
-                const auto& [from, to] = edges_.ends(edge);
+                const auto& [from, to] = edges_.ends[edge];
                 crossing.vertex = add_vertex({{from, 1 - crossing.at}, {to, crossing.at}});
             }
         }
@@ -232,10 +196,10 @@ class Cutter {
     std::vector<Corner> outline_of(std::size_t triangle) const {
         std::vector<Corner> outline;
         for (std::size_t corner = 3 * triangle; corner < 3 * triangle + 3; ++corner) {
-            const std::uint32_t edge = edges_.of_corner(corner);
+            const std::uint32_t edge = edges_.of_corner[corner];
             const std::uint32_t vertex = mesh_.triangles()[corner];
             const std::vector<Crossing>& own = crossings_[edge];
-            if (vertex == edges_.ends(edge)[0]) {
+            if (vertex == edges_.ends[edge][0]) {
                 outline.push_back({vertex, at_vertex_[vertex]});
                 for (const Crossing& crossing : own) {
                     outline.push_back({crossing.vertex, crossing.behind});
@@ -380,7 +344,7 @@ class Cutter {
     const BisectedMesh& mesh_;
     std::span<const std::uint8_t> mask_;
     const FindNearest& nearest_;
-    EdgeNumbers edges_;
+    TriangleEdges edges_;
     std::vector<std::uint32_t> at_vertex_; ///< Sample whose cell each vertex is in.
     std::vector<std::vector<Crossing>> crossings_;
     CutCells result_;

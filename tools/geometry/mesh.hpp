@@ -107,6 +107,12 @@ struct MeshFile {
     std::vector<MeshWarning> warnings; ///< Warnings about what was dropped or ignored.
 
     std::size_t triangle_count() const { return triangles.size() / 3; }
+    /// Returns the number of vertices; without coordinates, of those up to the last in a face.
+    std::size_t vertex_count() const {
+        return positions.empty()
+                   ? triangles.empty() ? 0 : std::size_t{1} + *std::ranges::max_element(triangles)
+                   : positions.size() / dimension;
+    }
     /// Returns the number of vertices of the file, of the mesh's.
     std::size_t file_vertices(std::size_t vertices) const { return vertices - copied.size(); }
     /// Returns the vertex of the file that a vertex is or is a copy of.

@@ -90,13 +90,8 @@ std::vector<double> vertex_numbers(const MeshFile& mesh, const MeshField& number
     if (number.of == MeshField::Of::vertices) {
         return values_at_vertices(mesh, number.values);
     }
-    const auto& corners = mesh.triangles;
-    const std::size_t vertices =
-        mesh.positions.empty()
-            ? corners.empty() ? 0 : std::size_t{1} + *std::ranges::max_element(corners)
-            : mesh.positions.size() / mesh.dimension;
     const bool of_faces = number.of == MeshField::Of::faces;
-    return (of_faces ? means_of_faces : means_of_corners)(mesh, number, Means(vertices));
+    return (of_faces ? means_of_faces : means_of_corners)(mesh, number, Means(mesh.vertex_count()));
 }
 
 } // namespace geodisk::tools

@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "engine/neighbours/check_query.hpp"
-#include "geodesics/shared_run.hpp"
 #include "geodesics/wavefront.hpp"
 #include "mesh/checks.hpp"
 #include "mesh/face_area.hpp"
@@ -18,6 +17,7 @@
 #include "support/guard.hpp"
 #include "support/invalid.hpp"
 #include "support/number_text.hpp"
+#include "support/shared_run.hpp"
 #include "support/try.hpp"
 
 namespace geodisk {
@@ -234,7 +234,7 @@ Result<std::vector<double>> disk_radii(const PreparedMesh& mesh, std::span<const
         GEODISK_TRY(check_points(mesh, "source", sources));
         std::vector<double> radii(sources.size());
         const auto count = static_cast<std::uint32_t>(sources.size());
-        geodesics::SharedRun run(progress);
+        SharedRun run(progress);
         std::atomic<std::uint32_t> done = 0;
         for_parts(threads, count, [&](std::size_t i) {
             if (!run.goes_on()) {
@@ -247,9 +247,7 @@ Result<std::vector<double>> disk_radii(const PreparedMesh& mesh, std::span<const
                 radii[i] = *found;
                 ++done;
             }
-            if (!run.tell(done, count)) {
-                run.check(Error{Status::cancelled, "cancelled"});
-            }
+            run.tell(done, count);
         });
         GEODISK_TRY(run.result());
         return radii;

@@ -7,19 +7,18 @@
 #include <vector>
 
 #include "engine/neighbours/check_query.hpp"
-#include "geodesics/shared_run.hpp"
 #include "geodesics/wavefront.hpp"
 #include "mesh/checks.hpp"
 #include "support/blocks.hpp"
 #include "support/guard.hpp"
 #include "support/invalid.hpp"
 #include "support/number_text.hpp"
+#include "support/shared_run.hpp"
 #include "support/try.hpp"
 
 namespace geodisk {
 namespace {
 
-using geodesics::SharedRun;
 using geodesics::Wavefront;
 
 Result<Done> check(const PreparedMesh& mesh, const DistanceQuery& query) {

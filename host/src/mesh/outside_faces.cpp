@@ -5,7 +5,6 @@
 #include <atomic>
 #include <cmath>
 #include <cstddef>
-#include <mutex>
 
 #include "mesh/checks.hpp"
 #include "mesh/connectivity.hpp"
@@ -14,6 +13,7 @@
 #include "support/guard.hpp"
 #include "support/invalid.hpp"
 #include "support/number_text.hpp"
+#include "support/shared_run.hpp"
 #include "support/try.hpp"
 
 namespace geodisk {
@@ -153,24 +153,18 @@ Result<std::vector<std::uint8_t>> outside_faces(const MeshView& mesh, double sha
             return seen;
         }
         const Watcher watcher(faces.corners, share);
-        std::atomic<bool> is_over = false;
-        std::mutex mutex;
-        std::uint32_t done = 0;
+        SharedRun run(progress);
+        std::atomic<std::uint32_t> done = 0;
         const std::size_t count = faces.corners.size();
         for_parts(threads, (count + kPart - 1) / kPart, [&](std::size_t part) {
             const std::size_t end = std::min((part + 1) * kPart, count);
-            for (std::size_t i = part * kPart; i < end && !is_over; ++i) {
+            for (std::size_t i = part * kPart; i < end && run.goes_on(); ++i) {
                 seen[faces.numbers[i]] = watcher.sees(faces.corners[i]) ? 1 : 0;
             }
-            const std::lock_guard lock(mutex);
             done += static_cast<std::uint32_t>(end - part * kPart);
-            if (progress && !is_over) {
-                is_over = !progress(Progress{done, static_cast<std::uint32_t>(count), 0, 0, 0});
-            }
+            run.tell(done, static_cast<std::uint32_t>(count));
         });
-        if (is_over) {
-            return Error{Status::cancelled, "cancelled"};
-        }
+        GEODISK_TRY(run.result());
         return seen;
     });
 }

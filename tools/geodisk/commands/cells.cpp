@@ -184,7 +184,9 @@ void run_cells_command(CellOptions options) {
     if (options.has_geometry() || !options.labels.empty()) {
         const NearestSamples nearest =
             find_nearest(file.rows, mesh, device, runner.device_bytes, progress);
-        at_vertices = samples_at_vertices(nearest, mesh);
+        if (!options.labels.empty()) {
+            at_vertices = samples_at_vertices(nearest, mesh);
+        }
         if (options.has_geometry()) {
             cuts = cut_along_cells(nearest, file.rows.size(), mesh, progress);
         }

@@ -7,9 +7,8 @@
 #include <span>
 #include <utility>
 
-#include <geodisk/features.hpp>
-
 #include "geodisk/options/distance_options.hpp"
+#include "geometry/crease_edges.hpp"
 #include "geometry/nearest_face.hpp"
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
@@ -23,8 +22,6 @@ constexpr double kPiece = 1.0 / 8;
 /// The nearest point may jump from one side of a fold to the other; so short a part of a piece is
 /// halved no further.
 constexpr double kJump = 0x1p-20;
-/// Degrees by which faces turn at a crease.
-constexpr double kCrease = 30;
 
 double length_of(const Vector& a, const Vector& b) {
     double length = 0;
@@ -186,11 +183,8 @@ std::vector<std::uint32_t> edges_of(const MeshInput& mesh, AvoidOption::Kind kin
         fail_usage("--avoid creases needs the coordinates of the mesh, and it has edge lengths "
                    "alone");
     }
-    const MeshView view{mesh.file.positions, mesh.file.triangles, mesh.file.dimension};
-    const Features features = take(Features::find(view, mesh.prepared, kCrease));
-    std::ranges::copy_if(features.edges(), std::back_inserter(found),
-                         [&](std::uint32_t edge) { return !is_border(mesh.prepared, edge); });
-    return found;
+    return crease_edges({mesh.file.positions, mesh.file.triangles, mesh.file.dimension},
+                        mesh.prepared);
 }
 
 } // namespace

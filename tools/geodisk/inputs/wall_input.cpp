@@ -3,14 +3,15 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <map>
 #include <utility>
 
-#include <geodisk/features.hpp>
 #include <geodisk/mesh.hpp>
 #include <geodisk/walls.hpp>
 
 #include "files/meshes/sidecar_files.hpp"
 #include "geodisk/inputs/mask_input.hpp"
+#include "geometry/crease_edges.hpp"
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
 
@@ -41,12 +42,8 @@ class FoundWalls {
         }
         const MeshView view{mesh_.positions, mesh_.triangles, mesh_.dimension, true};
         const PreparedMesh prepared = take(PreparedMesh::prepare(view), path_);
-        const Features features = take(Features::find(view, prepared, creases.degrees));
-        for (const std::uint32_t edge : features.edges()) {
-            const std::uint32_t other = around_half_edge(prepared.half_edges()[edge].around);
-            if (other != edge) { // Else it is a border.
-                edges_.push_back({mesh_.triangles[edge], mesh_.triangles[next_in_face(edge)]});
-            }
+        for (const std::uint32_t edge : crease_edges(view, prepared, creases.degrees)) {
+            edges_.push_back({mesh_.triangles[edge], mesh_.triangles[next_in_face(edge)]});
         }
         if (edges_.empty()) {
             fail_input(path_, "has no creases for --walls");
@@ -54,24 +51,32 @@ class FoundWalls {
     }
 
     void operator()(const EdgeWalls& walls) {
-        const auto name = [&](std::uint32_t vertex) { return mesh_.names.vertex_number(vertex); };
         for (const NamedEdge& edge : read_edges(walls.file, mesh_.names.first_vertex)) {
             const auto& [a, b] = edge.vertices;
-            const Edge ends{joined(a), joined(b)};
-            if (!is_edge(ends)) {
-                fail_input(walls.file, "line " + std::to_string(edge.line) +
-                                           ": no face has an edge " + name(a) + "-" + name(b));
-            }
-            edges_.push_back(ends);
+            edges_.push_back({joined(a), joined(b)});
+            named_.emplace(edges_.size() - 1, std::pair(walls.file, edge));
         }
     }
 
-    Walls walls() const { return {faces_, edges_}; }
+    /// Cuts the mesh, which has so many vertices.
+    CutMesh cut(std::uint32_t vertices) const {
+        auto made = geodisk::cut(mesh_.triangles, vertices, {faces_, edges_});
+        const bool is_edge = !made && made.error().status == Status::invalid_argument;
+        const auto found = is_edge ? named_.find(made.error().element) : named_.end();
+        if (found != named_.end()) {
+            const auto& [file, edge] = found->second;
+            fail_input(file, "line " + std::to_string(edge.line) + ": no face has an edge " +
+                                 mesh_.names.vertex_number(edge.vertices[0]) + "-" +
+                                 mesh_.names.vertex_number(edge.vertices[1]));
+        }
+        return take(std::move(made), path_);
+    }
+
+  private:
     std::size_t wall_count() const {
         return static_cast<std::size_t>(std::ranges::count(faces_, 1));
     }
 
-  private:
     void take_faces(const std::vector<std::uint8_t>& chosen) {
         faces_.resize(chosen.size(), 0);
         for (std::size_t t = 0; t < chosen.size(); ++t) {
@@ -83,36 +88,13 @@ class FoundWalls {
         return vertex < mesh_.joined.size() ? mesh_.joined[vertex] : vertex;
     }
 
-    bool is_edge(const Edge& ends) {
-        if (known_.empty()) {
-            for (std::size_t t = 0; t < mesh_.triangle_count(); ++t) {
-                const std::uint32_t* const corners = &mesh_.triangles[3 * t];
-                for (std::size_t k = 0; mesh_.takes_part(t) && k < 3; ++k) {
-                    known_.push_back(ordered(corners[k], corners[(k + 1) % 3]));
-                }
-            }
-            std::ranges::sort(known_);
-        }
-        return std::ranges::binary_search(known_, ordered(ends[0], ends[1]));
-    }
-
-    static Edge ordered(std::uint32_t a, std::uint32_t b) {
-        return {std::min(a, b), std::max(a, b)};
-    }
-
     const std::string& path_;
     const MeshFile& mesh_;
     std::vector<std::uint8_t> faces_;
     std::vector<Edge> edges_;
-    std::vector<Edge> known_; ///< Edges of the mesh, sorted.
+    /// Edges of files, by their places in edges_, with the files.
+    std::map<std::uint64_t, std::pair<std::string, NamedEdge>> named_;
 };
-
-/// Returns the number of vertices of a mesh, also of one without coordinates.
-std::uint32_t vertices_in(const MeshFile& mesh) {
-    return static_cast<std::uint32_t>(
-        mesh.positions.empty() ? std::size_t{1} + *std::ranges::max_element(mesh.triangles)
-                               : mesh.positions.size() / mesh.dimension);
-}
 
 } // namespace
 
@@ -121,8 +103,8 @@ void cut_walls(const std::string& path, const std::vector<WallRule>& walls, Mesh
     for (const WallRule& wall : walls) {
         std::visit(found, wall);
     }
-    const std::uint32_t vertices = vertices_in(mesh);
-    CutMesh cut = take(geodisk::cut(mesh.triangles, vertices, found.walls()), path);
+    const auto vertices = static_cast<std::uint32_t>(mesh.vertex_count());
+    CutMesh cut = found.cut(vertices);
     if (mesh.file_triangles.empty()) {
         mesh.file_triangles = mesh.triangles;
     }

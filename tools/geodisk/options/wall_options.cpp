@@ -3,6 +3,7 @@
 #include <string_view>
 #include <utility>
 
+#include "geometry/crease_edges.hpp"
 #include "program/exact_text.hpp"
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
@@ -12,8 +13,6 @@ namespace {
 
 constexpr const char* kWalls = "--walls";
 constexpr std::string_view kCreases = "creases", kEdges = "edges:";
-/// As of --avoid creases.
-constexpr double kCrease = 30;
 constexpr double kTurned = 180;
 
 CreaseWalls parse_creases(const std::string& text) {

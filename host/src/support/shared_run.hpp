@@ -1,4 +1,4 @@
-// What several wavefronts on threads share.
+// SharedRun: state that parts of a work share, which run on several threads.
 #pragma once
 
 #include <atomic>
@@ -8,20 +8,24 @@
 #include <geodisk/runner.hpp>
 #include <geodisk/status.hpp>
 
-namespace geodisk::geodesics {
+namespace geodisk {
 
-/// State that several wavefronts share: their progress, told one call at a time, and first error.
+/// Their progress, told one call at a time, and their first error.
 class SharedRun {
   public:
     explicit SharedRun(const ProgressCallback& heard) : heard_(heard) {}
 
     bool goes_on() const { return !is_over_; }
 
-    /// Returns false if the work is to stop.
+    /// Tells how much is done. Returns false if the work is to stop; it is then `cancelled`, unless
+    /// it has failed.
     bool tell(std::uint32_t done, std::uint32_t all) {
         if (heard_ && goes_on()) {
             const std::lock_guard lock(mutex_);
-            is_over_ = is_over_ || !heard_(Progress{done, all, 0, 0, 0});
+            if (!is_over_ && !heard_(Progress{done, all, 0, 0, 0})) {
+                is_over_ = true;
+                result_ = Error{Status::cancelled, "cancelled"};
+            }
         }
         return goes_on();
     }
@@ -48,4 +52,4 @@ class SharedRun {
     Result<Done> result_ = Done{};
 };
 
-} // namespace geodisk::geodesics
+} // namespace geodisk
