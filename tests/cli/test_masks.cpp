@@ -169,7 +169,6 @@ TEST_CASE("values of vertices in files are masks, by number or by name") {
     check_faces(folder, "m.obj", {"--mask", "file:lh.a.annot=left"}, {0, 1});
     check_faces(folder, "m.obj", {"--mask", "file:lh.a.annot!=left"}, {4, 5});
     check_faces(folder, "m.obj", {"--mask", "file:lh.a.annot=1"}, {4, 5});
-    check_faces(folder, "m.obj", {"--mask", "file:lh.a.annot"}, {4, 5});
     check_faces(folder, "m.obj", {"--mask", "file:lh.a.label"}, {0, 1});
     check_faces(folder, "m.obj", {"--mask", "file:lh.a.label<1"}, {4, 5});
     check_faces(folder, "m.obj", {"--mask", "file:a.txt<5", "--mask", "file:a.txt>=-1"}, {0, 1});
@@ -199,6 +198,11 @@ TEST_CASE("values of vertices in files are masks, by number or by name") {
     check({"--mask", "file:a.txt=left"}, 3,
           "a.txt: has no value called 'left', as its values have no names");
     check({"--mask", "file:lh.a.annot<left"}, 2, "is not PROPERTY<VALUE");
+    check({"--mask", "file:lh.a.annot"}, 2,
+          "--mask: the values of 'file:lh.a.annot' are labels; tell which, such as "
+          "'file:lh.a.annot=right'");
+    check({"--density", "file:lh.a.annot"}, 2,
+          "--density: the values of 'file:lh.a.annot' are labels, whose numbers are no amounts");
     check({"--mask", "file:"}, 2, "names nothing");
     check({"--mask", "file:short.txt"}, 3,
           "short.txt: has 2 values for the 10 vertices of the mesh");

@@ -242,6 +242,11 @@ RuleValues values_for(const MaskRule& rule, const MeshFile& mesh, const MeshFiel
 /// Returns the rule with the value that the name in it means.
 MaskRule with_value(MaskRule rule, const MeshField& number) {
     const std::vector<ValueName>& names = number.value_names;
+    if (!rule.has_comparison && !names.empty()) {
+        fail_usage(rule.option + ": the values of " + in_quotes(rule.name) +
+                   " are labels; tell which, such as " +
+                   in_quotes(rule.name + '=' + names.back().name));
+    }
     const auto found = std::ranges::find_if(names, [&](const ValueName& one) {
         return composed_name(one.name) == composed_name(rule.value_name);
     });

@@ -9,6 +9,7 @@
 
 #include "files/images/image.hpp"
 #include "files/meshes/sidecar_files.hpp"
+#include "files/meshes/value_files.hpp"
 #include "geometry/mean_curvature.hpp"
 #include "geometry/vertex_numbers.hpp"
 #include "geometry/weld_mesh.hpp"
@@ -31,8 +32,14 @@ Values values_of(const DensitySource& of, const std::string& path, const MeshFil
     switch (of.kind) {
     case DensitySource::Kind::attribute:
         return {path + ": " + in_quotes(of.name), vertex_numbers(file, file.number(of.name))};
-    case DensitySource::Kind::file:
-        return {of.name, read_values(of.name, vertex_count).values};
+    case DensitySource::Kind::file: {
+        VertexValues read = read_values(of.name, vertex_count);
+        if (!read.names.empty()) {
+            fail_usage(of.option + ": the values of " + in_quotes(of.text()) +
+                       " are labels, whose numbers are no amounts");
+        }
+        return {of.name, std::move(read.values)};
+    }
     case DensitySource::Kind::map:
     case DensitySource::Kind::curvature:
         break;

@@ -102,7 +102,9 @@ MaskRule parse_file(const std::string& option, const std::string& text, std::str
     }
     std::size_t at = text.find_last_of("<>=");
     if (at == std::string::npos || is_file(name)) {
-        return {is_map, is_map ? name : text, Comparison::at_least, kWhite};
+        MaskRule white{is_map, is_map ? name : text, Comparison::at_least, kWhite};
+        white.has_comparison = false;
+        return white;
     }
     const bool has_two =
         text[at] == '=' && std::string_view("<>!").find(text[at - 1]) != std::string_view::npos;

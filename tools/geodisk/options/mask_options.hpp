@@ -38,6 +38,7 @@ struct MaskRule {
     double value = 0;
     std::string value_name{}; ///< As given for values of a file, which may have names. Or "".
     std::string option = "--mask";
+    bool has_comparison = true; ///< As given; else a file of shares, white from one half on.
 
     /// False for a value that is not a number.
     bool holds(double of) const;

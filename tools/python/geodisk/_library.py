@@ -91,7 +91,7 @@ class Handle:
         self.value = c_void_p()
 
     def __del__(self) -> None:
-        value, self.value = getattr(self, "value", None), c_void_p()
+        value = getattr(self, "value", None)
         if value:
             self._release(value)
 

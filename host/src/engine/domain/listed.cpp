@@ -10,6 +10,7 @@
 #include "constants.h"
 #include "engine/capacity.hpp"
 #include "engine/domain/check_frame.hpp"
+#include "engine/domain/face_mask.hpp"
 #include "engine/domain/stages.hpp"
 #include "engine/domain/surface_domain.hpp"
 #include "records.h"
@@ -172,7 +173,7 @@ Result<Domain> SurfaceDomain::recording(const PreparedMesh& mesh, const SamplePa
 Result<Domain> listed_domain(const PreparedMesh& mesh, const SampleParams& params,
                              std::span<const ListedCandidate> candidates) noexcept {
     return guarded([&]() -> Result<Domain> {
-        const auto frame = frame_of(mesh, params);
+        const auto frame = frame_of_disks(mesh, params); // A list may be far shorter than a pool.
         GEODISK_TRY(frame);
         return listed_domain(mesh, params, *frame, candidates);
     });

@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "engine/domain/face_mask.hpp"
+#include "engine/domain/stages.hpp"
 #include "engine/request/check_fields.hpp"
 #include "geodisk/detail/philox.hpp"
 #include "mesh/face_area.hpp"
@@ -81,7 +82,7 @@ std::vector<ListedCandidate> vertex_darts(const PreparedMesh& mesh, const Sample
 }
 
 Result<Domain> vertex_domain(const PreparedMesh& mesh, const SampleParams& params) {
-    GEODISK_TRY(pool_size(mesh, params));
+    GEODISK_TRY(check_params(mesh, params));
     GEODISK_TRY(check_fields(params, RequestField::at_vertices));
     return listed_domain(mesh, params, vertex_darts(mesh, params));
 }
