@@ -13,6 +13,8 @@
 #include <geodisk/neighbours.hpp>
 
 #include "device_run.hpp"
+#include "engine/neighbours/search_jobs.hpp"
+#include "engine/neighbours/search_within.hpp"
 #include "sets.hpp"
 #include "support/geodesic_query.hpp"
 #include "support/meshes.hpp"
@@ -138,7 +140,27 @@ Neighbours check_mesh(const PreparedMesh& mesh, double within) {
     return lists;
 }
 
-/// Checks that nothing changes with little memory, other kernels and few lanes.
+void check_same(const Neighbours& lists, const Neighbours& other) {
+    CHECK(other.offsets == lists.offsets);
+    CHECK(other.indices == lists.indices);
+    CHECK(other.distances == lists.distances);
+}
+
+/// Checks that nothing changes where the mesh is searched in parts.
+void check_in_parts(const PreparedMesh& mesh, const NeighbourQuery& query,
+                    const Neighbours& lists) {
+    Runner::Impl& runner = Runner::Impl::of(shared_runner());
+    const SearchJobs jobs = expect(SearchJobs::create(mesh, query));
+    for (const std::uint32_t parts : {2u, 5u}) {
+        CAPTURE(parts);
+        const Neighbours other = expect(
+            runner.complete(search_in_parts(runner, mesh, query, jobs.frame(), parts), 0, {}));
+        check_same(lists, other);
+        CHECK(other.error <= 2 * lists.error);
+    }
+}
+
+/// Checks that nothing changes with little memory, other kernels and few lanes, and in parts.
 void check_narrow(const PreparedMesh& mesh, const NeighbourQuery& query, const Neighbours& lists) {
     RunnerOptions narrow;
     narrow.plan.slots = 16;
@@ -147,10 +169,10 @@ void check_narrow(const PreparedMesh& mesh, const NeighbourQuery& query, const N
     narrow.plan.disks_by = DisksBy::groups;
     narrow.sampler.tuning.reads = Reads::storage;
     narrow.device_bytes = 4 << 20;
-    const Neighbours other = found_by(narrow, mesh, query);
-    CHECK(other.offsets == lists.offsets);
-    CHECK(other.indices == lists.indices);
-    CHECK(other.distances == lists.distances);
+    check_same(lists, found_by(narrow, mesh, query));
+    if (query.has_distances()) {
+        check_in_parts(mesh, query, lists);
+    }
 }
 
 } // namespace
@@ -212,6 +234,32 @@ TEST_SUITE("neighbours") {
         query.within *= 4;
         query.sources = std::span(sources).first(50);
         check_narrow(knot, query, found(knot, query));
+    }
+
+    TEST_CASE("a mesh that the device cannot hold is searched in parts") {
+        const PreparedMesh terrain = prepared(builtin("terrain", 250));
+        const std::vector<Sample> sources = samples_at_points(random_points(terrain, 5, 2000));
+        RunnerOptions little; // Less than the faces and their fans take.
+        little.device_bytes = 12 << 20;
+        NeighbourQuery query;
+        query.sources = sources;
+        query.within = 0.03;
+        check_same(found(terrain, query), found_by(little, terrain, query));
+        query.kind = NeighbourKind::sources;
+        query.nearest = 6;
+        query.within = 0;
+        check_same(found(terrain, query), found_by(little, terrain, query));
+        query.within = 100; // Each part has all of the surface around it.
+        query.nearest = 0;
+        Runner runner =
+            expect(Runner::create(shared_context().device(), shared_context().queue(), little));
+        const auto wide = find_neighbours(runner, terrain, query);
+        REQUIRE_FALSE(wide);
+        CHECK(wide.error().status == Status::out_of_device_memory);
+        query.max_pairs = 100; // No memory helps.
+        const auto many = find_neighbours(runner, terrain, query);
+        REQUIRE_FALSE(many);
+        CHECK(many.error().status == Status::job_too_large);
     }
 
     TEST_CASE("each source has a distance of its own") {

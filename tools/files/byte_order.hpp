@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstring>
+#include <span>
 #include <string>
 
 namespace geodisk::tools {
@@ -25,6 +26,15 @@ Value value_of_bytes(const char* bytes, bool is_little = true) {
 template <typename Value>
 double number_of_bytes(const char* bytes, bool is_little = true) {
     return static_cast<double>(value_of_bytes<Value>(bytes, is_little));
+}
+
+/// Puts the numbers of values that follow each other into `out`, one for each of its elements.
+template <typename Value>
+void numbers_of_bytes(const char* bytes, bool is_little, std::span<double> out) {
+    for (double& number : out) {
+        number = number_of_bytes<Value>(bytes, is_little);
+        bytes += sizeof(Value);
+    }
 }
 
 /// Stores a value as the binary files that are written have it.

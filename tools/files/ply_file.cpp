@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
 #include <utility>
 
 #include "files/byte_order.hpp"
@@ -17,19 +18,19 @@ namespace {
 struct TypeInfo {
     std::string_view name, other_name;
     std::size_t size;
-    double (*value)(const char* bytes, bool is_little);
+    void (*numbers)(const char* bytes, bool is_little, std::span<double> out);
 };
 
 /// By PlyType.
 constexpr std::array<TypeInfo, 8> kTypes{{
-    {"char", "int8", 1, number_of_bytes<std::int8_t>},
-    {"uchar", "uint8", 1, number_of_bytes<std::uint8_t>},
-    {"short", "int16", 2, number_of_bytes<std::int16_t>},
-    {"ushort", "uint16", 2, number_of_bytes<std::uint16_t>},
-    {"int", "int32", 4, number_of_bytes<std::int32_t>},
-    {"uint", "uint32", 4, number_of_bytes<std::uint32_t>},
-    {"float", "float32", 4, number_of_bytes<float>},
-    {"double", "float64", 8, number_of_bytes<double>},
+    {"char", "int8", 1, numbers_of_bytes<std::int8_t>},
+    {"uchar", "uint8", 1, numbers_of_bytes<std::uint8_t>},
+    {"short", "int16", 2, numbers_of_bytes<std::int16_t>},
+    {"ushort", "uint16", 2, numbers_of_bytes<std::uint16_t>},
+    {"int", "int32", 4, numbers_of_bytes<std::int32_t>},
+    {"uint", "uint32", 4, numbers_of_bytes<std::uint32_t>},
+    {"float", "float32", 4, numbers_of_bytes<float>},
+    {"double", "float64", 8, numbers_of_bytes<double>},
 }};
 
 const TypeInfo& info_of(PlyType type) {
@@ -77,7 +78,9 @@ std::size_t size_of(PlyType type) {
 }
 
 double value_of(PlyType type, const char* bytes, bool is_little_endian) {
-    return info_of(type).value(bytes, is_little_endian);
+    double value = 0;
+    info_of(type).numbers(bytes, is_little_endian, {&value, 1});
+    return value;
 }
 
 PlyFile::PlyFile(const Path& path, ReadingProgress progress)
@@ -294,32 +297,37 @@ bool PlyFile::append_line() {
     return tokens_.size() > before;
 }
 
-std::optional<double> PlyFile::read_binary_value(PlyType type) {
-    const std::size_t size = info_of(type).size;
-    if (bytes_.size() - position_ < size) {
-        return std::nullopt;
+bool PlyFile::read_binary_values(PlyType type, std::span<double> values) {
+    const TypeInfo& info = info_of(type);
+    if ((bytes_.size() - position_) / info.size < values.size()) {
+        return false;
     }
-    const char* const bytes = bytes_.data() + position_;
-    position_ += size;
-    return info_of(type).value(bytes, format_ == Format::little_endian);
+    info.numbers(bytes_.data() + position_, format_ == Format::little_endian, values);
+    position_ += values.size() * info.size;
+    return true;
 }
 
 void PlyFile::read_binary_record(const PlyElement& element, std::uint64_t index,
                                  PlyRecord& record) {
-    const auto read_value = [&](PlyType type) {
-        const std::optional<double> value = read_binary_value(type);
-        if (!value) {
+    const auto read_values = [&](PlyType type, std::span<double> values) {
+        if (!read_binary_values(type, values)) {
             fail(element, index, "the file ends inside element " + element.name);
         }
-        return *value;
     };
-    for (std::size_t i = 0; i < element.properties.size(); ++i) {
-        const PlyProperty& property = element.properties[i];
+    const std::vector<PlyProperty>& properties = element.properties;
+    for (std::size_t i = 0, end = 0; i < properties.size(); i = end) {
+        const PlyProperty& property = properties[i];
+        end = i + 1;
         if (!property.count_type) {
-            record.scalars[i] = read_value(property.type);
+            while (end < properties.size() && properties[end].type == property.type &&
+                   !properties[end].count_type) {
+                ++end;
+            }
+            read_values(property.type, std::span(record.scalars).subspan(i, end - i));
             continue;
         }
-        const double count = read_value(*property.count_type);
+        double count = 0;
+        read_values(*property.count_type, {&count, 1});
         const std::size_t room = (bytes_.size() - position_) / info_of(property.type).size;
         const std::optional<std::size_t> size = list_size(count, room);
         if (!size) {
@@ -328,9 +336,7 @@ void PlyFile::read_binary_record(const PlyElement& element, std::uint64_t index,
                            : "the file ends inside element " + element.name);
         }
         record.lists[i].resize(*size);
-        for (double& value : record.lists[i]) {
-            value = read_value(property.type);
-        }
+        read_values(property.type, record.lists[i]);
     }
 }
 

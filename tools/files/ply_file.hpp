@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -107,7 +108,8 @@ class PlyFile {
     /// anywhere. Returns false at the end of the file.
     bool append_line();
     void read_binary_record(const PlyElement& element, std::uint64_t index, PlyRecord& record);
-    std::optional<double> read_binary_value(PlyType type);
+    /// Reads values that follow each other. Returns false where the file ends before.
+    bool read_binary_values(PlyType type, std::span<double> values);
 
     enum class Format { ascii, little_endian, big_endian };
 

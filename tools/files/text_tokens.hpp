@@ -15,11 +15,14 @@ class TextTokens {
 
     /// Returns the next word; an empty one at the end of the text.
     std::string_view next() {
-        constexpr std::string_view kBlanks = " \t\r\n";
-        const std::size_t begin =
-            std::min(text_.find_first_not_of(kBlanks, position_), text_.size());
-        position_ = std::min(text_.find_first_of(kBlanks, begin), text_.size());
-        return text_.substr(begin, position_ - begin);
+        const auto is_blank = [](char c) {
+            return c == ' ' || c == '\t' || c == '\r' || c == '\n';
+        };
+        const char* const end = text_.data() + text_.size();
+        const char* const begin = std::find_if_not(text_.data() + position_, end, is_blank);
+        const char* const behind = std::find_if(begin, end, is_blank);
+        position_ = static_cast<std::size_t>(behind - text_.data());
+        return {begin, static_cast<std::size_t>(behind - begin)};
     }
 
     /// Returns where the last word ends.

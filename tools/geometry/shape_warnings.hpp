@@ -1,10 +1,12 @@
-// Warnings about the shape of a mesh: slivers, and coordinates that leave few digits for it.
+// The shape of the triangles of a mesh, and warnings about it: slivers, and coordinates that leave
+// few digits for it.
 #pragma once
 
 #include <cstdint>
 #include <span>
 
 #include "geometry/mesh.hpp"
+#include "geometry/mesh_warning.hpp"
 
 namespace geodisk::tools {
 
@@ -13,11 +15,19 @@ namespace geodisk::tools {
 double unevenness(std::span<const double> positions, std::uint32_t dimension,
                   std::span<const std::uint32_t> corners);
 
-/// Adds a warning where more than 1 % of the triangles are slivers. Needs positions.
-void warn_of_slivers(MeshFile& mesh);
+/// What the triangles are like that take part in a mesh.
+struct TriangleShapes {
+    Found with_area, without_area; ///< Without area up to rounding, at any scale.
+    Found slivers;                 ///< With an angle below a thousandth of a radian.
+    double farthest = 0;           ///< Largest coordinate, whatever its sign.
+    double diagonal = 0;           ///< Of their bounding box.
+};
 
-/// Adds a warning where coordinates are so far from the origin that floats lose the shape. Needs
-/// positions.
-void warn_of_far_origin(MeshFile& mesh);
+/// Looks at all triangles of a mesh with positions.
+TriangleShapes shapes_of(const MeshFile& mesh);
+
+/// Adds a warning where more than 1 % of the triangles are slivers, and where coordinates are so
+/// far from the origin that floats lose the shape.
+void warn_of_shapes(const TriangleShapes& shapes, MeshFile& mesh);
 
 } // namespace geodisk::tools

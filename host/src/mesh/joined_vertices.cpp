@@ -1,5 +1,7 @@
 #include "mesh/joined_vertices.hpp"
 
+#include <algorithm>
+
 #include "mesh/connectivity.hpp"
 #include "support/guard.hpp"
 
@@ -12,15 +14,17 @@ WeldedMesh with_joined(const MeshView& mesh, VertexSets& sets) {
         result.vertices.push_back(sets.lowest(v));
         result.merged_vertices += result.vertices[v] != v;
     }
-    result.triangles.reserve(mesh.triangles.size());
+    result.triangles.resize(mesh.triangles.size());
     for (std::size_t f = 0; f < mesh.face_count(); ++f) {
         const auto before = mesh.triangles.face(f);
         auto face = before;
-        for (std::uint32_t& v : face) {
-            v = result.vertices[v];
-            result.triangles.push_back(v);
+        if (result.merged_vertices > 0) {
+            for (std::uint32_t& v : face) {
+                v = result.vertices[v];
+            }
+            result.degenerate_faces += takes_part(before) && !takes_part(face);
         }
-        result.degenerate_faces += takes_part(before) && !takes_part(face);
+        std::ranges::copy(face, &result.triangles[3 * f]);
     }
     return result;
 }

@@ -1,30 +1,62 @@
 #include "mesh/position_table.hpp"
 
 #include <bit>
+#include <utility>
+
+#include "support/prefetch.hpp"
 
 namespace geodisk {
 namespace {
 
 constexpr std::uint32_t kFree = ~0u;
+constexpr std::size_t kFewestSlots = 1024, kGrowth = 4;
+
+std::uint32_t tag_of(std::uint64_t hash) {
+    return static_cast<std::uint32_t>(hash >> 32);
+}
 
 } // namespace
 
-PositionTable::PositionTable(const MeshView& mesh, std::size_t most)
-    : mesh_(mesh), slots_(std::bit_ceil(2 * most + 1), kFree) {}
+PositionTable::PositionTable(const MeshView& mesh)
+    : mesh_(mesh), slots_(kFewestSlots, Slot{0, kFree}) {}
 
 std::uint32_t PositionTable::first_at(std::uint32_t v) {
-    for (std::size_t slot = hash(v);; ++slot) {
-        std::uint32_t& at = slots_[slot & (slots_.size() - 1)];
-        if (at == kFree) {
-            at = v;
+    if (2 * used_ >= slots_.size()) {
+        grow();
+    }
+    const std::uint64_t own = hash(v);
+    for (std::size_t i = begin_of(own);; i = (i + 1) & (slots_.size() - 1)) {
+        Slot& slot = slots_[i];
+        if (slot.vertex == kFree) {
+            slot = {tag_of(own), v};
+            ++used_;
         }
-        if (at == v || coincide(at, v)) {
-            return at;
+        if (slot.vertex == v || (slot.tag == tag_of(own) && coincide(slot.vertex, v))) {
+            return slot.vertex;
         }
     }
 }
 
-std::size_t PositionTable::hash(std::uint32_t v) const {
+std::uint32_t PositionTable::first_at(std::uint32_t v, std::uint32_t soon) {
+    prefetch(&slots_[begin_of(hash(soon))]);
+    return first_at(v);
+}
+
+void PositionTable::grow() {
+    const std::vector<Slot> before =
+        std::exchange(slots_, std::vector<Slot>(kGrowth * slots_.size(), Slot{0, kFree}));
+    for (const Slot& slot : before) {
+        if (slot.vertex != kFree) {
+            std::size_t i = begin_of(hash(slot.vertex));
+            while (slots_[i].vertex != kFree) {
+                i = (i + 1) & (slots_.size() - 1);
+            }
+            slots_[i] = slot;
+        }
+    }
+}
+
+std::uint64_t PositionTable::hash(std::uint32_t v) const {
     std::uint64_t sum = 0;
     for (std::uint32_t axis = 0; axis < mesh_.dimension; ++axis) {
         // Adding 0 turns -0 into 0.
@@ -32,7 +64,7 @@ std::size_t PositionTable::hash(std::uint32_t v) const {
         sum *= 0x9e3779b97f4a7c15u;
         sum ^= sum >> 32;
     }
-    return static_cast<std::size_t>(sum);
+    return sum;
 }
 
 bool PositionTable::coincide(std::uint32_t a, std::uint32_t b) const {

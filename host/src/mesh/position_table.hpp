@@ -12,19 +12,31 @@ namespace geodisk {
 /// Hash table of vertices by position. The view must outlive it.
 class PositionTable {
   public:
-    /// Makes a table for at most this many vertices.
-    PositionTable(const MeshView& mesh, std::size_t most);
+    explicit PositionTable(const MeshView& mesh);
 
     /// Returns the first vertex passed to this function with exactly the position of v, which must
     /// be finite. -0 equals 0.
     std::uint32_t first_at(std::uint32_t v);
 
+    /// The same, and prefetches what is needed for `soon`, which will be passed a few calls later.
+    std::uint32_t first_at(std::uint32_t v, std::uint32_t soon);
+
   private:
-    std::size_t hash(std::uint32_t v) const;
+    /// Bits of the hash of a vertex, and the vertex.
+    struct Slot {
+        std::uint32_t tag;
+        std::uint32_t vertex;
+    };
+
+    std::uint64_t hash(std::uint32_t v) const;
     bool coincide(std::uint32_t a, std::uint32_t b) const;
+    /// Returns where vertices with this hash stand, or come to stand.
+    std::size_t begin_of(std::uint64_t hash) const { return hash & (slots_.size() - 1); }
+    void grow();
 
     const MeshView& mesh_;
-    std::vector<std::uint32_t> slots_; ///< Size is a power of two; at most half are used.
+    std::vector<Slot> slots_; ///< Size is a power of two; at most half are used.
+    std::size_t used_ = 0;
 };
 
 } // namespace geodisk

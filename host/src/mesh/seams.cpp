@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <utility>
+#include <vector>
 
 #include "mesh/connectivity.hpp"
 #include "mesh/position_table.hpp"
@@ -9,63 +10,91 @@
 namespace geodisk {
 namespace {
 
-/// Links the half-edges of each edge into a cycle.
-std::vector<Link> linked_edges(const MeshView& mesh) {
-    std::vector<Link> links(mesh.triangles.size());
-    for (std::uint32_t h = 0; h < links.size(); ++h) {
-        links[h] = {mesh.triangles[h], lone_half_edge(h), 0};
-    }
-    std::vector<VertexFan> fans(mesh.vertex_count());
-    std::vector<std::uint32_t> corners;
-    list_corners(mesh.triangles, fans, corners);
-    EdgeLinker linker(links, static_cast<std::uint32_t>(fans.size()));
-    for (std::uint32_t v = 0; v < fans.size(); ++v) {
-        if (fans[v].corner_count > 0) {
-            linker.link_at(v,
-                           std::span(corners).subspan(fans[v].first_corner, fans[v].corner_count));
+/// A half-edge, by the other end of its edge than the vertex that is looked at.
+struct Side {
+    std::uint32_t other, half_edge;
+
+    friend auto operator<=>(const Side&, const Side&) = default;
+};
+
+/// Finds the edges from a vertex to higher ones, given its corners, each by its half-edges.
+void find_sides(const MeshView& mesh, std::uint32_t v, std::span<const std::uint32_t> corners,
+                std::vector<Side>& sides) {
+    sides.clear();
+    for (const std::uint32_t corner : corners) {
+        const std::uint32_t back = previous_in_face(corner);
+        for (const auto& [end, half_edge] :
+             {std::pair{next_in_face(corner), corner}, std::pair{back, back}}) {
+            if (mesh.triangles[end] > v) {
+                sides.push_back({mesh.triangles[end], half_edge});
+            }
         }
     }
-    return links;
+    std::ranges::sort(sides);
+}
+
+/// Returns the lowest half-edge of each edge whose faces all have the same corners, ascending.
+std::vector<std::uint32_t> border_half_edges(const MeshView& mesh) {
+    std::vector<VertexFan> fans(mesh.vertex_count());
+    std::vector<std::uint32_t> corners, borders;
+    list_corners(mesh.triangles, fans, corners);
+    const auto apex = [&](const Side& side) {
+        return mesh.triangles[previous_in_face(side.half_edge)];
+    };
+    std::vector<Side> sides;
+    for (std::uint32_t v = 0; v < fans.size(); ++v) {
+        find_sides(mesh, v, std::span(corners).subspan(fans[v].first_corner, fans[v].corner_count),
+                   sides);
+        for (auto begin = sides.begin(), end = begin; begin != sides.end(); begin = end) {
+            bool has_one_apex = true;
+            while (end != sides.end() && end->other == begin->other) {
+                has_one_apex = has_one_apex && apex(*end) == apex(*begin);
+                ++end;
+            }
+            if (has_one_apex) {
+                borders.push_back(begin->half_edge);
+            }
+        }
+    }
+    std::ranges::sort(borders);
+    return borders;
 }
 
 /// Returns true for the lowest half-edge of an edge whose faces all have the same corners.
-template <class Edge>
-bool starts_edge_of_one_apex(std::span<const Edge> links, std::uint32_t h) {
-    const std::uint32_t apex = links[previous_in_face(h)].origin;
-    for (std::uint32_t g = around_half_edge(links[h].around); g != h;
-         g = around_half_edge(links[g].around)) {
-        if (g < h || links[previous_in_face(g)].origin != apex) {
+bool starts_edge_of_one_apex(std::span<const HalfEdge> half_edges, std::uint32_t h) {
+    const std::uint32_t apex = half_edges[previous_in_face(h)].origin;
+    for (std::uint32_t g = around_half_edge(half_edges[h].around); g != h;
+         g = around_half_edge(half_edges[g].around)) {
+        if (g < h || half_edges[previous_in_face(g)].origin != apex) {
             return false;
         }
     }
     return true;
 }
 
-template <class Edge>
-std::vector<EdgeEnds> borders_of(const MeshView& mesh, std::span<const Edge> links) {
+} // namespace
+
+std::vector<EdgeEnds> border_edges(const MeshView& mesh) {
     std::vector<EdgeEnds> borders;
-    for (std::uint32_t h = 0; h < links.size(); ++h) {
-        if (starts_edge_of_one_apex(links, h) && takes_part(mesh.triangles.face(h / 3))) {
-            borders.push_back({links[h].origin, links[next_in_face(h)].origin});
+    for (const std::uint32_t h : border_half_edges(mesh)) {
+        borders.push_back({mesh.triangles[h], mesh.triangles[next_in_face(h)]});
+    }
+    return borders;
+}
+
+std::vector<EdgeEnds> border_edges(const MeshView& mesh, std::span<const HalfEdge> half_edges) {
+    std::vector<EdgeEnds> borders;
+    for (std::uint32_t h = 0; h < half_edges.size(); ++h) {
+        if (starts_edge_of_one_apex(half_edges, h) && takes_part(mesh.triangles.face(h / 3))) {
+            borders.push_back({half_edges[h].origin, half_edges[next_in_face(h)].origin});
         }
     }
     return borders;
 }
 
-} // namespace
-
-std::vector<EdgeEnds> border_edges(const MeshView& mesh) {
-    const std::vector<Link> links = linked_edges(mesh);
-    return borders_of(mesh, std::span(links));
-}
-
-std::vector<EdgeEnds> border_edges(const MeshView& mesh, std::span<const HalfEdge> half_edges) {
-    return borders_of(mesh, half_edges);
-}
-
 std::vector<CoincidingEdge> coinciding_edges(const MeshView& mesh,
                                              std::span<const EdgeEnds> borders) {
-    PositionTable table(mesh, std::min(2 * borders.size(), mesh.vertex_count()));
+    PositionTable table(mesh);
     std::vector<CoincidingEdge> edges;
     edges.reserve(borders.size());
     for (auto [from, to] : borders) {

@@ -169,10 +169,13 @@ std::vector<std::uint32_t> used_vertices(const MeshView& mesh) {
 /// Joins vertices in the same place and returns the lowest one of each place.
 std::vector<std::uint32_t> join_equal(const MeshView& mesh, VertexSets& sets) {
     const std::vector<std::uint32_t> vertices = used_vertices(mesh);
-    PositionTable table(mesh, vertices.size());
+    constexpr std::size_t kAhead = 8; // Vertices whose places memory takes time for.
+    PositionTable table(mesh);
     std::vector<std::uint32_t> places;
-    for (const std::uint32_t v : vertices) {
-        const std::uint32_t first = table.first_at(v);
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+        const std::uint32_t v = vertices[i];
+        const std::uint32_t soon = vertices[std::min(i + kAhead, vertices.size() - 1)];
+        const std::uint32_t first = table.first_at(v, soon);
         if (first == v) {
             places.push_back(v);
         } else {

@@ -8,7 +8,6 @@
 #include <geodisk/fields.hpp>
 
 #include "engine/domain/stages.hpp"
-#include "engine/domain/tolerances.hpp"
 #include "engine/request/check_fields.hpp"
 #include "parts/halo.hpp"
 #include "parts/part.hpp"
@@ -19,13 +18,6 @@
 
 namespace geodisk {
 namespace {
-
-// Distances are tested against D * (1 + guard). Long paths widen the guard; hardly ever by so much.
-constexpr double kMinMargin = 0x1p-6;
-
-double margin_of(const JobFrame& frame) {
-    return std::max(kMinMargin, 2 * ErrorModel(frame).guard_for(frame.error_bound));
-}
 
 std::uint32_t stages_at_once(const Stages& stages, double max_candidates) {
     const double most = std::max(1.0, max_candidates / stages.expected(0));
@@ -45,7 +37,7 @@ class Division {
             parts_.push_back(part_for(params, frame, max_candidates, terms));
         }
         for (const KeepOut& avoided : params.avoid) {
-            avoided_ = std::max(avoided_, avoided.radius * (1 + margin_of(frame)));
+            avoided_ = std::max(avoided_, avoided.radius * (1 + halo_margin(frame)));
         }
         if (params.radii != nullptr) {
             reaches_ = reaches(mesh, *params.radii, params.min_distance);
@@ -174,7 +166,7 @@ Part part_for(const SampleParams& params, const JobFrame& frame, double max_cand
               const CheckpointTerms& checkpoints) {
     Part part;
     part.frame = frame;
-    part.reach = params.min_distance * (1 + margin_of(frame));
+    part.reach = params.min_distance * (1 + halo_margin(frame));
     part.of_whole = numbers_of(params);
     part.all_existing = static_cast<std::uint32_t>(params.existing.size());
     part.checkpoints = checkpoints;

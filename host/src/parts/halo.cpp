@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "engine/domain/tolerances.hpp"
 #include "mesh/edge_paths.hpp"
 #include "mesh/slopes.hpp"
 
@@ -26,7 +27,14 @@ std::vector<double> along_edges(const PreparedMesh& mesh, std::span<const std::u
     return paths.lengths();
 }
 
+// Distances are tested against D * (1 + guard). Long paths widen the guard; hardly ever by so much.
+constexpr double kMinMargin = 0x1p-6;
+
 } // namespace
+
+double halo_margin(const JobFrame& frame) {
+    return std::max(kMinMargin, 2 * ErrorModel(frame).guard_for(frame.error_bound));
+}
 
 std::vector<double> distances_from(const PreparedMesh& mesh,
                                    std::span<const std::uint8_t> is_marked, double reach) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <geodisk/export.hpp>
+#include <geodisk/job_frame.hpp>
 #include <geodisk/mesh.hpp>
 
 namespace geodisk {
@@ -21,5 +22,8 @@ GEODISK_API double nearest_corner(const PreparedMesh& mesh, std::span<const doub
 /// Largest value at a corner of a face.
 double farthest_corner(const PreparedMesh& mesh, std::span<const double> distances,
                        std::uint32_t face);
+
+/// Returns by which part of a distance that jobs test a halo has to be wider than it.
+double halo_margin(const JobFrame& frame);
 
 } // namespace geodisk

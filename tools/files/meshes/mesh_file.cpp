@@ -64,14 +64,12 @@ void check_corners(const Path& path, const PolygonMesh& polygons, MeshFile& mesh
         fail_input(path, "has more vertices than a face can refer to");
     }
     std::vector<bool> is_used(vertex_count, false);
-    std::size_t face = 0;
     for (std::size_t i = 0; i < polygons.corners.size(); ++i) {
-        while (i >= polygons.face_ends[face]) {
-            ++face;
-        }
         const std::uint32_t vertex = polygons.corners[i];
         if (vertex >= vertex_count) {
-            fail_index(path, polygons, face, vertex);
+            const auto face = std::ranges::upper_bound(polygons.face_ends, i);
+            fail_index(path, polygons, static_cast<std::size_t>(face - polygons.face_ends.begin()),
+                       vertex);
         }
         if (!is_used[vertex] && !is_finite(polygons, vertex)) {
             fail_not_finite(path, polygons, vertex);
@@ -94,57 +92,14 @@ void check_corners(const Path& path, const PolygonMesh& polygons, MeshFile& mesh
                 "vertices that are in no face have coordinates that are not finite");
 }
 
-/// Returns true if the triangle is more than a line or point, up to rounding, at any scale.
-bool has_area(const MeshFile& mesh, const std::uint32_t* corner) {
-    const auto coordinate = [&](int k, std::size_t axis) {
-        return mesh.positions[std::size_t{corner[k]} * mesh.dimension + axis];
-    };
-    double largest = 0;
-    for (std::size_t axis = 0; axis < mesh.dimension; ++axis) {
-        for (int k = 0; k < 3; ++k) {
-            largest = std::max(largest, std::abs(coordinate(k, axis)));
-        }
-    }
-    if (largest == 0) {
-        return false;
-    }
-    std::array<double, kMaxCoordinates> longer{}, shorter{}; // Two sides.
-    double longer2 = 0, shorter2 = 0, product = 0;
-    for (std::size_t axis = 0; axis < mesh.dimension; ++axis) {
-        const double a = 1 / largest * coordinate(0, axis);
-        longer[axis] = 1 / largest * coordinate(1, axis) - a;
-        shorter[axis] = 1 / largest * coordinate(2, axis) - a;
-        longer2 += longer[axis] * longer[axis];
-        shorter2 += shorter[axis] * shorter[axis];
-        product += longer[axis] * shorter[axis];
-    }
-    if (longer2 < shorter2) {
-        std::swap(longer, shorter);
-        std::swap(longer2, shorter2);
-    }
-    double height2 = 0; // Of the shorter side above the longer one.
-    for (std::size_t axis = 0; axis < mesh.dimension && longer2 > 0; ++axis) {
-        const double part = shorter[axis] - product / longer2 * longer[axis];
-        height2 += part * part;
-    }
-    constexpr double kFlat = 1e-15; // Less height is the rounding of coordinates, which are <= 1.
-    return height2 > kFlat * kFlat;
-}
-
 /// Refuses a mesh all of whose faces are flat.
-void check_areas(const Path& path, MeshFile& mesh) {
-    Found without_area, with_area;
-    for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
-        if (mesh.takes_part(t)) {
-            (has_area(mesh, &mesh.triangles[3 * t]) ? with_area : without_area).add(t);
-        }
-    }
-    if (with_area.count == 0) {
+void check_areas(const Path& path, const TriangleShapes& shapes, MeshFile& mesh) {
+    if (shapes.with_area.count == 0) {
         fail_input(path, "has no face with an area");
     }
-    if (without_area.count > 0) {
-        add_warning(mesh.warnings, "zero_area_faces", without_area.count,
-                    mesh.name_of_triangle(without_area.first),
+    if (const Found& found = shapes.without_area; found.count > 0) {
+        add_warning(mesh.warnings, "zero_area_faces", found.count,
+                    mesh.name_of_triangle(found.first),
                     "triangle without area kept: paths may lead through it",
                     "triangles without area kept: paths may lead through them");
     }
@@ -306,9 +261,9 @@ MeshFile to_triangles(const MeshSources& sources, PolygonMesh&& polygons,
         EdgeLengths lengths(sources.edge_lengths, mesh.names.first_vertex);
         take_lengths(lengths, mesh);
     } else {
-        check_areas(path, mesh);
-        warn_of_slivers(mesh);
-        warn_of_far_origin(mesh);
+        const TriangleShapes shapes = shapes_of(mesh);
+        check_areas(path, shapes, mesh);
+        warn_of_shapes(shapes, mesh);
     }
     return mesh;
 }

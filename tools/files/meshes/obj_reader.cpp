@@ -29,7 +29,7 @@ constexpr std::uint32_t kNone = PolygonMesh::kNoUv;
 
 bool is_integer(std::string_view text) {
     text.remove_prefix(text.starts_with('-') ? 1 : 0);
-    return !text.empty() && text.find_first_not_of("0123456789") == std::string_view::npos;
+    return !text.empty() && std::ranges::all_of(text, [](char c) { return c >= '0' && c <= '9'; });
 }
 
 /// Indices that nothing is taken from, so that one out of range is odd and no more.

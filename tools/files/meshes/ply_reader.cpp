@@ -114,6 +114,7 @@ void read_faces(PlyFile& file, const PlyElement& element, const PlyWanted& wante
     const std::size_t column = index_column(file, element);
     PlyFieldReader fields(file, element, wanted.fields, mesh);
     mesh.face_ends.reserve(file.possible_records(element));
+    mesh.corners.reserve(3 * file.possible_records(element)); // Most faces are triangles.
     file.read_records(element, [&](std::uint64_t index, const PlyRecord& record) {
         for (const double value : record.lists[column]) {
             mesh.corners.push_back(to_corner(file, element, index, value));

@@ -1,5 +1,6 @@
-#include <bit>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <optional>
 #include <string>
@@ -7,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "files/byte_order.hpp"
 #include "files/input_file.hpp"
 #include "files/meshes/polygon_mesh.hpp"
 #include "files/text_file.hpp"
@@ -22,14 +24,6 @@ constexpr std::size_t kHeaderSize = 80;
 constexpr std::size_t kCountSize = 4;
 constexpr std::size_t kFacetSize = 50; ///< Normal, three vertices, and two bytes of anything.
 constexpr std::size_t kNormalSize = 12;
-
-std::uint32_t little_endian(const char* bytes) {
-    std::uint32_t value = 0;
-    for (int i = 3; i >= 0; --i) {
-        value = value << 8 | static_cast<unsigned char>(bytes[i]);
-    }
-    return value;
-}
 
 /// Adds the last three vertices as a face.
 void add_face(PolygonMesh& mesh) {
@@ -47,7 +41,7 @@ void check_count(const Path& path, std::uint64_t facets) {
 }
 
 PolygonMesh read_binary(const Path& path, std::string_view bytes, const ReadingProgress& progress) {
-    const std::uint64_t count = little_endian(bytes.data() + kHeaderSize);
+    const std::uint64_t count = value_of_bytes<std::uint32_t>(bytes.data() + kHeaderSize);
     check_count(path, count);
     std::string_view rest = bytes.substr(kHeaderSize + kCountSize);
     if (rest.size() / kFacetSize < count) {
@@ -61,10 +55,9 @@ PolygonMesh read_binary(const Path& path, std::string_view bytes, const ReadingP
     mesh.corners.reserve(3 * count);
     mesh.face_ends.reserve(count);
     for (std::uint64_t facet = 0; facet < count; ++facet) {
-        const char* value = rest.data() + kNormalSize;
-        for (int i = 0; i < 9; ++i, value += 4) {
-            mesh.positions.push_back(std::bit_cast<float>(little_endian(value)));
-        }
+        std::array<double, 9> coordinates;
+        numbers_of_bytes<float>(rest.data() + kNormalSize, true, coordinates);
+        mesh.positions.insert(mesh.positions.end(), coordinates.begin(), coordinates.end());
         add_face(mesh);
         rest.remove_prefix(kFacetSize);
         tell(progress, facet, facet, count);
@@ -178,7 +171,8 @@ bool has_binary_size(std::string_view bytes) {
     return bytes.size() >= kHeaderSize + kCountSize &&
            bytes.size() ==
                kHeaderSize + kCountSize +
-                   kFacetSize * std::uint64_t{little_endian(bytes.data() + kHeaderSize)};
+                   kFacetSize *
+                       std::uint64_t{value_of_bytes<std::uint32_t>(bytes.data() + kHeaderSize)};
 }
 
 bool begins_with_solid(std::string_view bytes) {

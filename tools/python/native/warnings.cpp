@@ -33,8 +33,7 @@ std::vector<MeshWarning> array_warnings(const c::Mesh& mesh) {
         file.positions = mesh.positions;
         file.triangles = mesh.triangles;
         file.dimension = mesh.dimension;
-        warn_of_slivers(file);
-        warn_of_far_origin(file);
+        warn_of_shapes(shapes_of(file), file);
         std::ranges::move(file.warnings, std::back_inserter(warnings));
         warn_of_near_seams(mesh.view(), mesh.prepared.statistics(), warnings);
     }

@@ -117,9 +117,14 @@ SearchJobs::SearchJobs(const PreparedMesh& mesh, const NeighbourQuery& query,
 }
 
 Result<SearchJobs> SearchJobs::create(const PreparedMesh& mesh, const NeighbourQuery& query,
-                                      std::span<const double> bounds) {
+                                      std::span<const double> bounds, const JobFrame* whole) {
     SearchJobs jobs(mesh, query, bounds);
     SampleParams& params = jobs.params_;
+    if (whole != nullptr) { // Which has been checked.
+        params.min_distance = whole->min_distance;
+        jobs.frame_ = *whole;
+        return jobs;
+    }
     GEODISK_TRY(check_edges(mesh, params.min_distance));
     const auto frame = frame_of_disks(mesh, params);
     GEODISK_TRY(frame);

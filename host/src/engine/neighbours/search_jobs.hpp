@@ -20,11 +20,13 @@ namespace geodisk {
 /// Data that the jobs of a search share. Mesh, query and bounds must outlive it.
 class SearchJobs {
   public:
-    /// `bounds` as for search_within(), where all sources have one distance. Errors:
-    /// `invalid_argument` for edges that are too long for the distances of a checked query;
-    /// `job_too_large` for more pairs than it allows.
+    /// `bounds` as for search_within(), where all sources have one distance. On a part of a mesh
+    /// `whole` is the frame of the jobs on the whole. Errors: `invalid_argument` for edges that are
+    /// too long for the distances of a checked query; `job_too_large` for more pairs than it
+    /// allows.
     static Result<SearchJobs> create(const PreparedMesh& mesh, const NeighbourQuery& query,
-                                     std::span<const double> bounds = {});
+                                     std::span<const double> bounds = {},
+                                     const JobFrame* whole = nullptr);
 
     const JobFrame& frame() const { return frame_; }
     /// Returns the points to find, in the order of their numbers; empty for vertices.

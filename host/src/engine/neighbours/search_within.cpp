@@ -9,11 +9,15 @@
 #include "engine/domain/tolerances.hpp"
 #include "engine/neighbours/neighbour_lists.hpp"
 #include "engine/neighbours/search_jobs.hpp"
+#include "engine/run/first_parts.hpp"
 #include "engine/run/run.hpp"
 #include "support/try.hpp"
 
 namespace geodisk {
 namespace {
+
+// A division may turn out too coarse, up to so many times.
+constexpr std::uint32_t kMostTries = 4;
 
 class Search {
   public:
@@ -24,6 +28,8 @@ class Search {
     Search& operator=(const Search&) = delete;
 
     Task<Result<Neighbours>> go(WholeProgress whole);
+    /// Returns true if it failed for what the device holds or does, not for what the query allows.
+    bool lacks_room() const { return lacks_room_; }
 
   private:
     /// Finds those of up to so many sources. Returns false if there are more records than room.
@@ -39,6 +45,7 @@ class Search {
     RunReport report_;
     std::size_t done_ = 0;   ///< Sources.
     std::uint32_t told_ = 0; ///< Maximum number of sources reported so far.
+    bool lacks_room_ = false;
 };
 
 Progress Search::so_far(const Progress& now) {
@@ -79,6 +86,7 @@ Task<Result<Neighbours>> Search::go(WholeProgress whole) {
     while (done_ < query_.sources.size()) {
         const std::size_t sources = sizes_.sources(most, done_, query_.sources.size() - done_);
         const auto found = co_await find(sources, sizes_.room(sources, most));
+        lacks_room_ = !found;
         GEODISK_CO_TRY(found);
         if (*found) {
             done_ += sources;
@@ -99,13 +107,38 @@ double shortest_distance(const PreparedMesh& mesh) {
     return 2 * mesh.statistics().longest_edge / kLongestEdge;
 }
 
+Task<Result<Neighbours>> search_undivided(Runner::Impl& runner, const PreparedMesh& mesh,
+                                          const NeighbourQuery& query, const JobFrame* frame,
+                                          WholeProgress whole, std::span<const double> bounds) {
+    const auto jobs = SearchJobs::create(mesh, query, bounds, frame);
+    GEODISK_CO_TRY(jobs);
+    Search search(runner, query, *jobs);
+    co_return co_await search.go(std::move(whole));
+}
+
 Task<Result<Neighbours>> search_within(Runner::Impl& runner, const PreparedMesh& mesh,
                                        const NeighbourQuery& query, WholeProgress whole,
                                        std::span<const double> bounds) {
     const auto jobs = SearchJobs::create(mesh, query, bounds);
     GEODISK_CO_TRY(jobs);
     Search search(runner, query, *jobs);
-    co_return co_await search.go(std::move(whole));
+    auto found = co_await search.go(whole);
+    if (found || !search.lacks_room() || !is_too_large(found.error())) {
+        co_return found;
+    }
+    const auto domain = jobs->job(0, 1, static_cast<std::uint32_t>(kMinRecords));
+    GEODISK_CO_TRY(domain);
+    const std::uint32_t first =
+        first_parts(runner, Domain::Impl::of(*domain), mesh, jobs->frame().min_distance);
+    const std::uint32_t most = std::min(kMostTries * first, mesh.face_count());
+    for (std::uint32_t parts = first; parts != 0 && parts <= most; parts *= 2) {
+        auto searched = search_in_parts(runner, mesh, query, jobs->frame(), parts, whole, bounds);
+        found = co_await searched;
+        if (found || !is_too_large(found.error())) {
+            break;
+        }
+    }
+    co_return found;
 }
 
 } // namespace geodisk

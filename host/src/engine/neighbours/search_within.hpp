@@ -1,6 +1,7 @@
 // The search for all neighbours within given distances, by the disks of the sources.
 #pragma once
 
+#include <cstdint>
 #include <span>
 
 #include <geodisk/neighbours.hpp>
@@ -18,8 +19,20 @@ double shortest_distance(const PreparedMesh& mesh);
 /// search is a part of. If there are `bounds`, one for each vertex in mesh units, some points are
 /// left out: those whose shortest path passes a vertex that is farther from the source than its
 /// bound.
+/// A mesh that the device cannot hold is searched in parts.
 Task<Result<Neighbours>> search_within(Runner::Impl& runner, const PreparedMesh& mesh,
                                        const NeighbourQuery& query, WholeProgress whole = {},
                                        std::span<const double> bounds = {});
+
+/// The same without parts. On a part of a mesh `frame` is that of the jobs on the whole.
+Task<Result<Neighbours>> search_undivided(Runner::Impl& runner, const PreparedMesh& mesh,
+                                          const NeighbourQuery& query, const JobFrame* frame,
+                                          WholeProgress whole, std::span<const double> bounds);
+
+/// The same in so many parts, one after another. `frame` is that of the jobs on the whole mesh.
+Task<Result<Neighbours>> search_in_parts(Runner::Impl& runner, const PreparedMesh& mesh,
+                                         const NeighbourQuery& query, const JobFrame& frame,
+                                         std::uint32_t parts, WholeProgress whole = {},
+                                         std::span<const double> bounds = {});
 
 } // namespace geodisk

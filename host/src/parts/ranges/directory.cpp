@@ -42,7 +42,7 @@ struct Contact {
 };
 
 /// Joins the pieces of all processes, at the first one.
-void join(Talk& talk, std::vector<Contact> own, Components& components) {
+void join(Talk& talk, std::vector<Contact> own, WholeComponents& components) {
     std::sort(own.begin(), own.end());
     own.erase(std::unique(own.begin(), own.end()), own.end());
     ByProcess<Contact> sent(talk.size());
@@ -78,7 +78,7 @@ Directory Directory::create(Talk& talk, const MeshBlocks& vertices,
     directory.first_ = vertices.first(talk.rank());
     const VertexNumbers numbers = vertices_of(faces);
     std::vector<std::uint32_t> pieces(numbers.size());
-    Components& components = directory.components_;
+    WholeComponents& components = directory.components_;
     {
         VertexSets sets(numbers.size());
         for (const WholeFace& face : faces) {

@@ -19,7 +19,7 @@ struct WholeFace {
 };
 
 /// Components of a surface, of which each process knows pieces.
-struct Components {
+struct WholeComponents {
     std::uint64_t count = 0;
     std::uint64_t vertices = 0; ///< Number of vertices that faces use.
     /// Number of pieces of each process. A piece is named by the process and a number.
@@ -42,7 +42,7 @@ class Directory {
     }
     /// Returns own vertices that other processes hold too, ascending.
     const std::vector<std::uint32_t>& shared() const { return shared_; }
-    const Components& components() const { return components_; }
+    const WholeComponents& components() const { return components_; }
     /// Returns the piece of each own face; that of a face that takes no part is 0.
     const std::vector<std::uint32_t>& pieces() const { return pieces_; }
 
@@ -50,7 +50,7 @@ class Directory {
     std::uint64_t first_ = 0;
     std::vector<std::uint32_t> starts_, holders_;
     std::vector<std::uint32_t> shared_, pieces_;
-    Components components_;
+    WholeComponents components_;
 };
 
 } // namespace geodisk

@@ -1,0 +1,56 @@
+#include "engine/run/first_parts.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "bindings.h"
+
+namespace geodisk {
+namespace {
+
+// Bytes of all buffers of a run, per byte of the mesh and the candidates.
+constexpr double kAllBuffers = 3;
+// The weights of a candidate.
+constexpr double kCandidateBytes = 8;
+// Candidates of a stage, beyond which the host would need too much memory.
+constexpr double kMostCandidates = 0x1p27;
+// Least side of a part, per side with its margins: with less, most work would be done twice or
+// more.
+constexpr double kLeastSide = 0.4;
+
+/// Returns the part of a surface, or less, that the device holds; 1 if the mesh is not too large.
+double held_part(const Runner::Impl& runner, const Domain::Impl& of) {
+    const auto bound = static_cast<double>(runner.engine().report.limits.max_storage_buffer_range);
+    const auto allowed = static_cast<double>(runner.options.device_bytes);
+    const auto held = [&](double largest, double all) {
+        const double part = std::min(1.0, bound / largest);
+        return allowed > 0 ? std::min(part, allowed / (kAllBuffers * all)) : part;
+    };
+    const auto faces = static_cast<double>(of.upload_size(BufferRole::faces));
+    const auto fans = static_cast<double>(of.upload_size(BufferRole::fans));
+    const double candidates = kCandidateBytes * of.stages.expected_at_once(1);
+    const double of_mesh = held(std::max(faces, fans), faces + fans);
+    return of_mesh < 1 ? std::min(of_mesh, held(candidates, faces + fans + candidates)) : 1;
+}
+
+} // namespace
+
+bool is_too_large(const Error& error) {
+    return error.status == Status::job_too_large || error.status == Status::out_of_device_memory;
+}
+
+std::uint32_t first_parts(const Runner::Impl& runner, const Domain::Impl& of,
+                          const PreparedMesh& mesh, double reach) {
+    if (of.stages.expected_at_once(1) > kMostCandidates) {
+        return 0;
+    }
+    // A part is about a square, with a margin of two reaches on each side.
+    const double margins = 4 * reach / std::sqrt(mesh.statistics().area);
+    const double part = held_part(runner, of);
+    const double side = std::sqrt(part) - margins;
+    const bool is_worth_it = part < 1 && side > kLeastSide * std::sqrt(part);
+    const double parts = std::max(2.0, std::ceil(1 / (side * side)));
+    return is_worth_it && parts <= mesh.face_count() ? static_cast<std::uint32_t>(parts) : 0;
+}
+
+} // namespace geodisk
