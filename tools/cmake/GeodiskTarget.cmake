@@ -91,5 +91,7 @@ function(geodisk_unity name)
     if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
         target_compile_options(${name} PRIVATE
             $<$<COMPILE_LANGUAGE:CXX>:-Wno-subobject-linkage;-Wno-restrict>)
+    elseif(CMAKE_CXX_COMPILER_ID MATCHES "Clang") # Of constants of other sources, too.
+        target_compile_options(${name} PRIVATE $<$<COMPILE_LANGUAGE:CXX>:-Wno-shadow>)
     endif()
 endfunction()

@@ -205,9 +205,9 @@ UsdValue UsdText::value() {
             break;
         case Kind::sign:
             if (token.is_sign('(') || token.is_sign('[')) {
-                constexpr std::size_t kMaxDepth = 8;
+                constexpr std::size_t kMostBrackets = 8;
                 open += closing(token.text.front());
-                if (open.size() > kMaxDepth) {
+                if (open.size() > kMostBrackets) {
                     fail(token.line, "values are nested too deeply");
                 }
                 break;
