@@ -415,6 +415,26 @@ TEST_SUITE("cells") {
         CHECK(less.edges.empty());
     }
 
+    TEST_CASE("of a mesh that the device cannot hold are found in parts") {
+        const PreparedMesh terrain = prepared(builtin("terrain", 200));
+        const std::vector<Sample> samples = samples_at(random_points(terrain, 5, 1500));
+        RunnerOptions little; // Less than the faces and their fans take.
+        little.device_bytes = 8 << 20;
+        Runner runner =
+            expect(Runner::create(shared_context().device(), shared_context().queue(), little));
+        CellParams areas_alone;
+        areas_alone.has_dual = false;
+        const SurfaceCells cells =
+            expect(find_cells(cells_runner(), terrain, samples, areas_alone));
+        const SurfaceCells other = expect(find_cells(runner, terrain, samples, areas_alone));
+        CHECK(other.areas == cells.areas);
+        CHECK(other.report.device_bytes <= little.device_bytes);
+        const std::vector<Sample> few(samples.begin(), samples.begin() + 2);
+        const auto wide = find_cells(runner, terrain, few, areas_alone); // As wide as the mesh.
+        REQUIRE_FALSE(wide);
+        CHECK(wide.error().status == Status::out_of_device_memory);
+    }
+
     TEST_CASE("know the nearest sample of points") {
         check_nearest(prepared(builtin("torus-knot", 8)), 60, 100);
         check_nearest(prepared(builtin("cube", 1)), 200, 50); // Many in each face.

@@ -9,8 +9,10 @@
 #include "engine/cells/open_cells.hpp"
 #include "engine/domain/surface_domain.hpp"
 #include "engine/domain/tolerances.hpp"
+#include "engine/run/first_parts.hpp"
 #include "engine/run/record_disks.hpp"
 #include "mesh/extent.hpp"
+#include "parts/halo.hpp"
 #include "support/number_text.hpp"
 #include "support/try.hpp"
 
@@ -74,11 +76,12 @@ Error LitCells::too_many(double records) const {
 }
 
 Result<std::size_t> LitCells::some_disks(std::span<const std::uint32_t> samples,
-                                         const TakeLights& take) {
+                                         const NearPart* near, const TakeLights& take) {
     const double wanted = kSpareRecords * records_per_disk_;
     const double most = std::min(kMaxRecords, impl_.record_bytes() / sizeof(gpu::LitRec));
     const double count = std::floor(
         std::clamp(std::min(most / wanted, kMaxDisks), 1.0, static_cast<double>(samples.size())));
+    parts_that_help_ = 0;
     const double largest =
         static_cast<double>(impl_.engine().report.limits.max_storage_buffer_range) /
             sizeof(gpu::LitRec) -
@@ -92,17 +95,27 @@ Result<std::size_t> LitCells::some_disks(std::span<const std::uint32_t> samples,
                                                 "take more samples or a simpler mesh"};
     }
     std::vector<KeepOut> disks;
+    double reach = 0;
     for (const std::uint32_t sample : samples.first(static_cast<std::size_t>(count))) {
         disks.push_back({samples_[sample], radii_[sample] * frame_.unit});
+        reach = std::max(reach, disks.back().radius);
+        std::uint32_t& face = disks.back().center.face;
+        face = near != nullptr ? near->local[face] : face;
     }
     SampleParams params = params_;
     params.avoid = disks;
-    const auto domain = SurfaceDomain::recording(mesh_, params, frame_, Ending::light, {},
-                                                 static_cast<std::uint32_t>(room));
+    const auto domain =
+        SurfaceDomain::recording(near != nullptr ? *near->mesh : mesh_, params, frame_,
+                                 Ending::light, {}, static_cast<std::uint32_t>(room));
     GEODISK_TRY(domain);
     DiskRecords records;
     const auto recorded = record_disks(runner_, *domain, records,
                                        [this](const Progress& now) { return report(now); });
+    if (!recorded && near == nullptr) {
+        parts_that_help_ = first_parts(impl_, Domain::Impl::of(*domain), mesh_, reach);
+    } else if (!recorded) {
+        parts_that_help_ = 2 * parts_;
+    }
     GEODISK_TRY(recorded);
     report_.add(*recorded);
     report_.plan.trims |= recorded->plan.trims;
@@ -114,24 +127,74 @@ Result<std::size_t> LitCells::some_disks(std::span<const std::uint32_t> samples,
         record.sample_index = samples[record.sample_index];
         // The device adds to it what the error bound of its run asks for.
         record.limit = static_cast<float>(-radii_[record.sample_index]);
+        if (near != nullptr) {
+            const std::uint32_t h = record.place >> 1;
+            record.place = (3 * near->faces[h / 3] + h % 3) << 1 | (record.place & 1);
+        }
     }
     take(records.lights);
     return disks.size();
 }
 
-Result<Done> LitCells::all_disks(std::span<const std::uint32_t> samples, const TakeLights& take) {
-    left_ = samples.size();
-    while (left_ > 0) {
-        const auto done = some_disks(samples.last(left_), take);
+Result<Done> LitCells::disks_on(const NearPart* near, std::span<const std::uint32_t> samples,
+                                const TakeLights& take) {
+    while (!samples.empty()) {
+        const auto done = some_disks(samples, near, take);
         GEODISK_TRY(done);
+        samples = samples.subspan(*done);
         left_ -= *done;
-        const double of_all =
-            static_cast<double>(samples.size()) / static_cast<double>(samples.size() - left_);
+        const double of_all = static_cast<double>(wanted_) / static_cast<double>(wanted_ - left_);
         if (lit_.size() > cells_.max_records) {
             return too_many(static_cast<double>(lit_.size()) * of_all);
         }
     }
     return Done{};
+}
+
+bool LitCells::divide(const Error& error) {
+    constexpr std::uint32_t kMostTries = 4; // Of ever more parts.
+    const std::uint32_t parts = std::exchange(parts_that_help_, 0);
+    if (parts == 0 || !is_too_large(error) || parts > mesh_.face_count()) {
+        return false;
+    }
+    most_parts_ = parts_ == 0 ? kMostTries * parts : most_parts_;
+    if (parts > most_parts_) {
+        return false;
+    }
+    parts_ = parts;
+    owners_ = equal_parts(mesh_, parts);
+    return true;
+}
+
+Result<Done> LitCells::disks_in_parts(std::span<const std::uint32_t> samples,
+                                      const TakeLights& take) {
+    for (std::uint32_t part = 0; part < parts_; ++part) {
+        std::vector<std::uint32_t> own;
+        double reach = 0;
+        for (const std::uint32_t sample : samples) {
+            if (owners_[samples_[sample].face] == part) {
+                own.push_back(sample);
+                reach = std::max(reach, radii_[sample] * frame_.unit);
+            }
+        }
+        if (!own.empty()) {
+            const auto near = near_part(mesh_, owners_, part, reach * (1 + halo_margin(frame_)));
+            GEODISK_TRY(near);
+            GEODISK_TRY(disks_on(&*near, own, take));
+        }
+    }
+    return Done{};
+}
+
+Result<Done> LitCells::all_disks(std::span<const std::uint32_t> samples, const TakeLights& take) {
+    wanted_ = samples.size();
+    for (;;) {
+        left_ = wanted_;
+        auto done = parts_ == 0 ? disks_on(nullptr, samples, take) : disks_in_parts(samples, take);
+        if (done || !divide(done.error())) { // Lights that come twice count once.
+            return done;
+        }
+    }
 }
 
 Result<Done> LitCells::choose_radii() {

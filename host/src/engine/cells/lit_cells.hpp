@@ -12,6 +12,7 @@
 #include "engine/cells/near_lights.hpp"
 #include "engine/maximal/lit_faces.hpp"
 #include "engine/run/runner_impl.hpp"
+#include "parts/near_part.hpp"
 
 namespace geodisk {
 
@@ -36,10 +37,18 @@ class LitCells {
     Result<Done> choose_radii();
     using TakeLights = std::function<void(std::span<const gpu::LitRec>)>;
     /// Computes the disks of the first samples, as many as have room at once. Returns their number,
-    /// or 0 if they had more records than expected.
-    Result<std::size_t> some_disks(std::span<const std::uint32_t> samples, const TakeLights& take);
+    /// or 0 if they had more records than expected. `near` is the part of the mesh that holds them,
+    /// or null for the whole.
+    Result<std::size_t> some_disks(std::span<const std::uint32_t> samples, const NearPart* near,
+                                   const TakeLights& take);
     /// Computes the disks of all.
+    Result<Done> disks_on(const NearPart* near, std::span<const std::uint32_t> samples,
+                          const TakeLights& take);
+    /// Does so by parts of the mesh, where the device does not hold the whole.
     Result<Done> all_disks(std::span<const std::uint32_t> samples, const TakeLights& take);
+    Result<Done> disks_in_parts(std::span<const std::uint32_t> samples, const TakeLights& take);
+    /// Divides the mesh into more parts, after an error. Returns false if that does not help.
+    bool divide(const Error& error);
     Error too_many(double records) const;
     bool report(const Progress& now) const;
 
@@ -54,7 +63,13 @@ class LitCells {
     LitFaces lit_;
     std::vector<double> radii_; ///< In units of the frame.
     double records_per_disk_;
-    std::size_t left_; ///< Samples whose disks are still to be computed, or larger ones.
+    std::size_t left_;       ///< Samples whose disks are still to be computed, or larger ones.
+    std::size_t wanted_ = 0; ///< Samples whose disks all_disks() computes.
+    /// The part of the mesh of each face, and the number of parts; empty and 0 for the whole.
+    std::vector<std::uint32_t> owners_;
+    std::uint32_t parts_ = 0, most_parts_ = 0;
+    /// After a run that failed: parts to divide the mesh into.
+    std::uint32_t parts_that_help_ = 0;
     RunReport report_;
 };
 

@@ -10,14 +10,12 @@
 
 #include "engine/neighbours/search_jobs.hpp"
 #include "engine/neighbours/search_within.hpp"
-#include "parts/cut.hpp"
 #include "parts/halo.hpp"
+#include "parts/near_part.hpp"
 #include "support/try.hpp"
 
 namespace geodisk {
 namespace {
-
-constexpr std::uint32_t kNone = ~0u;
 
 /// A query on a part, and what it refers to.
 struct SearchPart {
@@ -40,8 +38,6 @@ class PartMaker {
     Result<std::unique_ptr<SearchPart>> part(std::uint32_t part) const;
 
   private:
-    /// Returns the faces that a disk of a source may cover.
-    std::vector<std::uint32_t> faces_near(std::uint32_t part, double reach) const;
     void take_sources(std::uint32_t owner, SearchPart& part) const;
     void take_vertices(std::span<const std::uint32_t> faces, SearchPart& part) const;
     /// Takes those of `points` that lie in the faces; `local` has the number of each face.
@@ -67,20 +63,6 @@ void PartMaker::take_sources(std::uint32_t owner, SearchPart& part) const {
     }
 }
 
-std::vector<std::uint32_t> PartMaker::faces_near(std::uint32_t part, double reach) const {
-    std::vector<std::uint8_t> is_own(mesh_.face_count());
-    std::ranges::transform(owners_, is_own.begin(),
-                           [&](std::uint32_t owner) { return owner == part ? 1 : 0; });
-    const std::vector<double> distances = distances_from(mesh_, is_own, reach);
-    std::vector<std::uint32_t> faces;
-    for (std::uint32_t face = 0; face < mesh_.face_count(); ++face) {
-        if (nearest_corner(mesh_, distances, face) <= reach) {
-            faces.push_back(face);
-        }
-    }
-    return faces;
-}
-
 void PartMaker::take_vertices(std::span<const std::uint32_t> faces, SearchPart& part) const {
     for (const std::uint32_t face : faces) {
         for (const HalfEdge& edge : mesh_.half_edges().subspan(std::size_t{3} * face, 3)) {
@@ -88,8 +70,7 @@ void PartMaker::take_vertices(std::span<const std::uint32_t> faces, SearchPart& 
         }
     }
     std::ranges::sort(part.targets);
-    const auto rest = std::ranges::unique(part.targets);
-    part.targets.erase(rest.begin(), rest.end());
+    part.targets.erase(std::unique(part.targets.begin(), part.targets.end()), part.targets.end());
     for (const std::uint32_t vertex : part.targets) {
         if (!bounds_.empty()) {
             part.bounds.push_back(bounds_[vertex]);
@@ -101,7 +82,7 @@ void PartMaker::take_points(std::span<const Sample> points, std::span<const std:
                             SearchPart& part) const {
     part.targets.clear();
     for (std::uint32_t i = 0; i < points.size(); ++i) {
-        if (local[points[i].face] != kNone) {
+        if (local[points[i].face] != NearPart::kNone) {
             part.targets.push_back(i);
             part.points.push_back(points[i]);
             part.points.back().face = local[points[i].face];
@@ -117,18 +98,14 @@ Result<std::unique_ptr<SearchPart>> PartMaker::part(std::uint32_t owner) const {
     }
     const double largest =
         query_.radii.empty() ? query_.within : *std::ranges::max_element(made->radii);
-    const auto faces = faces_near(owner, largest * (1 + halo_margin(frame_)));
-    auto mesh = mesh_.part(faces);
-    GEODISK_TRY(mesh);
-    made->mesh = std::make_unique<PreparedMesh>(std::move(*mesh));
-    std::vector<std::uint32_t> local(mesh_.face_count(), kNone);
-    for (std::uint32_t i = 0; i < faces.size(); ++i) {
-        local[faces[i]] = i;
-    }
+    auto near = near_part(mesh_, owners_, owner, largest * (1 + halo_margin(frame_)));
+    GEODISK_TRY(near);
+    const std::vector<std::uint32_t>& local = near->local;
+    made->mesh = std::move(near->mesh);
     for (Sample& source : made->sources) {
         source.face = local[source.face];
     }
-    take_vertices(faces, *made);
+    take_vertices(near->faces, *made);
     made->query = query_;
     if (query_.kind != NeighbourKind::vertices) {
         const bool among_sources = query_.kind == NeighbourKind::sources;
@@ -230,9 +207,7 @@ Task<Result<Neighbours>> search_in_parts(Runner::Impl& runner, const PreparedMes
                                          const NeighbourQuery& query, const JobFrame& frame,
                                          std::uint32_t parts, WholeProgress whole,
                                          std::span<const double> bounds) {
-    const std::vector<double> work(mesh.face_count(), 1.0 / mesh.face_count());
-    auto owners = halved_parts(mesh, work, parts);
-    const PartMaker maker(mesh, query, frame, bounds, std::move(owners));
+    const PartMaker maker(mesh, query, frame, bounds, equal_parts(mesh, parts));
     PartLists lists(query);
     const WholeProgress so_far = [&](const Progress& now) {
         Progress all = now;

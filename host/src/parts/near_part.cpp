@@ -1,0 +1,38 @@
+#include "parts/near_part.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "parts/cut.hpp"
+#include "parts/halo.hpp"
+#include "support/try.hpp"
+
+namespace geodisk {
+
+Result<NearPart> near_part(const PreparedMesh& mesh, std::span<const std::uint32_t> owners,
+                           std::uint32_t part, double reach) {
+    std::vector<std::uint8_t> is_own(mesh.face_count());
+    std::ranges::transform(owners, is_own.begin(), [&](std::uint32_t owner) {
+        return static_cast<std::uint8_t>(owner == part ? 1 : 0);
+    });
+    const std::vector<double> distances = distances_from(mesh, is_own, reach);
+    NearPart near;
+    near.local.assign(mesh.face_count(), NearPart::kNone);
+    for (std::uint32_t face = 0; face < mesh.face_count(); ++face) {
+        if (nearest_corner(mesh, distances, face) <= reach) {
+            near.local[face] = static_cast<std::uint32_t>(near.faces.size());
+            near.faces.push_back(face);
+        }
+    }
+    auto made = mesh.part(near.faces);
+    GEODISK_TRY(made);
+    near.mesh = std::make_unique<PreparedMesh>(std::move(*made));
+    return near;
+}
+
+std::vector<std::uint32_t> equal_parts(const PreparedMesh& mesh, std::uint32_t parts) {
+    const std::vector<double> work(mesh.face_count(), 1.0 / mesh.face_count());
+    return halved_parts(mesh, work, parts);
+}
+
+} // namespace geodisk
