@@ -10,8 +10,10 @@
 
 #include <geodisk/farthest.hpp>
 #include <geodisk/neighbours.hpp>
+#include <geodisk/request.hpp>
 
 #include "device_run.hpp"
+#include "engine/run/runner_impl.hpp"
 #include "mesh/edge_paths.hpp"
 #include "support/geodesic_query.hpp"
 #include "support/meshes.hpp"
@@ -257,6 +259,26 @@ TEST_SUITE("farthest") {
         const Error error =
             farthest_refusal(mesh, samples, {}, [](const Progress&) { return false; });
         CHECK(error.status == Status::cancelled);
+    }
+
+    TEST_CASE("a mesh whose faces the device cannot bind at once is refused before it is sampled") {
+        const auto& limits = Runner::Impl::of(farthest_runner()).engine().report.limits;
+        if (limits.max_storage_buffer_range > 128u << 20) {
+            return; // No mesh of this size is too large.
+        }
+        const PreparedMesh mesh = prepared(builtin("terrain", 1030));
+        SampleRequest request;
+        request.params.min_distance = 0.1;
+        request.order = SampleOrder::farthest;
+        bool has_begun = false;
+        const auto found = geodisk::sample(farthest_runner(), mesh, request, [&](const Progress&) {
+            has_begun = true;
+            return true;
+        });
+        REQUIRE_FALSE(found);
+        CHECK(found.error().status == Status::job_too_large);
+        CHECK(found.error().message.starts_with("the farthest order takes all 2121800 faces"));
+        CHECK_FALSE(has_begun);
     }
 
     TEST_CASE("vertices are no farther than their bounds, and not much nearer") {

@@ -269,6 +269,10 @@ RunDevice device_for(const SampleJob& job) {
 SampleResult sample_mesh(const SampleJob& job, const MeshInput& mesh, RunDevice& device,
                          ProgressLine& progress) {
     check_on(mesh, job, device);
+    if (job.method.is_farthest) { // Before any work.
+        device.open(progress);
+        take(check_farthest_order(device.runner(), mesh.prepared));
+    }
     ExistingInput given = load_existing(job, mesh, progress);
     SampleParams params = params_with(given, mesh, job);
     std::optional<UpdateRun> update;

@@ -51,10 +51,14 @@ struct FarthestOrder {
 /// Errors: `invalid_argument` for no sample; for a `count`, a `start` or a number of
 /// existing samples that there is not; for a `start` beside existing samples; for a sample, naming
 /// it, in a face that does not exist or repeats a vertex or with weights that are negative or do
-/// not sum to 1. Others as Runner::sample_and_wait().
+/// not sum to 1. Those of check_farthest_order(). Others as Runner::sample_and_wait().
 GEODISK_API Result<FarthestOrder> farthest_order(Runner& runner, const PreparedMesh& mesh,
                                                  std::span<const Sample> samples,
                                                  const FarthestParams& params = {},
                                                  const ProgressCallback& progress = {}) noexcept;
+
+/// Checks, before there are samples, that the device holds the mesh: the first disks cover all of
+/// it. Errors: `job_too_large` if not.
+GEODISK_API Result<Done> check_farthest_order(Runner& runner, const PreparedMesh& mesh) noexcept;
 
 } // namespace geodisk

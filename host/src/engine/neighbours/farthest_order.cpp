@@ -9,11 +9,13 @@
 #include <string>
 #include <utility>
 
+#include "constants.h"
 #include "engine/neighbours/check_query.hpp"
 #include "engine/neighbours/search_within.hpp"
 #include "mesh/components.hpp"
 #include "mesh/edge_paths.hpp"
 #include "mesh/extent.hpp"
+#include "records.h"
 #include "support/guard.hpp"
 #include "support/invalid.hpp"
 #include "support/try.hpp"
@@ -272,6 +274,7 @@ Result<FarthestOrder> farthest_order(Runner& runner, const PreparedMesh& mesh,
         if (params.start != 0 && params.existing != 0) {
             return invalid("start and existing exclude each other: existing samples come first");
         }
+        GEODISK_TRY(check_farthest_order(runner, mesh));
         if (params.existing > samples.size() ||
             (params.count != 0 && params.count < params.existing)) {
             return invalid(
@@ -281,6 +284,24 @@ Result<FarthestOrder> farthest_order(Runner& runner, const PreparedMesh& mesh,
         GEODISK_TRY(check_points(mesh, "sample", samples));
         FarthestSearch search(runner, mesh, samples, params, progress);
         return search.go();
+    });
+}
+
+Result<Done> check_farthest_order(Runner& runner, const PreparedMesh& mesh) noexcept {
+    return guarded([&]() -> Result<Done> {
+        constexpr std::uint64_t kFaceBytes =
+            gpu::kFaceRows * sizeof(gpu::HalfEdgeRec) + sizeof(gpu::FaceLengthsRec);
+        const DeviceReport& device = Runner::Impl::of(runner).engine().report;
+        const std::uint64_t bytes = kFaceBytes * mesh.face_count();
+        if (bytes <= device.limits.max_storage_buffer_range) {
+            return Done{};
+        }
+        return Error{Status::job_too_large,
+                     "the farthest order takes all " + std::to_string(mesh.face_count()) +
+                         " faces at once, which are " + std::to_string(bytes) + " bytes, but " +
+                         device.name + " binds at most " +
+                         std::to_string(device.limits.max_storage_buffer_range) +
+                         "; take another order, or give a mesh of fewer faces"};
     });
 }
 

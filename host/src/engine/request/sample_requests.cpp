@@ -86,6 +86,15 @@ Result<RequestedSet> sample(Runner& runner, const BoxRequest& request,
 Result<std::vector<RequestedSet>> sample(Runner& runner, std::span<const MeshRequest> requests,
                                          const ProgressCallback& progress) noexcept {
     return guarded([&]() -> Result<std::vector<RequestedSet>> {
+        for (std::size_t i = 0; i < requests.size(); ++i) {
+            const auto& [mesh, request] = requests[i];
+            if (request.order == SampleOrder::farthest && mesh != nullptr) { // Before any work.
+                const auto checked = check_farthest_order(runner, *mesh);
+                if (!checked) {
+                    return on_mesh(i, requests.size(), checked.error());
+                }
+            }
+        }
         auto found = finished(runner, RequestRuns::create(requests), progress);
         for (std::size_t i = 0; found && i < requests.size(); ++i) {
             const auto& [mesh, request] = requests[i];
