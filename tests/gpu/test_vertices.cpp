@@ -67,7 +67,8 @@ TEST_SUITE("vertices") {
         Runner runner = vertex_runner();
         for (const auto& [name, shape] :
              {NamedMesh{"sphere", builtin("icosphere", 3)}, {"knot", builtin("torus-knot", 8)}}) {
-            CAPTURE(name);
+            const std::string shown = name; // Lambdas of Clang 14 capture no bindings.
+            CAPTURE(shown);
             const PreparedMesh mesh = prepared(shape);
             const double distance = 0.1 * mesh.statistics().diagonal;
             const auto found = expect(sample(runner, mesh, at_vertices(distance, 3)));

@@ -128,7 +128,8 @@ CutCells cut(const MeshFile& mesh, std::span<const Point> sites,
 
 TEST_CASE("a mesh is cut along the borders of cells, whether it is finer or coarser than these") {
     for (const auto& [side, count] : {std::pair{1, 60}, {4, 20}, {30, 12}, {12, 300}}) {
-        CAPTURE(side);
+        const int shown = side; // Lambdas of Clang 14 capture no bindings.
+        CAPTURE(shown);
         const MeshFile mesh = square(side);
         const std::vector<Point> sites = random_points(static_cast<std::size_t>(count), 3);
         const CutCells cells = cut(mesh, sites);

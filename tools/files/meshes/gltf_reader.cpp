@@ -100,6 +100,9 @@ class GltfReader {
             add_fields(placement, mesh, primitive, transform, is_mirrored);
             mesh_.parts.push_back(
                 {placement.node, placement.mesh, primitive.number, primitive.material, {}});
+            make_room(mesh_.corners, primitive.corners.size());
+            make_room(mesh_.face_ends, primitive.corners.size() / 3);
+            make_room(mesh_.part_of_face, primitive.corners.size() / 3);
             for (std::size_t i = 0; i + 2 < primitive.corners.size(); i += 3) {
                 const std::uint32_t* const c = &primitive.corners[i];
                 mesh_.corners.insert(
@@ -108,6 +111,14 @@ class GltfReader {
                 mesh_.face_ends.push_back(mesh_.corners.size());
                 mesh_.part_of_face.push_back(part);
             }
+        }
+    }
+
+    /// Reserves memory for so many more values; for many at a time no less than twice as much.
+    template <class Value>
+    static void make_room(std::vector<Value>& values, std::size_t more) {
+        if (values.capacity() - values.size() < more) {
+            values.reserve(std::max(values.size() + more, 2 * values.capacity()));
         }
     }
 
@@ -195,6 +206,7 @@ class GltfReader {
     bool add_vertices(const GltfPlacement& placement, const GltfVertices& vertices,
                       const glm::dmat4& transform) {
         GltfPlacing placing(document_, scene_, placement, transform);
+        make_room(mesh_.positions, 3 * vertices.points.size());
         for (std::size_t i = 0; i < vertices.points.size(); ++i) {
             const glm::dvec3 point = placing.place(vertices, i);
             mesh_.positions.insert(mesh_.positions.end(), {point.x, point.y, point.z});
