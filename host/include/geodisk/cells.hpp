@@ -62,7 +62,8 @@ struct SurfaceCells {
 /// Finds the geodesic Voronoi cell of each sample: the points of the surface that are nearer to it
 /// than to any other. Ties go to the first sample. The result is the same on every device and for
 /// any memory size. Progress counts samples twice as candidates: when their disks are computed, and
-/// when their cells are. Returns `cancelled` if it asks to stop.
+/// when their cells are. Returns `cancelled` if it asks to stop. A mesh that the device cannot hold
+/// is taken in parts, as by find_neighbours().
 ///
 /// Errors: `invalid_argument` for no sample, or a mask of another size or of no face; for a sample,
 /// naming it, in a face that does not exist or repeats a vertex or with weights that are negative

@@ -68,7 +68,8 @@ struct Neighbours {
 };
 
 /// Finds the neighbours of all sources: the exact geodesic disk of each. The result is the same on
-/// every device and for any memory size. RunnerOptions limit the memory it takes at a time.
+/// every device and for any memory size. RunnerOptions limit the memory it takes at a time. A mesh
+/// that the device cannot hold is searched in parts, if these are large beside the distances.
 /// Progress counts sources as candidates; returns `cancelled` if it asks to stop.
 ///
 /// Errors: `invalid_argument` for no source; for a source or point, naming it, in a face that does
