@@ -9,7 +9,7 @@ namespace geodisk {
 namespace {
 
 constexpr std::uint32_t kFree = ~0u;
-constexpr std::size_t kFewestSlots = 1024, kGrowth = 4;
+constexpr std::size_t kFewestSlots = 1024, kGrowth = 2;
 
 std::uint32_t tag_of(std::uint64_t hash) {
     return static_cast<std::uint32_t>(hash >> 32);

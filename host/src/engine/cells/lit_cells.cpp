@@ -143,7 +143,8 @@ Result<Done> LitCells::disks_on(const NearPart* near, std::span<const std::uint3
         GEODISK_TRY(done);
         samples = samples.subspan(*done);
         left_ -= *done;
-        const double of_all = static_cast<double>(wanted_) / static_cast<double>(wanted_ - left_);
+        const std::size_t computed = std::max<std::size_t>(1, wanted_ - left_);
+        const double of_all = static_cast<double>(wanted_) / static_cast<double>(computed);
         if (lit_.size() > cells_.max_records) {
             return too_many(static_cast<double>(lit_.size()) * of_all);
         }

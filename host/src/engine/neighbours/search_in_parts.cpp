@@ -1,4 +1,5 @@
-// The search on a part of a mesh: the faces of some sources, and all that is near enough to them.
+// The search on parts of a mesh, each with the faces of some sources and all that is near enough to
+// them.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -192,8 +193,10 @@ Neighbours PartLists::take() {
             const std::size_t begin = found.offsets[row];
             const std::size_t count = found.offsets[row + 1] - begin;
             const std::size_t at = all.offsets[numbers[row]];
-            std::copy_n(&found.indices[begin], count, &all.indices[at]);
-            std::copy_n(&found.distances[begin], count, &all.distances[at]);
+            std::ranges::copy(std::span(found.indices).subspan(begin, count),
+                              std::span(all.indices).subspan(at, count).begin());
+            std::ranges::copy(std::span(found.distances).subspan(begin, count),
+                              std::span(all.distances).subspan(at, count).begin());
         }
     }
     all.error = error_;
