@@ -169,6 +169,7 @@ TEST_CASE("values of vertices in files are masks, by number or by name") {
     check_faces(folder, "m.obj", {"--mask", "file:lh.a.annot=left"}, {0, 1});
     check_faces(folder, "m.obj", {"--mask", "file:lh.a.annot!=left"}, {4, 5});
     check_faces(folder, "m.obj", {"--mask", "file:lh.a.annot=1"}, {4, 5});
+    check_faces(folder, "m.obj", {"--walls", "file:lh.a.annot=left"}, {2, 3, 4, 5});
     check_faces(folder, "m.obj", {"--mask", "file:lh.a.label"}, {0, 1});
     check_faces(folder, "m.obj", {"--mask", "file:lh.a.label<1"}, {4, 5});
     check_faces(folder, "m.obj", {"--mask", "file:a.txt<5", "--mask", "file:a.txt>=-1"}, {0, 1});
@@ -201,6 +202,7 @@ TEST_CASE("values of vertices in files are masks, by number or by name") {
     check({"--mask", "file:lh.a.annot"}, 2,
           "--mask: the values of 'file:lh.a.annot' are labels; tell which, such as "
           "'file:lh.a.annot=right'");
+    check({"--walls", "file:lh.a.annot"}, 2, "--walls: the values of 'file:lh.a.annot' are labels");
     check({"--density", "file:lh.a.annot"}, 2,
           "--density: the values of 'file:lh.a.annot' are labels, whose numbers are no amounts");
     check({"--mask", "file:"}, 2, "names nothing");

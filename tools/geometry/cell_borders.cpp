@@ -155,6 +155,7 @@ class Cutter {
 
     void halve(std::vector<Gap>& gaps) {
         std::vector<std::pair<std::uint32_t, double>> middles;
+        middles.reserve(gaps.size());
         for (const Gap& gap : gaps) {
             middles.emplace_back(gap.edge, (gap.begin + gap.end) / 2);
         }
@@ -276,6 +277,7 @@ class Cutter {
     /// Lets the borders of three or more cells meet in the mean of where they come from.
     void meet(const std::vector<Corner>& outline, const std::vector<std::size_t>& changes) {
         std::vector<std::pair<std::uint32_t, double>> weights;
+        weights.reserve(changes.size());
         for (const std::size_t change : changes) {
             weights.emplace_back(outline[change].vertex, 1.0 / static_cast<double>(changes.size()));
         }

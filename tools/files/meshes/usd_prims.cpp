@@ -21,8 +21,8 @@ constexpr std::string_view kPrimvar = "primvars:", kIndices = ":indices",
                            kWhole = "int";
 constexpr std::size_t kMaxDepth = 200;
 
-template <std::size_t N>
-bool is_one_of(std::string_view text, const std::string_view (&list)[N]) {
+template <std::size_t kCount>
+bool is_one_of(std::string_view text, const std::string_view (&list)[kCount]) {
     return std::ranges::find(list, text) != std::end(list);
 }
 
@@ -333,7 +333,7 @@ std::optional<glm::dmat4> matrix_of(std::string_view kind, const std::vector<dou
         glm::dmat4 matrix; // Rows there are columns here, where points stand behind the matrix.
         for (glm::length_t i = 0; i < 4; ++i) {
             for (glm::length_t k = 0; k < 4; ++k) {
-                matrix[i][k] = n[static_cast<std::size_t>(4 * i + k)];
+                matrix[i][k] = n[4 * static_cast<std::size_t>(i) + static_cast<std::size_t>(k)];
             }
         }
         const bool is_affine = n[3] == 0 && n[7] == 0 && n[11] == 0 && n[15] == 1;

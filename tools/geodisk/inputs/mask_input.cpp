@@ -262,6 +262,7 @@ MaskRule with_value(MaskRule rule, const MeshField& number) {
         }
     } else if (std::isnan(rule.value)) {
         std::vector<std::string> known;
+        known.reserve(names.size());
         for (const ValueName& one : names) {
             known.push_back(one.name);
         }
@@ -389,8 +390,9 @@ std::vector<std::uint8_t> faces_of(const OnlyRule& part, const std::string& path
 
 std::vector<std::uint8_t> faces_of(const MaskRule& rule, const MeshFile& mesh) {
     const bool has_number = !rule.is_map && !rule.axis();
+    const MeshField* const number = has_number ? &mesh.number(rule.name) : nullptr;
     Mask mask(mesh.triangle_count(), 1);
-    RuleEffect(rule, mesh, has_number ? &mesh.number(rule.name) : nullptr, mask);
+    const RuleEffect applied(has_number ? with_value(rule, *number) : rule, mesh, number, mask);
     return mask;
 }
 
