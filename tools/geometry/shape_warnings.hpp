@@ -15,7 +15,7 @@ namespace geodisk::tools {
 double unevenness(std::span<const double> positions, std::uint32_t dimension,
                   std::span<const std::uint32_t> corners);
 
-/// What the triangles are like that take part in a mesh.
+/// Counts and bounds of the triangles of a mesh that name three vertices.
 struct TriangleShapes {
     Found with_area, without_area; ///< Without area up to rounding, at any scale.
     Found slivers;                 ///< With an angle below a thousandth of a radian.

@@ -18,7 +18,7 @@ class PositionTable {
     /// be finite. -0 equals 0.
     std::uint32_t first_at(std::uint32_t v);
 
-    /// The same, and prefetches what is needed for `soon`, which will be passed a few calls later.
+    /// Does the same. Prefetches memory for the vertex `soon`, which a call in a moment will pass.
     std::uint32_t first_at(std::uint32_t v, std::uint32_t soon);
 
   private:

@@ -9,13 +9,13 @@
 #include <string>
 #include <utility>
 
-#include "constants.h"
+#include "engine/domain/device_mesh.hpp"
+#include "engine/domain/placed_surface.hpp"
 #include "engine/neighbours/check_query.hpp"
 #include "engine/neighbours/search_within.hpp"
 #include "mesh/components.hpp"
 #include "mesh/edge_paths.hpp"
 #include "mesh/extent.hpp"
-#include "records.h"
 #include "support/guard.hpp"
 #include "support/invalid.hpp"
 #include "support/try.hpp"
@@ -289,10 +289,9 @@ Result<FarthestOrder> farthest_order(Runner& runner, const PreparedMesh& mesh,
 
 Result<Done> check_farthest_order(Runner& runner, const PreparedMesh& mesh) noexcept {
     return guarded([&]() -> Result<Done> {
-        constexpr std::uint64_t kFaceBytes =
-            gpu::kFaceRows * sizeof(gpu::HalfEdgeRec) + sizeof(gpu::FaceLengthsRec);
+        const PlacedSurface whole{&mesh, {}, {}, {}, 0, 0, 0};
+        const std::uint64_t bytes = half_edge_bytes({&whole, 1}) + length_bytes({&whole, 1});
         const DeviceReport& device = Runner::Impl::of(runner).engine().report;
-        const std::uint64_t bytes = kFaceBytes * mesh.face_count();
         if (bytes <= device.limits.max_storage_buffer_range) {
             return Done{};
         }

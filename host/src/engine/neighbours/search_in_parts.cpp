@@ -106,7 +106,9 @@ Result<std::unique_ptr<SearchPart>> PartMaker::part(std::uint32_t owner) const {
     for (Sample& source : made->sources) {
         source.face = local[source.face];
     }
-    take_vertices(near->faces, *made);
+    if (query_.kind == NeighbourKind::vertices || !bounds_.empty()) {
+        take_vertices(near->faces, *made);
+    }
     made->query = query_;
     if (query_.kind != NeighbourKind::vertices) {
         const bool among_sources = query_.kind == NeighbourKind::sources;

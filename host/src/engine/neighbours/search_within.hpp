@@ -24,12 +24,14 @@ Task<Result<Neighbours>> search_within(Runner::Impl& runner, const PreparedMesh&
                                        const NeighbourQuery& query, WholeProgress whole = {},
                                        std::span<const double> bounds = {});
 
-/// The same without parts. On a part of a mesh `frame` is that of the jobs on the whole.
+/// Searches all of the mesh at once. If the mesh is a part of a larger one, `frame` is the frame of
+/// the jobs on that; else null.
 Task<Result<Neighbours>> search_undivided(Runner::Impl& runner, const PreparedMesh& mesh,
                                           const NeighbourQuery& query, const JobFrame* frame,
                                           WholeProgress whole, std::span<const double> bounds);
 
-/// The same in so many parts, one after another. `frame` is that of the jobs on the whole mesh.
+/// Cuts the mesh into `parts` parts and searches one after another. `frame` is the frame of the
+/// jobs on the whole mesh.
 Task<Result<Neighbours>> search_in_parts(Runner::Impl& runner, const PreparedMesh& mesh,
                                          const NeighbourQuery& query, const JobFrame& frame,
                                          std::uint32_t parts, WholeProgress whole = {},
