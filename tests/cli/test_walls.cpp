@@ -216,13 +216,17 @@ TEST_CASE("walls that cannot be are refused") {
     refuses(2, "--walls x5: the mesh has 3 coordinates per vertex", "x5>1");
     refuses(3, "no face is of material:brick, as --walls requests", "material:brick");
     refuses(3, "has no face that --walls z takes", "z>1");
-    refuses(3, "has no face that is not a wall", "z<1");
+    refuses(3, "a.obj: every face is a wall", "z<1");
     refuses(3, "has no creases for --walls", "creases");
     refuses(3, "none.txt: line 2: no face has an edge 1-21", "edges:none.txt");
     refuses(3, "three.txt: line 1: an edge reads 'VERTEX VERTEX'", "edges:three.txt");
     refuses(3, "zero.txt: line 1: '0' is not a vertex; they are numbered from 1", "edges:zero.txt");
     refuses(3, "empty.txt: has no edges", "edges:empty.txt");
     refuses(3, "absent.txt", "edges:absent.txt");
+    folder.write("a.stl", "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\n"
+                          "vertex 0 1 0\nendloop\nendfacet\nendsolid\n");
+    check_fails(folder, 2, "--walls edges:zero.txt needs numbers of vertices, which a.stl has not",
+                {"sample", "a.stl", "-d", "1", "-o", "a.csv", "--walls", "edges:zero.txt"});
     check_fails(folder, 2, "takes no --walls",
                 {"sample", "a.obj", "-d", "1", "-o", "a.csv", "--walls", "material:wall",
                  "--metric", "euclidean"});

@@ -37,10 +37,10 @@ inline Points points_of(std::span<const Sample> samples) {
 /// A surface that is edited, and its samples.
 class Scene {
   public:
-    Scene(TestMesh shape, double count, std::uint64_t seed, double min_factor = 1,
+    Scene(TestMesh shape, double count, std::uint64_t seed, double least = 1,
           bool has_density = false)
         : mesh(std::move(shape)), random(static_cast<std::uint32_t>(seed)),
-          factors(mesh.vertex_count(), 1.0), by_density(has_density) {
+          factors(mesh.vertex_count(), 1.0), min_factor(least), by_density(has_density) {
         if (min_factor < 1) {
             factors = wavy_factors(mesh, min_factor);
         }
@@ -163,7 +163,7 @@ class Scene {
     }
     std::vector<std::uint32_t> radius_stroke(double radius) {
         std::vector<bool> is_changed(mesh.vertex_count(), false);
-        const double factor = 0.4 + 0.6 * part();
+        const double factor = min_factor + (1 - min_factor) * std::pow(part(), 2);
         for (const std::uint32_t face : stroke(radius)) {
             is_changed[mesh.triangles[3 * face]] = true;
             factors[mesh.triangles[3 * face]] = factor;
@@ -270,6 +270,7 @@ class Scene {
     std::vector<std::uint32_t> keys;
     std::vector<Sample> existing;
     std::vector<KeepOut> avoid;
+    double min_factor;
     bool by_density; ///< Densities are powers of the factors.
     SampleParams params;
     std::optional<RadiusField> radii;
@@ -295,7 +296,8 @@ class Scene {
     Scene(const Scene& other)
         : mesh(other.mesh), random(other.random), factors(other.factors), mask(other.mask),
           keys(other.keys), existing(other.existing), avoid(other.avoid),
-          by_density(other.by_density), params(other.params), radii(other.radii) {}
+          min_factor(other.min_factor), by_density(other.by_density), params(other.params),
+          radii(other.radii) {}
 
     /// Returns the parameters of the surface as it is.
     SampleParams job() const {

@@ -39,6 +39,16 @@ TestMesh coarse_torus() {
     return mesh;
 }
 
+/// A sheet of 20,000 faces, and disks of up to a twentieth of its width.
+Scene sheet_with(const std::function<double(Vec3)>& factor, std::uint64_t seed) {
+    Scene sheet(flat_grid(100, 100, 1, 1), 3000, seed, 1.0 / 8);
+    for (std::uint32_t v = 0; v < sheet.mesh.vertex_count(); ++v) {
+        sheet.factors[v] = factor(sheet.mesh.vertex(v));
+    }
+    sheet.params.min_distance = 0.05;
+    return sheet;
+}
+
 /// Follows random edits, with steps of these lengths.
 void check_edits(Scene& scene, int edits) {
     scene.begin();
@@ -142,6 +152,32 @@ TEST_SUITE("update") {
         check_edits(ball, 15);
         Scene dense(builtin("icosphere", 4), 600, 9, 0.4, true);
         check_edits(dense, 20);
+    }
+    TEST_CASE("with radii over a wide range") {
+        const std::function<double(Vec3)> fields[] = {
+            [](Vec3 at) { return std::clamp(at.x, 1.0 / 32, 1.0); }, // Slow.
+            [](Vec3 at) { return std::fmod(at.x, 0.25) < 0.125 ? 1 : 1.0 / 8; },
+            [](Vec3 at) { // Large ones stand alone.
+                return std::fmod(at.x, 0.2) < 0.01 && std::fmod(at.y, 0.2) < 0.01 ? 1 : 1.0 / 8;
+            }};
+        for (std::size_t i = 0; i < std::size(fields); ++i) {
+            CAPTURE(i);
+            Scene grid = sheet_with(fields[i], 41 + i);
+            check_edits(grid, 12);
+        }
+    }
+    TEST_CASE("an edit where radii are small reaches no farther than they ask for") {
+        Scene grid = sheet_with([](Vec3 at) { return std::clamp(at.x, 1.0 / 32, 1.0); }, 44);
+        grid.begin();
+        const auto edited_at = [&](std::uint32_t column) {
+            const std::uint32_t vertex = 50 * 101 + column;
+            grid.mesh.positions[3 * vertex + 2] += 0.002;
+            return grid.follow(grid.faces_at(vertex)).uploaded;
+        };
+        const std::uint32_t wide = edited_at(90), narrow = edited_at(6);
+        CAPTURE(wide);
+        CAPTURE(narrow);
+        CHECK(narrow < wide / 4);
     }
     TEST_CASE("in the frame of a plain run, whatever its guard") {
         // Edges are so long that a frame for longer ones has another guard.

@@ -73,7 +73,7 @@ TEST_CASE("meshes of USD are read, one after the other") {
                  "n");
     const MeshFile mesh = geodisk::tools::mesh_of(
         "a.usda", kUsdHead + "(\n    \"a comment\"\n    doc = \"\"\"x\n(\"\"\"\n)\n" +
-                      usd_mesh(kUsdSquare) + "# def\n" + second);
+                      usd_mesh(kUsdSquare) + "# def\n// def\n/* def\n/* */" + second);
     CHECK(mesh.positions.size() == 24);
     CHECK(mesh.triangles.size() == 12);
     CHECK(UsdCorners(mesh.triangles.begin(), mesh.triangles.begin() + 6) ==
@@ -90,6 +90,8 @@ TEST_CASE("meshes of USD are read, one after the other") {
     const MeshFile one = geodisk::tools::mesh_of("a.usd", windows);
     CHECK(one.triangles.size() == 6);
     CHECK(one.warnings.empty());
+    check_fails(ExitCode::bad_input, "line 3: the comment that begins here has no end",
+                [] { geodisk::tools::mesh_of("a.usda", kUsdHead + "\n/* def\n"); });
 }
 
 TEST_CASE("operations of prims place meshes of USD") {
@@ -246,7 +248,9 @@ TEST_CASE("primvars of USD are attributes, materials and prims are parts") {
     const MeshFile painted = geodisk::tools::mesh_of(
         "a.usda", kUsdHead + "def Xform \"w\"\n{\nrel material:binding = </looks/red>\n" +
                       usd_mesh(kUsdSquare + "def GeomSubset \"s\" {\nuniform token elementType = "
-                                            "\"face\"\nint[] indices = [1]\n"
+                                            "\"point\"\nint[] indices = [0]\n"
+                                            "rel material:binding = </looks/blue>\n}\n"
+                                            "def GeomSubset \"t\" {\nint[] indices = [1]\n"
                                             "rel material:binding = </looks/blue>\n}\n") +
                       "}\n");
     CHECK(painted.part_names.materials == std::vector<std::string>{"red", "blue"});

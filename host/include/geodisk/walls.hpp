@@ -42,8 +42,8 @@ struct CutMesh {
 ///
 /// Errors: `invalid_argument` for a number of bytes other than that of faces, and for an edge that
 /// no face has, with its index in `Error::element`; `mesh_rejected`, with the face in
-/// `Error::element`, for an index out of range; and for more copies than can be numbered.
-/// `out_of_host_memory`.
+/// `Error::element`, for an index out of range; for walls that leave no face; and for more copies
+/// than can be numbered. `out_of_host_memory`.
 GEODISK_API Result<CutMesh> cut(const IndexView& triangles, std::uint32_t vertex_count,
                                 const Walls& walls) noexcept;
 

@@ -90,6 +90,14 @@ Result<Done> check_edges(std::span<const std::uint32_t> triangles, std::uint32_t
     return Done{};
 }
 
+bool has_faces(std::span<const std::uint32_t> triangles) {
+    bool has_one = false;
+    for (std::size_t f = 0; f < triangles.size() / 3 && !has_one; ++f) {
+        has_one = takes_part(face_of(triangles, f));
+    }
+    return has_one;
+}
+
 /// A corner of a face, at a vertex where a wall ends.
 struct CornerAtWall {
     std::uint32_t vertex, corner; ///< `corner` indexes triangles.
@@ -179,6 +187,9 @@ Result<CutMesh> cut(const IndexView& triangles, std::uint32_t vertex_count,
             if (walls.faces[f] != 0) {
                 std::fill_n(&result.triangles[3 * f], 3, triangles[3 * f]);
             }
+        }
+        if (!walls.faces.empty() && !has_faces(result.triangles)) {
+            return Error{Status::mesh_rejected, "every face is a wall"};
         }
         const WallEdges edges(walls.edges);
         const std::vector<CornerAtWall> corners =

@@ -292,15 +292,13 @@ MeshFile read_builtin(std::string_view spec) {
 
 /// Refuses options that need numbers of vertices, for a file that has places alone.
 void check_no_numbers(const MeshSources& sources) {
-    if (!sources.edge_lengths.empty()) {
-        fail_usage("--edge-lengths needs numbers of vertices, which " + sources.mesh + " has not");
-    }
-    if (const auto files = value_files(sources.fields); !files.empty()) {
-        fail_usage(std::string(kValueFile) + files.front() + " needs numbers of vertices, which " +
-                   sources.mesh + " has not");
-    }
-    if (sources.keep_seams) {
-        fail_usage("--keep-seams needs numbers of vertices, which " + sources.mesh + " has not");
+    const std::vector<std::string> files = value_files(sources.fields);
+    const std::string option = !sources.edge_lengths.empty() ? "--edge-lengths"
+                               : !files.empty()     ? std::string(kValueFile) + files.front()
+                               : sources.keep_seams ? "--keep-seams"
+                                                    : sources.numbering;
+    if (!option.empty()) {
+        fail_usage(option + " needs numbers of vertices, which " + sources.mesh + " has not");
     }
 }
 

@@ -28,6 +28,7 @@ struct MeshSources {
     /// Leave border edges apart that lie exactly on others. They are joined otherwise, unless
     /// `weld` or `edge_lengths` is given.
     bool keep_seams = false;
+    std::string numbering{};     ///< The option whose file numbers vertices; or "".
     bool allows_outside = false; ///< Read files that the mesh names anywhere, see FileScope.
 };
 

@@ -263,8 +263,9 @@ class UsdReader {
         for (const UsdPrim& subset : prim.children) {
             const UsdAttribute* const chosen = subset.find("indices");
             const std::string bound = subset.text("material:binding");
+            const std::string of = subset.text("elementType");
             if (subset.type == "GeomSubset" && chosen != nullptr && !bound.empty() &&
-                subset.text("elementType") == "face") {
+                (of.empty() || of == "face")) { // Which USD takes for granted.
                 const Index part = part_of(material_of(bound));
                 for (const Index face : indices_of(subset, *chosen, faces)) {
                     mesh_.part_of_face[first + face] = part;

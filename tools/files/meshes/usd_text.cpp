@@ -80,14 +80,28 @@ void UsdText::skip_blanks() {
         const char c = text_[at_];
         if (c == '\n') {
             ++line_;
-        } else if (c == '#') {
+        } else if (c == '#' || text_.substr(at_, 2) == "//") {
             at_ = std::min(text_.find('\n', at_), text_.size());
+            continue;
+        } else if (text_.substr(at_, 2) == "/*") {
+            skip_comment();
             continue;
         } else if (c != ' ' && c != '\t' && c != '\r' && c != ';' && c != ',') {
             return; // Commas only stand between what is known to follow anyway.
         }
         ++at_;
     }
+}
+
+void UsdText::skip_comment() {
+    const std::size_t end = text_.find("*/", at_ + 2);
+    if (end == text_.npos) {
+        fail(line_, "the comment that begins here has no end");
+    }
+    line_ += static_cast<std::uint32_t>(std::count(text_.begin() + static_cast<std::ptrdiff_t>(at_),
+                                                   text_.begin() + static_cast<std::ptrdiff_t>(end),
+                                                   '\n'));
+    at_ = end + 2;
 }
 
 void UsdText::advance() {

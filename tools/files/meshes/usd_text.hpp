@@ -66,6 +66,8 @@ class UsdText {
     void read_string(char quote);
     void read_enclosed(UsdToken::Kind kind, std::string_view end);
     void skip_blanks();
+    /// Skips one that may have several lines.
+    void skip_comment();
 
     const Path& path_;
     std::string_view text_;

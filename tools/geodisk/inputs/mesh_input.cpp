@@ -208,6 +208,11 @@ MeshInput load_silently(const MeshOptions& options, ProgressLine& progress,
     const std::vector<MaskRule> compared_for_walls = mask_rules_of(walls);
     compared.insert(compared.end(), compared_for_walls.begin(), compared_for_walls.end());
     MeshSources sources = sources_of(options, lifts, densities, compared);
+    for (const WallRule& wall : walls) {
+        if (const auto* const edges = std::get_if<EdgeWalls>(&wall)) {
+            sources.numbering = "--walls edges:" + edges->file;
+        }
+    }
     sources.progress = [&](double part) {
         check_interrupted();
         progress.update(part, "");

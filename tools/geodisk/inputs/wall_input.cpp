@@ -119,13 +119,6 @@ void cut_walls(const std::string& path, const std::vector<WallRule>& walls, Mesh
             mesh.joined.push_back(vertices + static_cast<std::uint32_t>(i));
         }
     }
-    bool has_face = false;
-    for (std::size_t t = 0; t < mesh.triangle_count() && !has_face; ++t) {
-        has_face = mesh.takes_part(t);
-    }
-    if (!has_face) {
-        fail_input(path, "has no face that is not a wall, by --walls");
-    }
 }
 
 } // namespace geodisk::tools

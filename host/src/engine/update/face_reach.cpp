@@ -79,14 +79,11 @@ bool FaceReach::flood(std::span<const std::uint32_t> from, const Box& box, doubl
     return goes_on;
 }
 
-void FaceReach::reach(std::span<const std::uint32_t> sources, std::initializer_list<Ring> rings) {
-    const double width = rings.end()[-1].width;
+void FaceReach::visit_near(std::span<const std::uint32_t> sources, double width, double cell,
+                           const std::function<void(std::uint32_t face, double square)>& visit) {
     sources_.clear(faces_.face_count());
     for (const std::uint32_t face : sources) {
         sources_.insert(face);
-        for (const Ring& ring : rings) {
-            ring.faces.insert(face);
-        }
     }
     // A path that ends elsewhere leaves the sources for the last time through one at their border.
     std::vector<std::pair<std::uint64_t, std::uint32_t>> border;
@@ -95,28 +92,40 @@ void FaceReach::reach(std::span<const std::uint32_t> sources, std::initializer_l
         faces_.for_faces_around(
             face, [&](std::uint32_t other) { is_inside = is_inside && sources_.has(other); });
         if (!is_inside) {
-            border.emplace_back(cell_of(box_of(face), width / 2), face);
+            border.emplace_back(cell_of(box_of(face), cell), face);
         }
     }
     std::ranges::sort(border);
     std::vector<std::uint32_t> together; // The sources of a cell.
     for (auto next = border.begin(); next != border.end();) {
-        const std::uint64_t cell = next->first;
+        const std::uint64_t here = next->first;
         Box box = box_of(next->second);
         together.clear();
-        for (; next != border.end() && next->first == cell; ++next) {
+        for (; next != border.end() && next->first == here; ++next) {
             together.push_back(next->second);
             box.add(box_of(next->second), mesh_.dimension);
         }
         flood(together, box, width, sources_, [&](std::uint32_t face, double square) {
-            for (const Ring& ring : rings) {
-                if (square <= ring.width * ring.width) {
-                    ring.faces.insert(face);
-                }
-            }
+            visit(face, square);
             return true;
         });
     }
+}
+
+void FaceReach::reach(std::span<const std::uint32_t> sources, std::initializer_list<Ring> rings) {
+    for (const Ring& ring : rings) {
+        for (const std::uint32_t face : sources) {
+            ring.faces.insert(face);
+        }
+    }
+    const double width = rings.end()[-1].width;
+    visit_near(sources, width, width / 2, [&](std::uint32_t face, double square) {
+        for (const Ring& ring : rings) {
+            if (square <= ring.width * ring.width) {
+                ring.faces.insert(face);
+            }
+        }
+    });
 }
 
 bool FaceReach::stays_in(std::uint32_t source, double width, const FaceSet& all) {

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <initializer_list>
 #include <span>
 #include <vector>
@@ -32,6 +33,12 @@ class FaceReach {
     /// Inserts in each ring the sources, and all faces that a path from one of them meets within
     /// its width. The last ring is the widest.
     void reach(std::span<const std::uint32_t> sources, std::initializer_list<Ring> rings);
+
+    /// Calls `visit` for each other face that a path from a source may meet within `width`, with
+    /// the square of a distance that the path is not below; for some faces several times. Sources
+    /// within `cell` are treated as one.
+    void visit_near(std::span<const std::uint32_t> sources, double width, double cell,
+                    const std::function<void(std::uint32_t face, double square)>& visit);
 
     /// Returns true if all faces that a path from `source` meets within `width` are in `all`.
     bool stays_in(std::uint32_t source, double width, const FaceSet& all);

@@ -6,6 +6,7 @@
 
 #include "engine/domain/check_frame.hpp"
 #include "engine/domain/listed.hpp"
+#include "parts/halo.hpp"
 #include "support/try.hpp"
 
 namespace geodisk {
@@ -13,6 +14,10 @@ namespace {
 
 // Candidates conflict up to the distance and its largest guard, see host/docs/precision.md.
 constexpr double kReach = 1.05;
+// A reach that is not enough grows by at least this.
+constexpr double kGrowth = 1.25;
+// Part of the distance within which faces of a region are one when faces around it are looked at.
+constexpr double kCell = 0.125;
 // Width of the first region around the edit, and by how much it grows where changes leave it, in
 // reaches. By measurement: changes seldom go farther.
 constexpr double kFirstWidth = 3;
@@ -32,6 +37,10 @@ double largest_radius(std::span<const KeepOut> avoided) {
 
 } // namespace
 
+float largest_factor(const RadiusField& radii, std::uint32_t face) {
+    return std::ranges::max(radii.factors().subspan(std::size_t{3} * face, 3));
+}
+
 Changes changes_between(const Darts& old, const Darts& now, bool has_keys) {
     const DartOrder before{has_keys};
     Changes changes;
@@ -41,11 +50,48 @@ Changes changes_between(const Darts& old, const Darts& now, bool has_keys) {
 }
 
 Region::Region(Runner& runner, const EditedSurface& surface)
-    : runner_(runner), surface_(surface), reach_(kReach * surface.params.min_distance),
+    : runner_(runner), surface_(surface),
+      reach_(surface.params.radii != nullptr ? 0 : reach_of(1, 1)),
       faces_(surface.faces, surface.mesh) {
     for (const Sample& sample : surface.params.existing) {
         given_[sample.face].push_back(sample);
     }
+}
+
+double Region::reach_of(double factor, double other) const {
+    const double distance = surface_.params.min_distance;
+    const double margin = surface_.params.radii != nullptr ? halo_margin(surface_.frame) : 0;
+    return distance * (kReach / 2 * (factor + other) + margin);
+}
+
+bool Region::raise_reach() {
+    const RadiusField* const radii = surface_.params.radii;
+    if (radii == nullptr) {
+        return false;
+    }
+    double largest = surface_.old_factor;
+    for (const std::uint32_t face : region_.members()) {
+        largest = std::max(largest, double{largest_factor(*radii, face)});
+    }
+    double needed = reach_of(largest, largest);
+    const double distance = surface_.params.min_distance;
+    faces_.visit_near(region_.members(), reach_of(largest, 1), kCell * distance,
+                      [&](std::uint32_t face, double square) {
+                          const double reach =
+                              reach_of(largest, double{largest_factor(*radii, face)});
+                          needed = square < reach * reach ? std::max(needed, reach) : needed;
+                      });
+    if (needed <= reach_) {
+        return false;
+    }
+    reach_ = std::max(needed, std::min(kGrowth * reach_, reach_of(1, 1)));
+    return true;
+}
+
+void Region::widen(double reaches, double least) {
+    do {
+        faces_.reach(goes_on_, {{std::max(reaches * reach_, least), region_}});
+    } while (raise_reach());
 }
 
 std::vector<KeepOut> Region::avoided_near(std::span<const std::uint32_t> faces) {
@@ -189,10 +235,9 @@ Result<Changes> Region::decide(std::span<const std::uint32_t> sources, double av
     region_.clear(surface_.faces.face_count());
     goes_on_.assign(sources.begin(), sources.end());
     avoided = std::max(avoided, largest_radius(avoided_near(sources)));
-    double width = std::max(kFirstWidth * reach_, kReach * avoided);
     Changes changes;
-    for (; !goes_on_.empty(); width = kFurtherWidth * reach_) {
-        faces_.reach(goes_on_, {{width, region_}});
+    for (bool is_first = true; !goes_on_.empty(); is_first = false) {
+        widen(is_first ? kFirstWidth : kFurtherWidth, is_first ? kReach * avoided : 0);
         const auto part = prepare_part();
         GEODISK_TRY(part);
         const std::vector<Entry> entries = list(*part);

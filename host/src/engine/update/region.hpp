@@ -26,9 +26,13 @@ struct EditedSurface {
     const JobFrame& frame;
     const LiveMesh& faces;
     const DartSet& darts;
+    double old_factor; ///< Largest radius factor before the edit on faces that have changed, or 0.
     const ThreadOptions& threads;
     const ProgressCallback& progress;
 };
+
+/// Returns the largest radius factor on a face.
+float largest_factor(const RadiusField& radii, std::uint32_t face);
 
 /// Samples that an edit removes and adds, both in dart order.
 struct Changes {
@@ -52,6 +56,12 @@ class Region {
                            UpdateReport& report);
 
   private:
+    /// Returns the distance within which candidates with these radius factors may conflict.
+    double reach_of(double factor, double other) const;
+    /// Adds to the region what is within some reaches of where changes go on, or within `least`.
+    void widen(double reaches, double least);
+    /// Makes `reach_` what the region needs. Returns true if that is more than it was.
+    bool raise_reach();
     /// Returns the points to avoid whose disks may meet some faces.
     std::vector<KeepOut> avoided_near(std::span<const std::uint32_t> faces);
     /// A candidate of the region, or a sample outside it, by its face in the part.
@@ -72,7 +82,8 @@ class Region {
 
     Runner& runner_;
     EditedSurface surface_;
-    double reach_; ///< More than any two candidates that conflict are apart.
+    /// More than candidates that conflict are apart, if one of them is in the region.
+    double reach_;
     FaceReach faces_;
     FaceSet region_, ring_, all_, near_;
     std::vector<KeepOut> avoided_;       ///< Those whose disks may meet the region.

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <iterator>
 #include <memory>
+#include <numeric>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -84,6 +85,10 @@ struct Updater::Impl {
     FaceSet sources{};                      ///< Those, and their neighbours before and after.
     std::size_t dropped = 0;                ///< Samples of those faces that are gone already.
     double avoided = 0; ///< Largest radius of the points to avoid there that are gone.
+    /// Largest radius factors on faces when samples were last decided, and of those that are
+    /// undecided. Empty where radii are one.
+    std::vector<float> factors{};
+    double old_factor = 0;
 
     /// Makes the state of a surface whose samples, but for the existing ones, are found.
     static Result<std::unique_ptr<Impl>> make(const SurfaceJob& job, const JobFrame& frame,
@@ -99,6 +104,8 @@ struct Updater::Impl {
     Result<Changes> decide_all(Runner& runner, const MeshView& mesh, const SampleParams& params,
                                const ProgressCallback& progress, UpdateReport& report);
     void set_samples();
+    /// Keeps the radius factors of faces that are decided.
+    void set_factors(const SampleParams& params, std::span<const std::uint32_t> of);
 };
 
 Result<std::unique_ptr<Updater::Impl>> Updater::Impl::make(const SurfaceJob& job,
@@ -120,6 +127,9 @@ Result<std::unique_ptr<Updater::Impl>> Updater::Impl::make(const SurfaceJob& job
                                             .faces = LiveMesh(mesh),
                                             .darts = std::move(*darts)});
     impl->sources.grow(impl->faces.face_count());
+    std::vector<std::uint32_t> all(impl->faces.face_count());
+    std::iota(all.begin(), all.end(), 0u);
+    impl->set_factors(params, all);
     return impl;
 }
 
@@ -212,6 +222,16 @@ void Updater::Impl::set_samples() {
     }
 }
 
+void Updater::Impl::set_factors(const SampleParams& params, std::span<const std::uint32_t> of) {
+    if (params.radii == nullptr) {
+        return;
+    }
+    factors.resize(faces.face_count());
+    for (const std::uint32_t face : of) {
+        factors[face] = largest_factor(*params.radii, face);
+    }
+}
+
 Updater::Updater(std::unique_ptr<Impl> impl) noexcept : impl_(std::move(impl)) {}
 Updater::Updater(Updater&&) noexcept = default;
 Updater& Updater::operator=(Updater&&) noexcept = default;
@@ -274,6 +294,12 @@ Result<Updater> Updater::create(const SurfaceJob& given_before, const SurfaceJob
         }
         auto impl = Impl::make(after, frame, std::move(kept), threads);
         GEODISK_TRY(impl);
+        for (std::uint32_t face = 0; face < match.kept.size() && before.params.radii; ++face) {
+            if (match.kept[face] == kNoFace) {
+                const float own = largest_factor(*before.params.radii, face);
+                (*impl)->old_factor = std::max((*impl)->old_factor, double{own});
+            }
+        }
         for (KeepOut one : before.params.avoid) {
             one.center.face =
                 one.center.face < match.kept.size() ? match.kept[one.center.face] : kNoFace;
@@ -326,11 +352,16 @@ Result<UpdateReport> Updater::update(Runner& runner, const MeshView& given,
             own.sources.insert(one.center.face);
             own.avoided = std::max(own.avoided, one.radius);
         }
+        double old_factor = own.old_factor;
+        for (const std::uint32_t face : own.undecided) {
+            old_factor =
+                std::max(old_factor, face < own.factors.size() ? double{own.factors[face]} : 0);
+        }
         const auto fits = own.fits_frame(mesh, params);
         GEODISK_TRY(fits);
         UpdateReport report;
-        Region region(runner,
-                      {mesh, params, own.frame, own.faces, own.darts, own.threads, progress});
+        Region region(runner, {mesh, params, own.frame, own.faces, own.darts, old_factor,
+                               own.threads, progress});
         const auto changes = *fits ? region.decide(own.sources.members(), own.avoided, report)
                                    : own.decide_all(runner, mesh, params, progress, report);
         GEODISK_TRY(changes);
@@ -340,7 +371,8 @@ Result<UpdateReport> Updater::update(Runner& runner, const MeshView& given,
         own.darts.replace(changes->removed, changes->added, own.has_keys);
         own.existing = std::move(existing);
         own.avoid = std::move(avoid);
-        own.avoided = 0;
+        own.avoided = own.old_factor = 0;
+        own.set_factors(params, own.undecided);
         own.set_samples();
         own.undecided.clear();
         own.sources.clear(own.faces.face_count());
