@@ -12,6 +12,7 @@ True
 
 from . import compat
 from ._bake import SampleMap, bake
+from ._box import sample_box
 from ._cells import Cells, cells
 from ._devices import Device, devices
 from ._errors import (
@@ -28,7 +29,6 @@ from ._errors import (
 from ._farthest import FarthestOrder, farthest_order
 from ._geodesics import GeodesicPath, disk_radii, geodesic_distances, geodesic_path
 from ._library import version
-from ._many import sample_many
 from ._mesh import Mesh
 from ._neighbours import Neighbours, neighbours
 from ._outside import outside_faces
@@ -36,7 +36,7 @@ from ._picture import Picture, render
 from ._reading import read
 from ._sample import Sample
 from ._samples import Samples
-from ._sampling import sample, sample_box
+from ._sampling import sample, sample_many
 from ._transfer import transfer
 from ._update import update
 from ._verification import Verification, verify

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import ctypes
+import functools
+import inspect
 import struct
 from dataclasses import dataclass
 from typing import Any, ClassVar
@@ -28,34 +30,47 @@ class Job:
     source: c.Handle | None = None  #: The file of the mesh, or what its faces were given as.
 
 
-#: Entries of headers that tell what samples were made with, and the argument of sample() of each.
-TOLD = {
-    "pool_ratio": "pool_ratio",
-    "darts": "darts",
-    "exact": "exact",
-    "density": "density",
-    "radius_factor": "radius_factor",
+#: Parameters of sample() that are none of options(): headers tell them by other names, or not.
+_PLAIN = {
+    *("min_distance", "radius", "count", "seed", "levels", "level_factor", "edge_lengths", "weld"),
+    *("keep_seams", "columns", "attributes", "texture", "normals", "frames", "up", "mesh_format"),
+    *("allow_outside", "device", "progress"),
+}
+
+
+@functools.lru_cache(maxsize=None)
+def options() -> dict[str, Any]:
+    """Returns the parameters of sample() that samples name where they are given, with their defaults."""
+    from ._sampling import sample  # Which needs this module.
+
+    parameters = inspect.signature(sample).parameters.values()
+    keywords = [one for one in parameters if one.kind is one.KEYWORD_ONLY]
+    return {one.name: one.default for one in keywords if one.name not in _PLAIN}
+
+
+#: Entries of headers for options of another name, or that sample() has not.
+_OTHERS = {
     "mask": "face_mask",
     "only": "face_mask",
-    "metric": "metric",
-    "classes": "classes",
-    "features": "features",
-    "at_vertices": "at_vertices",
     "level_distances": "order",
     "kept_of": "order",
-    "maximal": "maximal",
-    "existing": "existing",
-    "avoid": "avoid",
     "lift": "lift",
     "coordinates": "coordinates",
     "edge_lengths": "edge_lengths",
+    "order": None,
 }
 
-#: Entries of one value each, which samples keep and headers tell again; also how the mesh was joined.
-VALUES = (
-    *("pool_ratio", "darts", "exact", "metric", "features", "at_vertices", "maximal", "kept_of"),
-    *("weld", "keep_seams", "walls"),
-)
+
+def option_of(key: str) -> str | None:
+    """Returns the option that an entry of a header tells, or None."""
+    return _OTHERS.get(key, key if key in options() else None)
+
+
+@functools.lru_cache(maxsize=None)
+def values() -> tuple[str, ...]:
+    """Returns the entries of one value each, which samples keep and headers tell again."""
+    plain = [name for name, default in options().items() if isinstance(default, (int, float, str))]
+    return (*plain, "features", "kept_of", "weld", "keep_seams", "walls")
 
 
 def joins_of(weld: bool | float, keep_seams: bool, walls: str = "") -> dict[str, str]:
@@ -68,6 +83,13 @@ def joins_of(weld: bool | float, keep_seams: bool, walls: str = "") -> dict[str,
     if walls:
         told["walls"] = walls
     return told
+
+
+def told_text(value: bool | float | str) -> str:
+    """Returns a value as headers tell it."""
+    if isinstance(value, (bool, str)):
+        return value if isinstance(value, str) else "yes"
+    return exact_text(value)
 
 
 def exact_text(number: float) -> str:

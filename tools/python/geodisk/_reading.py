@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from . import _errors as e
 from . import _library as c
 from ._attributes import attributes_of_columns
-from ._job import TOLD, VALUES, JobFrame
+from ._job import JobFrame, option_of, values
 from ._record import Record
 from ._samples import Samples
 from ._values import path_of
@@ -85,8 +85,10 @@ def _samples(header: Header, **arrays: Any) -> Samples:
         arrays["level_distances"] = tuple(map(float, header["level_distances"].split()))
     arrays["_digest"] = header.get("digest")
     options = header.get("options", "").split()
-    options += [name for key, name in TOLD.items() if key in header and name not in options]
-    arrays["_told"] = {key: header[key] for key in VALUES if key in header}
+    for told in map(option_of, header):
+        if told is not None and told not in options:
+            options.append(told)
+    arrays["_told"] = {key: header[key] for key in values() if key in header}
     if header.get("sampling_version", str(c.sampling_version())) != str(c.sampling_version()):
         options.append(f"sampling_version={header['sampling_version']}")
     if options:

@@ -184,7 +184,7 @@ class Samples:
     _surface: Surface | None = None
     _digest: str | None = None  # Of the set that these are of, if these may be a part.
     _job: Job | None = None  # What they were made with, for updates.
-    _told: dict[str, str] = field(default_factory=dict)  # Entries of headers in VALUES.
+    _told: dict[str, str] = field(default_factory=dict)  # Entries of headers in values().
     _record: Record | None = None  # What they have of their mesh; None if that is unknown.
     #: Frame in which they were decided; None for that of a run over their mesh at `min_distance`.
     _frame: JobFrame | None = None

@@ -3,160 +3,106 @@
 from __future__ import annotations
 
 import dataclasses
-import inspect
-from ctypes import addressof, byref
-from typing import Any, Callable, Mapping, Sequence
+from ctypes import addressof, byref, c_double, c_int32, c_uint32
+from types import SimpleNamespace
+from typing import Any, Callable, Mapping
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from . import _errors as e
 from . import _library as c
 from . import _structs as s
 from ._class_places import ClassPlaces, values_of
-from ._classes import Classes, ClassesLike
-from ._devices import DeviceLike
-from ._existing import AvoidLike, ExistingLike, existing_of
+from ._classes import Classes
+from ._existing import existing_of
 from ._farthest import put_farthest_first
 from ._features import degrees_of
-from ._job import Job, JobFrame, exact_text, joins_of
+from ._job import FOLLOWED, Job, JobFrame, joins_of, options, told_text, values
 from ._levels import levels_of
 from ._mesh import Mesh, attributes_with, keys_of, mask_of, mesh_of
 from ._oddities import oddities_of_set, warn, warn_of_whole_mask
 from ._radii import one_of, radii_of
-from ._record import Record
+from ._record import Record, recorded
 from ._results import report_of, samples_of
 from ._rules import check_fields
-from ._running import ProgressCallback
+from ._running import Runs
 from ._samples import Samples
 from ._surface import Surface
-from ._values import check_exact, check_pool, choice, distance_of, flag, integer, seed_of
+from ._values import check_exact, check_pool, choice, distance_of, flag, integer, number, seed_of
 
 
 class Wanted:
     """Samples of one mesh that are asked for. Parameters are those of :func:`sample`."""
 
-    def __init__(
-        self,
-        read_mesh: Callable[[], Mesh],
-        *,
-        min_distance: float | None,
-        radius: float | None,
-        count: float | None,
-        exact: bool,
-        seed: int | None,
-        density: ArrayLike | None,
-        radius_factor: ArrayLike | None,
-        pool_ratio: float,
-        darts: int,
-        stop_count: int,
-        maximal: bool,
-        order: str,
-        levels: int | None,
-        level_factor: float | None,
-        face_keys: ArrayLike | None,
-        face_mask: ArrayLike | None,
-        existing: ExistingLike | None,
-        avoid: AvoidLike | None,
-        classes: ClassesLike | None,
-        class_counts: Sequence[int] | None,
-        class_masks: Mapping[int, ArrayLike] | None,
-        class_densities: Mapping[int, ArrayLike] | None,
-        class_avoid: Mapping[int, AvoidLike] | None,
-        features: float | None,
-        at_vertices: bool,
-        metric: str,
-    ) -> None:
-        darts = integer(darts, "darts", 2**32 - 1)
-        kinds = None if classes is None else Classes(classes)
+    def __init__(self, read_mesh: Callable[[], Mesh], given: Mapping[str, Any]) -> None:
+        a = SimpleNamespace(**given)
+        min_distance = a.min_distance
+        params_numbers = _numbers_in(s.SurfaceParams, given)
+        request_numbers = _numbers_in(s.Request, given)
+        darts = int(params_numbers["darts"])
+        kinds = None if a.classes is None else Classes(a.classes)
         if kinds is not None and kinds.largest is not None:
-            if min_distance is not None or radius is not None:
+            if min_distance is not None or a.radius is not None:
                 raise e.invalid("a table of classes takes no min_distance and no radius")
-            if count is None:
+            if a.count is None:
                 min_distance = kinds.largest  # Else the table is scaled.
-        distance = distance_of(min_distance, radius, count, darts)
-        seed = seed_of(seed)
-        stop_count = integer(stop_count, "stop_count", 2**32 - 1)
-        check_exact(exact, count)
-        check_pool(count, pool_ratio, darts)
-        choice(metric, "metric", s.METRICS)
-        choice(order, "order", ("dart", "progressive", "farthest"))
-        maximal, at_vertices = flag(maximal, "maximal"), flag(at_vertices, "at_vertices")
-        radii_name = one_of(density, radius_factor)
-        chosen = {
-            "pool_ratio": pool_ratio != 20,
-            "darts": darts,
-            "stop_count": stop_count,
-            "exact": exact,
-            "density": density is not None,
-            "radius_factor": radius_factor is not None,
-            "face_keys": face_keys is not None,
-            "face_mask": face_mask is not None,
-            "metric": metric != "geodesic",
-            "classes": classes is not None,
-            "class_counts": class_counts is not None,
-            "class_masks": class_masks is not None,
-            "class_densities": class_densities is not None,
-            "class_avoid": class_avoid is not None,
-            "features": features is not None,
-            "at_vertices": at_vertices,
-            "order": order != "dart",
-            "maximal": maximal,
-            "existing": existing is not None,
-            "avoid": avoid is not None,
-        }
-        self._options = [name for name, is_chosen in chosen.items() if is_chosen]
+        distance = distance_of(min_distance, a.radius, a.count, darts)
+        seed = seed_of(a.seed)
+        check_exact(a.exact, a.count)
+        check_pool(a.count, a.pool_ratio, darts)
+        choice(a.metric, "metric", s.METRICS)
+        choice(a.order, "order", ("dart", "progressive", "farthest"))
+        radii_name = one_of(a.density, a.radius_factor)
+        self._options = [name for name, usual in options().items() if _is_other(given[name], usual)]
         check_fields(
             {
                 **{name: name for name in self._options},
-                "count": None if count is None else "count",
-                "is_exact": "exact" if exact else None,
+                "count": None if a.count is None else "count",
+                "is_exact": "exact" if a.exact else None,
                 "radii": radii_name,
                 "class_factors": "classes" if kinds is not None and kinds.count > 1 else None,
-                order: f"order='{order}'",
-                "metric": f"metric='{metric}'" if metric != "geodesic" else None,
+                a.order: f"order='{a.order}'",
+                "metric": f"metric='{a.metric}'" if a.metric != "geodesic" else None,
             }
         )
-        in_levels = levels_of(order, levels, level_factor)
-        degrees = 0.0 if features is None else degrees_of(features)
+        in_levels = levels_of(a.order, a.levels, a.level_factor)
+        degrees = 0.0 if a.features is None else degrees_of(a.features)
 
         self.mesh = mesh = read_mesh()
-        radii = radii_of(mesh, density, radius_factor)
-        keys = None if face_keys is None else keys_of(mesh, face_keys)
-        mask = None if face_mask is None else mask_of(mesh._surface, face_mask)
+        radii = radii_of(mesh, a.density, a.radius_factor)
+        keys = None if a.face_keys is None else keys_of(mesh, a.face_keys)
+        mask = None if a.face_mask is None else mask_of(mesh._surface, a.face_mask)
         warn_of_whole_mask(mask)
-        kept = existing_of(mesh._handle, existing)
+        kept = existing_of(mesh._handle, a.existing)
         places = ClassPlaces(
             mesh,
             kinds,
-            avoid,
-            class_masks=class_masks,
-            class_densities=class_densities,
-            class_avoid=class_avoid,
+            a.avoid,
+            class_masks=a.class_masks,
+            class_densities=a.class_densities,
+            class_avoid=a.class_avoid,
         )
-        if count is not None and len(kept) >= count:
-            raise e.invalid(f"count is {count}, but {len(kept)} existing samples count too")
+        if a.count is not None and len(kept) >= a.count:
+            raise e.invalid(f"count is {a.count}, but {len(kept)} existing samples count too")
         part = 1.0 if radii is None else radii.distance_part
         self._params = params = s.SurfaceParams(
             min_distance=0.0 if distance is None else distance / part,
             seed=seed,
-            pool_ratio=float(pool_ratio),
-            darts=darts,
-            stop_count=stop_count,
             radii=None if radii is None else radii.handle.value,
             face_keys=None if keys is None else keys.ctypes.data,
             face_mask=None if mask is None else mask.ctypes.data,
-            metric=s.METRICS[metric],
+            metric=s.METRICS[a.metric],
             existing=kept.ctypes.data,
             existing_count=len(kept),
             avoid=places.points.ctypes.data,
             avoid_radii=places.radii.ctypes.data,
             avoid_count=len(places.points),
-            is_maximal=int(maximal),
+            **params_numbers,
         )
         own_classes = None
         if kinds is not None and kinds.count > 1:
-            own_classes = kinds.existing_of(existing, len(kept))
+            own_classes = kinds.existing_of(a.existing, len(kept))
             params.class_factors = kinds.factors.ctypes.data
             params.class_count = kinds.count
             params.existing_classes = own_classes.ctypes.data
@@ -167,56 +113,36 @@ class Wanted:
         #: As the library takes it.
         self.request = s.Request(
             params=addressof(params),
-            count=0.0 if count is None else count,
-            is_exact=int(exact),
+            count=0.0 if a.count is None else a.count,
             order=s.ORDERS["dart" if in_levels is None else "progressive"],
             features=degrees,
-            at_vertices=int(at_vertices),
+            **request_numbers,
         )
         self._class_counts = None
-        if class_counts is not None:
+        if a.class_counts is not None:
             if own_classes is None or kinds is None:
                 raise e.invalid("class_counts is for classes, two or more")
-            self._class_counts = kinds.counts_of(class_counts)
+            self._class_counts = kinds.counts_of(a.class_counts)
             self.request.class_counts = self._class_counts.ctypes.data
         if in_levels is not None:
             self.request.levels, self.request.level_factor = in_levels.count, in_levels.factor
 
         self._kept_alive = radii, keys, kept, places, own_classes
         self._distance, self._part, self._seed, self._mask = distance, part, seed, mask
-        self._count, self._stop_count, self._darts = count, stop_count, darts
         self._existing, self._avoids, self._classes = len(kept), len(places.points) > 0, kinds
-        self._is_farthest, self._degrees = order == "farthest", degrees
-        self._told = joins_of(
-            mesh._surface.weld, mesh._surface.keep_seams, mesh._surface.walls
-        )
-        if metric != "geodesic":
-            self._told["metric"] = metric
-        if pool_ratio != 20:
-            self._told["pool_ratio"] = exact_text(pool_ratio)
-        if features is not None:
-            self._told["features"] = exact_text(degrees)
-        if at_vertices:
-            self._told["at_vertices"] = "yes"
-        self._job = Job(
-            None,
-            pool_ratio,
-            density,
-            radius_factor,
-            face_keys,
-            face_mask,
-            existing,
-            avoid,
-            mesh._source,
-        )
+        self._asked, self._degrees = a, degrees
+        surface = mesh._surface
+        self._told = joins_of(surface.weld, surface.keep_seams, surface.walls)
+        for name in set(self._options).intersection(values()).difference(_TOLD_BY_RUNS):
+            self._told[name] = told_text(given[name])
+        followed = {name: given[name] for name in FOLLOWED}
+        self._job = Job(distance=None, source=mesh._source, **followed)
 
-    def samples_of(
-        self, made: c.Handle, device: DeviceLike | None, progress: bool | ProgressCallback
-    ) -> Samples:
+    def samples_of(self, made: c.Handle) -> Samples:
         """Returns the samples that were made, in the order asked for."""
         report = report_of(made)
         run_distance, told = report["min_distance"], dict(self._told)
-        if self._darts:
+        if self._params.darts:
             told["darts"] = str(report["candidates"])
         if self._params.is_maximal:
             told["maximal"] = "certified" if report["is_certified"] else "not certified"
@@ -236,9 +162,9 @@ class Wanted:
         samples.report["options"] = self._options
         if self.request.at_vertices:
             samples.columns["vertex"] = vertices_at(samples, self.mesh._surface)
-        if self._is_farthest:
+        if self._asked.order == "farthest":
             samples = put_farthest_first(
-                self.mesh._handle, samples, self._existing, device, progress
+                self.mesh._handle, samples, self._existing, self._asked.device, self._asked.progress
             )
         return samples
 
@@ -256,9 +182,9 @@ class Wanted:
         found = oddities_of_set(
             samples,
             self.mesh._handle,
-            self._count,
-            self._stop_count,
-            self._darts,
+            self._asked.count,
+            self._params.stop_count,
+            self._params.darts,
             self._mask,
             self._existing,
             self._avoids,
@@ -291,8 +217,40 @@ def vertices_at(samples: Samples, surface: Surface) -> NDArray[np.uint32]:
     return vertices
 
 
-_ARGUMENTS = inspect.signature(Wanted).parameters.keys() - {"read_mesh"}
+#: Numbers of structs that parameters of the same names do not tell alone.
+_OWN = {"min_distance", "seed", "metric", "count", "order", "features", "levels", "level_factor"}
+
+#: Options that headers tell by what a run came to.
+_TOLD_BY_RUNS = {"darts", "stop_count", "exact", "maximal", "order"}
+
+
+def _numbers_in(struct: Any, given: Mapping[str, Any]) -> dict[str, int | float]:
+    """Returns the fields of a struct that parameters of the same names tell, checked."""
+    found: dict[str, int | float] = {}
+    for field, kind in struct._fields_:
+        name = field.removeprefix("is_")
+        if name not in given or name in _OWN:
+            continue
+        if kind is c_uint32:
+            found[field] = integer(given[name], name, 2**32 - 1)
+        elif kind is c_double:
+            found[field] = number(given[name], name)
+        elif kind is c_int32:
+            found[field] = int(flag(given[name], name))
+    return found
+
+
+def _is_other(value: Any, usual: Any) -> bool:
+    """Returns True for a value that a parameter does not have by itself."""
+    return value is not None if usual is None else bool(value != usual)
+
+
 _OF_MESH = ("edge_lengths", "weld", "keep_seams", "columns", "mesh_format", "allow_outside")
+
+
+def record_of(given: Mapping[str, Any]) -> Record:
+    """Returns what arguments of :func:`sample` add to samples."""
+    return Record(given["texture"], given["normals"], given["frames"], given["up"])
 
 
 def wanted_of(vertices: Any, faces: Any, record: Record, given: Mapping[str, Any]) -> Wanted:
@@ -308,4 +266,15 @@ def wanted_of(vertices: Any, faces: Any, record: Record, given: Mapping[str, Any
             record=record,
         )
 
-    return Wanted(read_mesh, **{name: given[name] for name in _ARGUMENTS})
+    return Wanted(read_mesh, given)
+
+
+def sample_one(given: Mapping[str, Any]) -> Samples:
+    """Returns the samples that arguments of :func:`sample` ask for, by name."""
+    record = record_of(given)
+    wanted = wanted_of(given["vertices"], given["faces"], record, given)
+    with Runs(given["device"], given["progress"]) as runs:
+        (made,) = runs.serve([(wanted.mesh._handle, wanted.request)])
+    samples = wanted.samples_of(made)
+    wanted.warn(samples)
+    return recorded(samples, wanted.mesh, record)

@@ -14,7 +14,7 @@ from . import _errors as e
 from . import _library as c
 from ._attributes import columns_of_attributes, is_colour, with_bytes
 from ._files import bytes_of
-from ._job import TOLD
+from ._job import option_of
 
 if TYPE_CHECKING:
     from ._samples import Samples
@@ -86,7 +86,7 @@ def header_of(samples: Samples) -> Header:
     elif samples.points is not None and samples.points.shape[1] < 3:
         header["dimension"] = str(samples.points.shape[1])  # Since x y z are there in any case.
     header.update(samples._told)
-    told = [TOLD[key] for key in header if key in TOLD]
+    told = set(map(option_of, header))
     if others := [name for name in options if name not in told]:
         header["options"] = " ".join(others)
     return header

@@ -1,0 +1,92 @@
+"""Sampling boxes."""
+
+from __future__ import annotations
+
+import ctypes
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from . import _errors as e
+from . import _structs as s
+from ._arrays import real
+from ._devices import DeviceLike
+from ._oddities import oddities_of_set, warn
+from ._results import samples_of
+from ._rules import check_fields
+from ._running import ProgressCallback, Runs
+from ._samples import Samples
+from ._values import check_exact, check_pool, distance_of, flag, integer, seed_of
+
+
+def sample_box(
+    extents: ArrayLike = (1, 1),
+    *,
+    periodic: bool = False,
+    min_distance: float | None = None,
+    radius: float | None = None,
+    count: float | None = None,
+    exact: bool = False,
+    seed: int | None = 0,
+    pool_ratio: float = 20,
+    darts: int = 0,
+    stop_count: int = 0,
+    device: DeviceLike | None = None,
+    progress: bool | ProgressCallback = False,
+) -> Samples:
+    """Returns random points in a box, no two closer than a minimum distance.
+
+    The other parameters, the result and the errors are those of :func:`sample`; `face_index`,
+    `barycentric` and `normals` of the result are None.
+
+    Parameters
+    ----------
+    extents : sequence of float
+        One to six sides; the box begins at the origin.
+    periodic : bool
+        Glue opposite sides together: distances wrap around.
+
+    Examples
+    --------
+    >>> import geodisk
+    >>> samples = geodisk.sample_box([1, 1, 1], count=500, periodic=True)
+    >>> samples.points.shape[1]
+    3
+    """
+    darts = integer(darts, "darts", 2**32 - 1)
+    distance = distance_of(min_distance, radius, count, darts)
+    periodic = flag(periodic, "periodic")
+    sides = np.array(real(extents, "extents"), np.float64, order="C")
+    if sides.ndim != 1:
+        raise e.invalid("extents must be one number per dimension")
+    if not 1 <= len(sides) <= 6:
+        raise e.invalid(f"extents has {len(sides)} dimensions, not 1 to 6")
+    seed = seed_of(seed)
+    stop_count = integer(stop_count, "stop_count", 2**32 - 1)
+    check_exact(exact, count)
+    check_pool(count, pool_ratio, darts)
+    check_fields(
+        {
+            "is_exact": "exact" if exact else None,
+            "darts": "darts" if darts else None,
+            "stop_count": "stop_count" if stop_count else None,
+        }
+    )
+    params = s.BoxParams(
+        extents=sides.ctypes.data,
+        dimension=len(sides),
+        is_periodic=int(periodic),
+        min_distance=0.0 if distance is None else distance,
+        seed=seed,
+        pool_ratio=float(pool_ratio),
+        darts=darts,
+        stop_count=stop_count,
+    )
+    request = s.BoxRequest(
+        params=ctypes.addressof(params), count=0.0 if count is None else count, is_exact=int(exact)
+    )
+    with Runs(device, progress) as runs:
+        made = runs.serve_box(request)
+    samples = samples_of(made, seed, extents=tuple(sides.tolist()), periodic=periodic)
+    warn(oddities_of_set(samples, None, count, stop_count, darts))
+    return samples
