@@ -214,8 +214,8 @@ std::vector<MeshWarning> run_warnings(const SampleJob& job, const MeshInput& mes
                       .min_distance = result.params.min_distance * mesh.distance_part,
                       .wanted_count = job.wanted_count.samples,
                       .cut = result.done.cut,
-                      .stop_count = job.method.stop_count,
-                      .has_darts = job.method.darts > 0,
+                      .stop_count = job.method.params.stop_count,
+                      .has_darts = job.method.params.darts > 0,
                       .lacks_features = lacks_features ? *job.features : 0,
                       .bare = result.bare});
     for (std::uint32_t number = 0; number < job.classes.count && result.count() > 0; ++number) {

@@ -9,7 +9,7 @@
 #include <type_traits>
 #include <utility>
 
-#include <geodisk/fields.hpp>
+#include <geodisk/params.hpp>
 #include <geodisk/update.hpp>
 
 #include "files/samples/job_frame_text.hpp"

@@ -8,8 +8,8 @@
 #include <type_traits>
 
 #include <geodisk/exchange.hpp>
-#include <geodisk/fields.hpp>
 #include <geodisk/job_frame.hpp>
+#include <geodisk/params.hpp>
 #include <geodisk/version.hpp>
 
 #include "files/input_file.hpp"

@@ -2,7 +2,6 @@
 
 #include <utility>
 
-#include <geodisk/fields.hpp>
 #include <geodisk/mpi.hpp>
 #include <geodisk/params.hpp>
 

@@ -13,7 +13,6 @@
 #include <geodisk/exchange.hpp>
 #include <geodisk/farthest.hpp>
 #include <geodisk/features.hpp>
-#include <geodisk/fields.hpp>
 #include <geodisk/frame_neighbours.hpp>
 #include <geodisk/frame_sampler.hpp>
 #include <geodisk/geodesics.hpp>

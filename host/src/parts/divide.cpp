@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-#include <geodisk/fields.hpp>
+#include <geodisk/params.hpp>
 
 #include "engine/domain/stages.hpp"
 #include "engine/request/check_fields.hpp"

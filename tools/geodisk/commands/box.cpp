@@ -58,8 +58,8 @@ void run_box(const BoxOptions& options) {
                                       .min_distance = job.box.min_distance,
                                       .wanted_count = job.wanted_count.samples,
                                       .cut = done.cut,
-                                      .stop_count = job.method.stop_count,
-                                      .has_darts = job.method.darts > 0,
+                                      .stop_count = job.method.params.stop_count,
+                                      .has_darts = job.method.params.darts > 0,
                                       .domain = "box"})) {
         print_warning(warning.message);
     }

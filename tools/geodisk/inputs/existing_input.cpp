@@ -16,7 +16,7 @@ namespace {
 
 void check_count(const SampleJob& job, std::size_t existing) {
     const double wanted =
-        job.method.stop_count != 0 ? job.method.stop_count : job.wanted_count.samples;
+        job.method.params.stop_count != 0 ? job.method.params.stop_count : job.wanted_count.samples;
     if (wanted > 0 && static_cast<double>(existing) >= wanted) {
         fail_usage("--count: " + counted(existing, "sample", "samples") + " of --existing count " +
                    "too, so ask for more than " + grouped(existing));

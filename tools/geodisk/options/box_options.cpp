@@ -91,12 +91,13 @@ BoxJob parse_job(const BoxOptions& options) {
     box.seed = options.run.parsed_seed();
     job.method = parse_method(options.method, options.count);
     check_class_counts(job.method, 0);
-    if (job.method.is_maximal) {
+    if (job.method.params.maximal) {
         fail_usage("--maximal is for surfaces; in a box, give --dense or a higher --pool-ratio");
     }
-    box.pool_ratio = job.method.pool_ratio;
-    box.stop_count = job.method.stop_count;
-    job.wanted_count = parse_wanted_count(options.method, options.count, job.method.pool_ratio);
+    box.pool_ratio = job.method.params.pool_ratio;
+    box.stop_count = job.method.params.stop_count;
+    job.wanted_count =
+        parse_wanted_count(options.method, options.count, job.method.params.pool_ratio);
     if (!options.min_distance.empty()) {
         box.min_distance =
             parse_length("--min-distance", options.min_distance).in_mesh_units(diagonal_of(box));

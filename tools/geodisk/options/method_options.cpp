@@ -118,8 +118,8 @@ void GivenFields::check() const {
 }
 
 std::uint32_t Method::darts_for(double samples) const {
-    if ((stop_count == 0 && class_counts.empty()) || darts != 0) {
-        return darts;
+    if ((params.stop_count == 0 && class_counts.empty()) || params.darts != 0) {
+        return params.darts;
     }
     return static_cast<std::uint32_t>(
         std::min<double>(kMaxCandidates, std::ceil(kDartsPerSample * std::max(1.0, samples))));
@@ -127,18 +127,19 @@ std::uint32_t Method::darts_for(double samples) const {
 
 double Method::distance_factor() const {
     // By packing density.
-    return is_maximal ? 0.778 / 0.721 : is_dense ? 0.752 / 0.721 : 1;
+    return params.maximal ? 0.778 / 0.721 : is_dense ? 0.752 / 0.721 : 1;
 }
 
 double Method::expected(double samples) const {
     const double room = std::max(1.0, samples);
-    return stop_count != 0 ? std::min<double>(room, stop_count) : room;
+    return params.stop_count != 0 ? std::min<double>(room, params.stop_count) : room;
 }
 
 void Method::check_count(std::uint64_t samples, double min_distance, std::uint64_t thrown) const {
-    if (darts == 0 && samples < stop_count) {
-        fail_usage("--count: placed only " + grouped(samples) + " of " + grouped(stop_count) +
-                   " samples at distance " + rounded(min_distance, 6) + " with " + grouped(thrown) +
+    if (params.darts == 0 && samples < params.stop_count) {
+        fail_usage("--count: placed only " + grouped(samples) + " of " +
+                   grouped(params.stop_count) + " samples at distance " + rounded(min_distance, 6) +
+                   " with " + grouped(thrown) +
                    " darts; lower --count or the distance, or accept fewer samples with --darts");
     }
 }
@@ -147,7 +148,7 @@ void Method::check_classes(std::span<const std::uint8_t> classes, double min_dis
                            std::uint64_t thrown) const {
     for (std::size_t k = 0; k < class_counts.size(); ++k) {
         const auto samples = static_cast<std::uint64_t>(std::ranges::count(classes, k));
-        if (darts == 0 && samples < class_counts[k]) {
+        if (params.darts == 0 && samples < class_counts[k]) {
             fail_usage("--count: placed only " + grouped(samples) + " of " +
                        grouped(class_counts[k]) + " samples of class " + std::to_string(k) +
                        ", where the largest distance is " + rounded(min_distance, 6) + ", with " +
@@ -187,10 +188,10 @@ Method parse_method(const MethodOptions& options, const std::string& count) {
     Method method;
     method.throws_darts = options.throws_darts();
     method.is_dense = options.is_dense;
-    method.is_maximal = options.is_maximal;
-    method.pool_ratio = options.is_dense ? kDensePoolRatio : method.pool_ratio;
+    method.params.maximal = options.is_maximal;
+    method.params.pool_ratio = options.is_dense ? kDensePoolRatio : method.params.pool_ratio;
     if (!options.pool_ratio.empty()) {
-        method.pool_ratio = parse_ratio("--pool-ratio", options.pool_ratio, 1, 10000);
+        method.params.pool_ratio = parse_ratio("--pool-ratio", options.pool_ratio, 1, 10000);
     }
     if (method.throws_darts) {
         if (count.empty() && options.darts.empty()) {
@@ -199,9 +200,10 @@ Method parse_method(const MethodOptions& options, const std::string& count) {
         if (has_class_counts(count)) {
             method.class_counts = parse_class_counts(count);
         } else {
-            method.stop_count = count.empty() ? 0 : parse_candidates("--count", count);
+            method.params.stop_count = count.empty() ? 0 : parse_candidates("--count", count);
         }
-        method.darts = options.darts.empty() ? 0 : parse_candidates("--darts", options.darts);
+        method.params.darts =
+            options.darts.empty() ? 0 : parse_candidates("--darts", options.darts);
     }
     parse_order(options, method);
     return method;

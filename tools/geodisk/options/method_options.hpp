@@ -53,10 +53,10 @@ void add_method_options(Command command, MethodOptions& options, const std::stri
 /// The options, checked.
 struct Method {
     bool throws_darts = false; ///< --method darts.
-    bool is_dense = false, is_maximal = false;
-    double pool_ratio = kDefaultPoolRatio;
-    std::uint32_t darts = 0;      ///< 0 if not given.
-    std::uint32_t stop_count = 0; ///< Value of --count, if darts stop at it; else 0.
+    bool is_dense = false;
+    /// The numbers of the job that these options tell. `stop_count` is the value of --count, if
+    /// darts stop at it; `darts` is 0 if not given.
+    SampleParams params;
     /// Values of --count, if it has one for each class; else empty.
     std::vector<std::uint32_t> class_counts;
     bool has_levels = false;  ///< --order progressive.

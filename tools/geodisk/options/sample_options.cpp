@@ -161,6 +161,8 @@ SampleJob parse_job(const SampleOptions& options) {
     job.classes = parse_classes(options.classes);
     given_fields(options, job.classes).check();
     job.method = parse_method(options.method, options.count);
+    job.params = job.method.params;
+    job.params.darts = 0; // Those that are to be thrown follow from the surface.
     check_class_counts(job.method, job.classes.count);
     take_classes(options, job);
     if (!options.features.empty()) {
@@ -178,11 +180,9 @@ SampleJob parse_job(const SampleOptions& options) {
         job.min_distance = parse_length("--radius", options.radius);
         job.min_distance->value *= 2;
     }
-    job.wanted_count = parse_wanted_count(options.method, options.count, job.method.pool_ratio);
+    job.wanted_count =
+        parse_wanted_count(options.method, options.count, job.method.params.pool_ratio);
     job.params.seed = options.run.parsed_seed();
-    job.params.pool_ratio = job.method.pool_ratio;
-    job.params.stop_count = job.method.stop_count;
-    job.params.maximal = job.method.is_maximal;
     job.runner = options.run.runner();
     if (job.method.has_levels && job.out.is_dry_run) {
         fail_usage("--dry-run tries one run, but --order progressive takes one for each level");

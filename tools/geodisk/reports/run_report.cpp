@@ -29,11 +29,11 @@ Json processes_json(const std::vector<ProcessReport>& processes) {
 
 /// Returns what ended the run.
 const char* stopped_by(const Drawn& drawn) {
-    const bool has_all = drawn.samples == drawn.method.stop_count || drawn.done.cut > 0;
-    return has_all                     ? "count"
-           : drawn.method.throws_darts ? "darts"
-           : drawn.method.is_maximal   ? "maximal"
-                                       : "pool";
+    const bool has_all = drawn.samples == drawn.method.params.stop_count || drawn.done.cut > 0;
+    return has_all                       ? "count"
+           : drawn.method.throws_darts   ? "darts"
+           : drawn.method.params.maximal ? "maximal"
+                                         : "pool";
 }
 
 /// Less is usual where the driver has kept the shaders.
@@ -69,7 +69,7 @@ Json drawn_json(const Drawn& drawn) {
     const bool throws_darts = drawn.method.throws_darts;
     return {{"method", throws_darts ? "darts" : "pool"},
             // Each method has this or that.
-            {"pool_ratio", throws_darts ? Json(nullptr) : Json(drawn.method.pool_ratio)},
+            {"pool_ratio", throws_darts ? Json(nullptr) : Json(drawn.method.params.pool_ratio)},
             {"dense", drawn.method.is_dense},
             {"darts", throws_darts ? Json(drawn.done.run.candidates) : Json(nullptr)},
             {"candidates", drawn.done.run.candidates},
@@ -91,8 +91,9 @@ std::string samples_text(const Drawn& drawn) {
         if (drawn.done.runs > 1) {
             text += ", in " + std::to_string(drawn.done.runs) + " runs";
         }
-    } else if (drawn.samples < drawn.method.stop_count) {
-        text += " of " + grouped(drawn.method.stop_count) + " asked for, when the darts ran out";
+    } else if (drawn.samples < drawn.method.params.stop_count) {
+        text +=
+            " of " + grouped(drawn.method.params.stop_count) + " asked for, when the darts ran out";
     }
     return text;
 }

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include <geodisk/fields.hpp>
+#include <geodisk/params.hpp>
 #include <geodisk/version.hpp>
 
 #include "files/meshes/part_columns.hpp"
@@ -80,7 +80,7 @@ std::string distance_line(const SampleJob& job, const MeshInput& mesh, double la
 
 /// Returns how a maximal set was completed; null for others.
 Json maximal_json(const SampleJob& job, const MeshInput& mesh, const RunReport& run) {
-    if (!job.method.is_maximal) {
+    if (!job.method.params.maximal) {
         return nullptr;
     }
     const MaximalReport& report = run.maximal;
@@ -93,7 +93,7 @@ Json maximal_json(const SampleJob& job, const MeshInput& mesh, const RunReport& 
 }
 
 std::string maximal_line(const SampleJob& job, const MeshInput& mesh, const SampleResult& result) {
-    if (!job.method.is_maximal) {
+    if (!job.method.params.maximal) {
         return "";
     }
     const MaximalReport& report = result.done.run.maximal;
@@ -301,7 +301,7 @@ SampleHeader SampleReport::header() const {
     if (job_.classes.is_given()) {
         header.entries.emplace_back("classes", job_.classes.text(distance));
     }
-    if (job_.method.is_maximal) {
+    if (job_.method.params.maximal) {
         header.entries.emplace_back("maximal",
                                     done.run.maximal.certified ? "certified" : "not certified");
     }
