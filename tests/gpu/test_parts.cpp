@@ -11,6 +11,8 @@
 #include <string>
 #include <vector>
 
+#include <geodisk/request.hpp>
+
 #include "device_run.hpp"
 #include "parts/cut.hpp"
 #include "parts/sample_parts.hpp"
@@ -325,6 +327,34 @@ TEST_SUITE("parts") {
         check_divided(terrain, params);
         const RadiusField waves = radius_field(terrain, wavy_factors(large_shape(), 0.4));
         check_divided(terrain, params_for(terrain, 3000, 3, &waves));
+    }
+
+    TEST_CASE("a runner divides lists of candidates: on features, and at vertices") {
+        const PreparedMesh terrain = prepared(large_shape());
+        const MeshView view = large_shape().view();
+        Runner whole_runner =
+            expect(Runner::create(shared_context().device(), shared_context().queue()));
+        SampleRequest requests[2];
+        for (SampleRequest& request : requests) {
+            request.params = params_for(terrain, 3000);
+            request.view = &view;
+        }
+        requests[0].features = 8;
+        requests[1].at_vertices = true;
+        for (const SampleRequest& request : requests) {
+            CAPTURE(request.features);
+            const RequestedSet whole = expect(sample(whole_runner, terrain, request));
+            Runner runner = small_runner();
+            const RequestedSet divided = expect(sample(runner, terrain, request));
+            CHECK(points_of(divided.set) == points_of(whole.set));
+            CHECK(divided.features == whole.features);
+            CHECK(divided.set.report.candidates == whole.set.report.candidates);
+            CHECK(divided.set.report.starts > whole.set.report.starts);
+            CHECK(divided.set.report.device_bytes <= kLittleMemory);
+            if (request.features > 0) {
+                CHECK(std::ranges::count(whole.features, FeatureKind::curve) > 100);
+            }
+        }
     }
 
     TEST_CASE("a divided run is polled, told of and cancelled as any other") {

@@ -12,6 +12,7 @@
 #include "parts/halo.hpp"
 #include "parts/part.hpp"
 #include "parts/reach.hpp"
+#include "parts/sample_parts.hpp"
 #include "support/guard.hpp"
 #include "support/invalid.hpp"
 #include "support/try.hpp"
@@ -27,20 +28,23 @@ std::uint32_t stages_at_once(const Stages& stages, double max_candidates) {
 /// Faces of all parts that are known so far.
 class Division {
   public:
-    Division(const PreparedMesh& mesh, const SampleParams& params, const JobFrame& frame,
-             std::span<const std::uint32_t> owners, std::uint32_t processes, double max_candidates,
-             const Checkpoints* checkpoints)
-        : mesh_(mesh), params_(params), owners_(owners),
-          from_(checkpoints != nullptr ? checkpoints->from : nullptr) {
-        const CheckpointTerms terms(checkpoints);
+    Division(const WholeSurface& whole, const JobFrame& frame,
+             std::span<const std::uint32_t> owners, std::uint32_t processes)
+        : mesh_(whole.mesh), params_(whole.params), list_(whole.list), owners_(owners),
+          from_(whole.checkpoints != nullptr ? whole.checkpoints->from : nullptr) {
+        const CheckpointTerms terms(whole.checkpoints);
         for (std::uint32_t process = 0; process < processes; ++process) {
-            parts_.push_back(part_for(params, frame, max_candidates, terms));
+            Part& part = parts_.emplace_back(part_for(params_, frame, whole.max_candidates, terms));
+            if (!list_.empty()) {
+                part.is_listed = true;
+                part.max_stages = 1;
+            }
         }
-        for (const KeepOut& avoided : params.avoid) {
+        for (const KeepOut& avoided : params_.avoid) {
             avoided_ = std::max(avoided_, avoided.radius * (1 + halo_margin(frame)));
         }
-        if (params.radii != nullptr) {
-            reaches_ = reaches(mesh, *params.radii, params.min_distance);
+        if (params_.radii != nullptr) {
+            reaches_ = reaches(mesh_, *params_.radii, params_.min_distance);
         }
     }
 
@@ -91,6 +95,11 @@ class Division {
             if (is_within(sample.face)) {
                 sample.face = local(part, sample.face);
                 part.existing.push_back(sample);
+            }
+        }
+        for (std::uint32_t i = 0; i < list_.size(); ++i) {
+            if (is_within(list_[i].face)) {
+                part.listed.push_back({0, i, list_[i]});
             }
         }
         if (from_ != nullptr) {
@@ -151,6 +160,7 @@ class Division {
 
     const PreparedMesh& mesh_;
     const SampleParams& params_;
+    std::span<const ListedCandidate> list_;
     std::span<const std::uint32_t> owners_;
     std::vector<Part> parts_;
     const Checkpoint* from_;
@@ -178,14 +188,11 @@ Part part_for(const SampleParams& params, const JobFrame& frame, double max_cand
     return part;
 }
 
-Result<std::vector<Bytes>> divide(const PreparedMesh& mesh, const SampleParams& params,
-                                  std::span<const std::uint32_t> owners, std::uint32_t processes,
-                                  double max_candidates, const Checkpoints* checkpoints) {
+Result<std::vector<Bytes>> divide(const WholeSurface& whole, const JobFrame& frame,
+                                  std::span<const std::uint32_t> owners, std::uint32_t processes) {
     return guarded([&]() -> Result<std::vector<Bytes>> {
-        GEODISK_TRY(check_fields(params, RequestField::processes));
-        const auto frame = frame_of(mesh, params);
-        GEODISK_TRY(frame);
-        Division division(mesh, params, *frame, owners, processes, max_candidates, checkpoints);
+        GEODISK_TRY(check_fields(whole.params, RequestField::processes));
+        Division division(whole, frame, owners, processes);
         for (std::uint32_t process = 0; process < processes; ++process) {
             division.choose(process);
         }

@@ -24,8 +24,9 @@ Progress sum_of(const Progress& a, const Progress& b) {
 } // namespace
 
 DividedRun::DividedRun(Runner& runner, const PreparedMesh& mesh, const SampleParams& params,
-                       std::uint32_t parts)
-    : runner_(runner), params_(params), cut_(cut_by_work), whole_{mesh, params_, cut_},
+                       std::span<const ListedCandidate> list, std::uint32_t parts)
+    : runner_(runner), params_(params),
+      cut_(cut_by_work), whole_{.mesh = mesh, .params = params_, .cut = cut_, .list = list},
       exchanges_(LocalExchange::create(parts)), working_(parts) {
     try {
         for (std::size_t part = 0; part < exchanges_.size(); ++part) {

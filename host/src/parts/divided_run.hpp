@@ -7,6 +7,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <span>
 #include <thread>
 #include <vector>
 
@@ -24,10 +25,11 @@ namespace geodisk {
 /// only polls. The runner is not to be used meanwhile.
 class DividedRun {
   public:
-    /// Begins. The mesh, the runner and what the parameters refer to must outlive it. Throws
-    /// std::bad_alloc, and std::system_error where no thread can be started.
+    /// Begins. The mesh, the runner, what the parameters refer to and the list must outlive it. The
+    /// list is as that of WholeSurface. Throws std::bad_alloc, and std::system_error where no
+    /// thread can be started.
     DividedRun(Runner& runner, const PreparedMesh& mesh, const SampleParams& params,
-               std::uint32_t parts);
+               std::span<const ListedCandidate> list, std::uint32_t parts);
     /// Cancels what is left.
     ~DividedRun();
     DividedRun(const DividedRun&) = delete;

@@ -20,6 +20,8 @@
 
 namespace geodisk {
 
+struct WholeSurface;
+
 /// Role of a face for a process.
 enum class FaceRole : std::uint8_t {
     surface, ///< Paths cross it.
@@ -64,12 +66,16 @@ struct Part {
     std::uint32_t all_existing = 0; ///< Number of existing samples of the whole.
     std::uint32_t max_stages = 1;   ///< Stages that are drawn at a time.
     CheckpointTerms checkpoints;
+    bool is_listed = false; ///< Candidates are those of a list:
+    Darts listed;           ///< Those on own and near faces, as of a single stage.
     Darts settled; ///< Samples of the checkpoint that it goes on from, on own and near faces.
 
     /// Returns the parameters of the whole, for the part. They refer to it.
     SampleParams params() const;
-    /// Returns the candidates of the whole, on the faces of the part.
+    /// Returns the candidates of the whole, on the faces of the part, if they are drawn.
     CandidateDraw draw() const;
+    /// Returns the stages of the whole.
+    Stages stages() const;
 };
 
 /// Returns a part without any faces yet, for a job in such a frame. At most so many
@@ -77,13 +83,11 @@ struct Part {
 Part part_for(const SampleParams& params, const JobFrame& frame, double max_candidates,
               const CheckpointTerms& checkpoints);
 
-/// Returns the parts of all processes as messages, in their order. `owners` has the process of each
-/// face; see part_for(). `checkpoints` is null for a job without any. Errors: `invalid_argument`
-/// for parameters that many processes do not take, and for more processes than faces; those of
-/// frame_of().
-Result<std::vector<Bytes>> divide(const PreparedMesh& mesh, const SampleParams& params,
-                                  std::span<const std::uint32_t> owners, std::uint32_t processes,
-                                  double max_candidates, const Checkpoints* checkpoints);
+/// Returns the parts of all processes as messages, in their order. The frame is that of the whole,
+/// and `owners` has the process of each face. Errors: `invalid_argument` for parameters that many
+/// processes do not take; those of PreparedMesh::save().
+Result<std::vector<Bytes>> divide(const WholeSurface& whole, const JobFrame& frame,
+                                  std::span<const std::uint32_t> owners, std::uint32_t processes);
 
 /// Returns a part as a message. Errors: those of PreparedMesh::save().
 Result<Bytes> message_of(const Part& part);

@@ -1,6 +1,9 @@
+#include <algorithm>
 #include <array>
+#include <cstddef>
 #include <utility>
 
+#include "engine/domain/listed.hpp"
 #include "parts/part.hpp"
 #include "support/guard.hpp"
 #include "support/try.hpp"
@@ -18,12 +21,14 @@ void for_fields(AnyPart& part, const One& one, const All& all) {
     one(part.max_stages);
     one(part.checkpoints);
     one(part.has_keys);
+    one(part.is_listed);
     all(part.faces);
     all(part.roles);
     all(part.keys);
     all(part.mask);
     all(part.existing);
     all(part.avoid);
+    all(part.listed);
     all(part.settled);
 }
 
@@ -45,6 +50,12 @@ CandidateDraw Part::draw() const {
     SampleParams drawn = params();
     drawn.darts = of_whole.darts;
     return {mesh, drawn, frame};
+}
+
+Stages Part::stages() const {
+    return is_listed ? listed_stages(frame.samples, std::max<std::size_t>(1, listed.size()),
+                                     CandidateSource::list)
+                     : draw().stages();
 }
 
 Result<Bytes> message_of(const Part& part) {

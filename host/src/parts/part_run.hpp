@@ -35,7 +35,7 @@ class PartRun {
     bool has_to_decide(const Darts* near) const;
 
     /// Returns the stages of the job.
-    const Stages& stages() const { return draw_.stages(); }
+    const Stages& stages() const { return stages_; }
     /// Returns own samples of all stages, in dart order.
     Darts samples() const;
     /// Returns the number of own candidates of these stages.
@@ -63,6 +63,7 @@ class PartRun {
     ProgressCallback progress_;
     DartOrder order_;
     CandidateDraw draw_;
+    Stages stages_;
     Darts drawn_; ///< Candidates of own faces, in dart order. Those of near faces until decided.
     Darts settled_own_;           ///< Own samples of earlier stages.
     std::vector<Sample> settled_; ///< Existing samples, and own and near ones of earlier stages.

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "engine/domain/existing.hpp"
+#include "engine/domain/face_mask.hpp"
 #include "engine/domain/listed.hpp"
 #include "parts/cut.hpp"
 #include "parts/decide_stages.hpp"
@@ -36,10 +37,11 @@ Result<std::vector<Bytes>> parts_of(const WholeSurface& whole, std::uint32_t pro
     return guarded([&]() -> Result<std::vector<Bytes>> {
         GEODISK_TRY(check_processes(whole.mesh, processes));
         // Before the cut, which relies on them.
-        GEODISK_TRY(frame_of(whole.mesh, whole.params));
+        const auto frame = whole.list.empty() ? frame_of(whole.mesh, whole.params)
+                                              : frame_of_disks(whole.mesh, whole.params);
+        GEODISK_TRY(frame);
         const auto owners = whole.cut(whole.mesh, whole.params, processes);
-        return owners ? divide(whole.mesh, whole.params, *owners, processes, whole.max_candidates,
-                               whole.checkpoints)
+        return owners ? divide(whole, *frame, *owners, processes)
                       : Result<std::vector<Bytes>>(owners.error());
     });
 }

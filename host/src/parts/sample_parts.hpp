@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <span>
 #include <vector>
 
 #include <geodisk/exchange.hpp>
@@ -31,6 +32,8 @@ struct WholeSurface {
     const Cut& cut;
     double max_candidates = kMaxAtOnce;
     const Checkpoints* checkpoints = nullptr; ///< Null for a job without any.
+    /// Candidates, decided in this order, in place of those that faces draw; empty for the latter.
+    std::span<const ListedCandidate> list{};
 };
 
 /// Samples a surface together with the other processes; all call it. `whole` is null on all but the

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include <geodisk/checkpoint.hpp>
 #include <geodisk/domain.hpp>
 #include <geodisk/job_frame.hpp>
 #include <geodisk/mesh.hpp>
@@ -42,11 +43,12 @@ struct Sharing {
     friend bool operator==(const Sharing&, const Sharing&) = default;
 };
 
-/// A job of one surface that may be divided into parts: candidates are drawn in the frame of its
+/// A job of one surface that may be divided into parts: candidates are decided in the frame of its
 /// mesh.
 struct WholeJob {
     const PreparedMesh* mesh;
     SampleParams params;
+    std::vector<ListedCandidate> list{}; ///< Empty if candidates are drawn.
 };
 
 /// Members are computed once from the job. Each kind of domain has its own file.

@@ -127,8 +127,9 @@ ListedBuffers listed_buffers(const PlacedSurface& surface, const FaceCells& cell
 
 Result<Domain> SurfaceDomain::listed(const PreparedMesh& mesh, const SampleParams& params,
                                      const JobFrame& frame,
-                                     std::span<const ListedCandidate> candidates) {
+                                     std::span<const ListedCandidate> candidates, bool may_divide) {
     PlacedSurface surface = placed(mesh, params, frame);
+    surface.may_divide = may_divide;
     surface.stages =
         listed_stages(surface.stages.samples, candidates.size(), CandidateSource::list);
     auto cells = count_cells({&surface, 1});
@@ -137,6 +138,9 @@ Result<Domain> SurfaceDomain::listed(const PreparedMesh& mesh, const SampleParam
     made->listed_ = listed_buffers(surface, made->cells_, candidates);
     const double most = static_cast<double>(made->settled.size() + candidates.size());
     made->samples = std::min(made->samples, most);
+    if (made->whole) {
+        made->whole->list.assign(candidates.begin(), candidates.end());
+    }
     return Domain::Impl::wrap(std::move(made));
 }
 
@@ -175,7 +179,8 @@ Result<Domain> listed_domain(const PreparedMesh& mesh, const SampleParams& param
     return guarded([&]() -> Result<Domain> {
         const auto frame = frame_of_disks(mesh, params); // A list may be far shorter than a pool.
         GEODISK_TRY(frame);
-        return listed_domain(mesh, params, *frame, candidates);
+        GEODISK_TRY(check_listed(mesh, params, candidates));
+        return SurfaceDomain::listed(mesh, params, *frame, candidates, true);
     });
 }
 
@@ -186,7 +191,7 @@ Result<Domain> listed_domain(const PreparedMesh& mesh, const SampleParams& param
         GEODISK_TRY(check_params(mesh, params));
         GEODISK_TRY(check_frame(frame, mesh, params));
         GEODISK_TRY(check_listed(mesh, params, candidates));
-        return SurfaceDomain::listed(mesh, params, frame, candidates);
+        return SurfaceDomain::listed(mesh, params, frame, candidates, false);
     });
 }
 

@@ -257,7 +257,7 @@ SurfaceDomain::SurfaceDomain(std::vector<PlacedSurface> surfaces, FaceCells cell
         maximal->params.avoid = {};
     }
     if (surfaces_[0].may_divide) {
-        whole = WholeJob{surfaces_[0].mesh, params};
+        whole = WholeJob{surfaces_[0].mesh, params, {}};
     }
     samples = samples_to_expect(full_, params.darts, params.stop_count);
     stop_count = params.stop_count;

@@ -18,10 +18,11 @@ class SurfaceDomain : public Domain::Impl {
   public:
     SurfaceDomain(std::vector<PlacedSurface> surfaces, FaceCells cells);
     static Result<std::unique_ptr<const Impl>> make(std::vector<PlacedSurface> surfaces);
-    /// Implements listed_domain(), for candidates that are checked.
+    /// Implements listed_domain(), for candidates that are checked. The job may be divided if the
+    /// frame is that of the mesh.
     static Result<Domain> listed(const PreparedMesh& mesh, const SampleParams& params,
-                                 const JobFrame& frame,
-                                 std::span<const ListedCandidate> candidates);
+                                 const JobFrame& frame, std::span<const ListedCandidate> candidates,
+                                 bool may_divide = false);
 
     /// Makes the domain of the existing samples and points to avoid of `params`, whose disks record
     /// what `ending` says, at most so many times. To record what they reach is for these targets,

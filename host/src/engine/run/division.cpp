@@ -38,9 +38,13 @@ Result<std::unique_ptr<Division>> Division::begin(const Runner::Impl& runner, co
         new Division(std::move(*own), *of.whole, progress, runner.progress.candidates));
     division->expected_ = static_cast<std::uint32_t>(of.samples);
     division->parts_ = parts;
-    division->run_ = std::make_unique<DividedRun>(division->runner_, *division->job_.mesh,
-                                                  division->job_.params, division->parts_);
+    division->begin_run();
     return division;
+}
+
+void Division::begin_run() {
+    run_.reset();
+    run_ = std::make_unique<DividedRun>(runner_, *job_.mesh, job_.params, job_.list, parts_);
 }
 
 bool Division::divides_more(const Error& error) {
@@ -53,8 +57,7 @@ bool Division::divides_more(const Error& error) {
 Result<std::optional<SampleSet>> Division::poll(std::chrono::milliseconds patience) {
     auto polled = run_->poll(patience);
     if (!polled && divides_more(polled.error())) {
-        run_.reset();
-        run_ = std::make_unique<DividedRun>(runner_, *job_.mesh, job_.params, parts_);
+        begin_run();
         return std::optional<SampleSet>();
     }
     if (polled && !*polled && goes_on_ && on_progress_ && !on_progress_(progress())) {

@@ -34,6 +34,8 @@ class Division {
              std::uint32_t candidates)
         : runner_(std::move(runner)), job_(job), on_progress_(std::move(on_progress)),
           candidates_(candidates) {}
+    /// Begins with so many parts.
+    void begin_run();
     /// Returns true if it goes on in more parts after this error.
     bool divides_more(const Error& error);
 
