@@ -327,6 +327,17 @@ TEST_SUITE("parts") {
         check_divided(terrain, params);
         const RadiusField waves = radius_field(terrain, wavy_factors(large_shape(), 0.4));
         check_divided(terrain, params_for(terrain, 3000, 3, &waves));
+
+        // In the frame of a mesh with longer edges.
+        params = params_for(terrain, 3000, 4);
+        JobFrame frame = expect(frame_of(terrain, params));
+        frame.longest_edge += 9;
+        frame.samples *= 2;
+        const Domain framed = expect(Domain::surface(terrain, params, frame));
+        const SampleSet divided = expect(small_runner().sample_and_wait(framed));
+        Runner runner = expect(Runner::create(shared_context().device(), shared_context().queue()));
+        CHECK(divided.report.starts > 1);
+        CHECK(points_of(divided) == points_of(expect(runner.sample_and_wait(framed))));
     }
 
     TEST_CASE("a runner divides lists of candidates: on features, and at vertices") {

@@ -23,10 +23,12 @@ Progress sum_of(const Progress& a, const Progress& b) {
 
 } // namespace
 
-DividedRun::DividedRun(Runner& runner, const PreparedMesh& mesh, const SampleParams& params,
-                       std::span<const ListedCandidate> list, std::uint32_t parts)
-    : runner_(runner), params_(params),
-      cut_(cut_by_work), whole_{.mesh = mesh, .params = params_, .cut = cut_, .list = list},
+DividedRun::DividedRun(Runner& runner, const WholeJob& job, std::uint32_t parts)
+    : runner_(runner), cut_(cut_by_work), whole_{.mesh = *job.mesh,
+                                                 .params = job.params,
+                                                 .cut = cut_,
+                                                 .frame = &job.frame,
+                                                 .list = job.list},
       exchanges_(LocalExchange::create(parts)), working_(parts) {
     try {
         for (std::size_t part = 0; part < exchanges_.size(); ++part) {

@@ -7,7 +7,6 @@
 #include <memory>
 #include <mutex>
 #include <optional>
-#include <span>
 #include <thread>
 #include <vector>
 
@@ -16,6 +15,7 @@
 #include <geodisk/runner.hpp>
 #include <geodisk/status.hpp>
 
+#include "engine/domain/domain_impl.hpp"
 #include "parts/local_exchange.hpp"
 #include "parts/sample_parts.hpp"
 
@@ -25,11 +25,9 @@ namespace geodisk {
 /// only polls. The runner is not to be used meanwhile.
 class DividedRun {
   public:
-    /// Begins. The mesh, the runner, what the parameters refer to and the list must outlive it. The
-    /// list is as that of WholeSurface. Throws std::bad_alloc, and std::system_error where no
-    /// thread can be started.
-    DividedRun(Runner& runner, const PreparedMesh& mesh, const SampleParams& params,
-               std::span<const ListedCandidate> list, std::uint32_t parts);
+    /// Begins. The job, what it refers to and the runner must outlive it. Throws std::bad_alloc,
+    /// and std::system_error where no thread can be started.
+    DividedRun(Runner& runner, const WholeJob& job, std::uint32_t parts);
     /// Cancels what is left.
     ~DividedRun();
     DividedRun(const DividedRun&) = delete;
@@ -49,7 +47,6 @@ class DividedRun {
     bool note(std::size_t part, const Progress& now);
 
     Runner& runner_;
-    SampleParams params_;
     Cut cut_;
     WholeSurface whole_;
     std::vector<std::unique_ptr<LocalExchange>> exchanges_;

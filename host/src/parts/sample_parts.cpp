@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "engine/domain/existing.hpp"
-#include "engine/domain/face_mask.hpp"
 #include "engine/domain/listed.hpp"
 #include "parts/cut.hpp"
 #include "parts/decide_stages.hpp"
@@ -37,8 +36,8 @@ Result<std::vector<Bytes>> parts_of(const WholeSurface& whole, std::uint32_t pro
     return guarded([&]() -> Result<std::vector<Bytes>> {
         GEODISK_TRY(check_processes(whole.mesh, processes));
         // Before the cut, which relies on them.
-        const auto frame = whole.list.empty() ? frame_of(whole.mesh, whole.params)
-                                              : frame_of_disks(whole.mesh, whole.params);
+        const auto frame = whole.frame != nullptr ? Result<JobFrame>(*whole.frame)
+                                                  : frame_of(whole.mesh, whole.params);
         GEODISK_TRY(frame);
         const auto owners = whole.cut(whole.mesh, whole.params, processes);
         return owners ? divide(whole, *frame, *owners, processes)

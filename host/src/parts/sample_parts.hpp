@@ -32,6 +32,7 @@ struct WholeSurface {
     const Cut& cut;
     double max_candidates = kMaxAtOnce;
     const Checkpoints* checkpoints = nullptr; ///< Null for a job without any.
+    const JobFrame* frame = nullptr;          ///< Null for that of the mesh.
     /// Candidates, decided in this order, in place of those that faces draw; empty for the latter.
     std::span<const ListedCandidate> list{};
 };

@@ -43,11 +43,11 @@ struct Sharing {
     friend bool operator==(const Sharing&, const Sharing&) = default;
 };
 
-/// A job of one surface that may be divided into parts: candidates are decided in the frame of its
-/// mesh.
+/// A job of one surface that may be divided into parts.
 struct WholeJob {
     const PreparedMesh* mesh;
     SampleParams params;
+    JobFrame frame;
     std::vector<ListedCandidate> list{}; ///< Empty if candidates are drawn.
 };
 

@@ -18,7 +18,7 @@ struct PlacedSurface {
     Stages stages;       ///< Stages of the surface in its frame.
     std::uint32_t first_face, first_vertex, first_corner;
     double scale = 1;        ///< Length in the instance of a unit of the mesh.
-    bool may_divide = false; ///< The frame is that of the mesh.
+    bool may_divide = false; ///< See Domain::Impl::whole.
     std::uint32_t lag = 0;   ///< Offset added to the orders of its candidates.
 };
 

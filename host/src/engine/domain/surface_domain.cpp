@@ -136,6 +136,10 @@ Result<PlacedSurface> place(const SurfacePart& part) {
     return surface;
 }
 
+bool can_divide(const SampleParams& params) {
+    return params.class_factors.empty() && !params.maximal;
+}
+
 } // namespace
 
 PlacedSurface placed(const PreparedMesh& mesh, const SampleParams& params, const JobFrame& frame) {
@@ -147,7 +151,7 @@ Result<Domain> Domain::surface(const PreparedMesh& mesh, const SampleParams& par
         const auto frame = frame_of(mesh, params);
         GEODISK_TRY(frame);
         PlacedSurface surface = placed(mesh, params, *frame);
-        surface.may_divide = params.class_factors.empty() && !params.maximal;
+        surface.may_divide = can_divide(params);
         return wrapped(SurfaceDomain::make({surface}));
     });
 }
@@ -157,7 +161,8 @@ Result<Domain> Domain::surface(const PreparedMesh& mesh, const SampleParams& par
     return guarded([&]() -> Result<Domain> {
         GEODISK_TRY(check_params(mesh, params));
         GEODISK_TRY(check_job(frame, params));
-        const PlacedSurface surface = placed(mesh, params, frame);
+        PlacedSurface surface = placed(mesh, params, frame);
+        surface.may_divide = can_divide(params);
         GEODISK_TRY(check_candidates(mesh, params, surface.stages));
         GEODISK_TRY(check_frame(frame, mesh, params));
         return wrapped(SurfaceDomain::make({surface}));
@@ -257,7 +262,7 @@ SurfaceDomain::SurfaceDomain(std::vector<PlacedSurface> surfaces, FaceCells cell
         maximal->params.avoid = {};
     }
     if (surfaces_[0].may_divide) {
-        whole = WholeJob{surfaces_[0].mesh, params, {}};
+        whole = WholeJob{surfaces_[0].mesh, params, surfaces_[0].frame, {}};
     }
     samples = samples_to_expect(full_, params.darts, params.stop_count);
     stop_count = params.stop_count;

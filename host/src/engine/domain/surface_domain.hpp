@@ -18,8 +18,7 @@ class SurfaceDomain : public Domain::Impl {
   public:
     SurfaceDomain(std::vector<PlacedSurface> surfaces, FaceCells cells);
     static Result<std::unique_ptr<const Impl>> make(std::vector<PlacedSurface> surfaces);
-    /// Implements listed_domain(), for candidates that are checked. The job may be divided if the
-    /// frame is that of the mesh.
+    /// Implements listed_domain(), for candidates that are checked.
     static Result<Domain> listed(const PreparedMesh& mesh, const SampleParams& params,
                                  const JobFrame& frame, std::span<const ListedCandidate> candidates,
                                  bool may_divide = false);

@@ -44,7 +44,7 @@ Result<std::unique_ptr<Division>> Division::begin(const Runner::Impl& runner, co
 
 void Division::begin_run() {
     run_.reset();
-    run_ = std::make_unique<DividedRun>(runner_, *job_.mesh, job_.params, job_.list, parts_);
+    run_ = std::make_unique<DividedRun>(runner_, job_, parts_);
 }
 
 bool Division::divides_more(const Error& error) {
