@@ -240,6 +240,45 @@ TEST_CASE("files say what they were made from, and whether their samples were ch
     }
 }
 
+TEST_CASE("edits of radius factors need not keep the largest and the least one") {
+    const TemporaryFolder folder;
+    write_hills(folder, "hills.ply", 0);
+    std::string even, dense;
+    for (int vertex = 0; vertex < 41 * 41; ++vertex) {
+        even += "0.9\n";
+        dense += vertex == 500 ? "0.4\n" : vertex == 900 ? "1\n" : "0.9\n";
+    }
+    const auto write = [&](const std::string& name, const std::string& values) {
+        std::istringstream factors(values);
+        std::string content = bytes_of(folder / "hills.ply"), line;
+        content.replace(content.find("element face"), 0, "property double g\n");
+        std::size_t at = content.find("end_header\n") + 11;
+        while (std::getline(factors, line)) {
+            at = content.find('\n', at);
+            content.insert(at, ' ' + line);
+            at += line.size() + 2;
+        }
+        folder.write(name, content);
+    };
+    write("old.ply", even);
+    write("new.ply", dense);
+    const Arguments job{"-d", "2", "--radius-factor", "attribute:g"};
+    for (const auto& [before, after] : {std::pair{"old.ply", "new.ply"}, {"new.ply", "old.ply"}}) {
+        REQUIRE(run(folder, joined({"sample", before, "-o", "a.ply"}, job)).status == 0);
+        REQUIRE(run(folder, joined({"sample", after, "-o", "b.ply", "--from", before, "--update",
+                                    "a.ply", "--json", "b.json"},
+                                   job))
+                    .status == 0);
+        REQUIRE(
+            run(folder,
+                joined({"sample", after, "-o", "c.ply", "--from", before, "--json", "c.json"}, job))
+                .status == 0);
+        CHECK(rows_of(folder, "b.ply") == rows_of(folder, "c.ply"));
+        CHECK(disks_in(folder, "b.json") > 0);
+        CHECK(disks_in(folder, "b.json") < disks_in(folder, "c.json"));
+    }
+}
+
 TEST_CASE("updates of other samples, meshes and kinds are refused") {
     const TemporaryFolder folder;
     write_hills(folder, "old.ply", 0);
@@ -260,7 +299,8 @@ TEST_CASE("updates of other samples, meshes and kinds are refused") {
     refused(3, "a.ply: has as its mask none, not x<9", joined(edit, {"-d", "3", "--mask", "x<9"}));
     for (const Arguments& kind :
          {Arguments{"--maximal"}, Arguments{"--classes", "2"},
-          Arguments{"--method", "darts", "--darts", "400"}, Arguments{"--exact", "-n", "100"}}) {
+          Arguments{"--method", "darts", "--darts", "400"}, Arguments{"--exact", "-n", "100"},
+          Arguments{"--order", "farthest"}}) {
         const Arguments make{"sample", "old.ply", "-o", "other.ply"};
         const Arguments distance =
             kind[0] == "--exact" ? Arguments{} : Arguments{"-d", "3"}; // It finds one.

@@ -208,10 +208,11 @@ TEST_CASE("an explicit choice of an unusable device is refused with every reason
     }
 }
 
-TEST_CASE("a number that is no index is looked for in the names") {
+TEST_CASE("a number of 100 and more that is no index is looked for in the names") {
     std::vector<DeviceReport> reports{
         report_of("Radeon 780M", VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU),
         report_of("GeForce RTX 4090", VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU),
+        report_of("llvmpipe (LLVM 15.0.6, 256 bits)", VK_PHYSICAL_DEVICE_TYPE_CPU),
     };
     reports[0].uuid[0] = 0xAB;
     CHECK(select_device(reports, "4090").value() == 1);
@@ -221,7 +222,10 @@ TEST_CASE("a number that is no index is looked for in the names") {
     CHECK(select_device(reports, "AB000000-0000-0000-0000-000000000000").value() == 0);
     CHECK(select_device(reports, "ab000000000000000000000000000000").value() == 0);
     CHECK(select_device(reports, "-1").error().status == Status::no_device);
-    CHECK(select_device(reports, "2").error().status == Status::no_device);
+    CHECK(select_device(reports, "256").value() == 2);
+    for (const char* const index : {"3", "5", "15", "25", "99"}) {
+        CHECK(select_device(reports, index).error().status == Status::no_device);
+    }
     CHECK(select_device({}, "").error().status == Status::no_device);
     CHECK(select_device({}, "0").error().status == Status::no_device);
 }

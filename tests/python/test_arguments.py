@@ -18,6 +18,10 @@ def near(**options):
     return geodisk.neighbours(VERTICES, FACES, **options)
 
 
+def sampled(**options):
+    return geodisk.sample(VERTICES, FACES, min_distance=0.5, **options)
+
+
 @pytest.mark.parametrize(
     "call, kind, text",
     [
@@ -47,6 +51,10 @@ def near(**options):
         (lambda: geodisk.render(SAMPLES, view=3), TypeError, "view is 3, neither a name"),
         (lambda: geodisk.render(SAMPLES, view=[(1, 2, 3)]), TypeError, "view is .*, neither a name"),
         (lambda: geodisk.render(SAMPLES, up=1), TypeError, "up is 1, not a text"),
+        (lambda: sampled(frames="upright", up="xy"), geodisk.InvalidArgument, "up is 'xy', none of x, y, z"),
+        (lambda: sampled(order="progressive", level_factor=0), geodisk.InvalidArgument, "level_factor is 0, not from 1.1 to 8"),
+        (lambda: sampled(device=True), TypeError, "device is True, none of devices"),
+        (lambda: sampled(device=25), geodisk.NoDevice, "no Vulkan device matches"),
     ],
 )
 def test_what_is_refused(call, kind, text):

@@ -62,6 +62,18 @@ def test_what_is_saved_is_read_again(tmp_path, name, kind):
     assert os.listdir(tmp_path) == [path.name]
 
 
+@pytest.mark.parametrize("kind", FORMATS)
+def test_radii_that_are_alike_but_not_half_the_distance_stay(tmp_path, kind):
+    vertices, faces = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0]], float), [[0, 1, 2]]
+    samples = geodisk.sample(vertices, faces, min_distance=0.4, radius_factor=np.full(3, 0.5))
+    assert len(samples) > 10 and geodisk.verify(samples).ok
+    samples.save(tmp_path / f"a.{kind}")
+    again = geodisk.read(tmp_path / f"a.{kind}")
+    assert np.allclose(again.radius, 0.1) and again.min_distance == 0.4
+    assert geodisk.verify(again, vertices, faces).ok
+    assert not geodisk.verify(samples, min_distance=0.4).ok
+
+
 @pytest.mark.skipif("GEODISK_COMMAND" not in os.environ, reason="needs the program")
 def test_files_of_the_program_are_read(tmp_path):
     def program(*arguments):

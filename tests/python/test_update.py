@@ -356,6 +356,36 @@ def test_samples_of_a_mesh_joined_in_another_way_are_refused(tmp_path):
         assert same(there, geodisk.sample(edited, faces, min_distance=0.15, keep_seams=made))
 
 
+@pytest.mark.filterwarnings("ignore::geodisk.MeshWarning")
+def test_meshes_of_files_are_welded_again(tmp_path):
+    def write(name, points):
+        rows = [f"v {x} {y} {z}" for x, y, z in points.tolist()]
+        rows += [f"f {a + 1} {b + 1} {c + 1}" for a, b, c in faces]
+        (tmp_path / name).write_text("\n".join(rows) + "\n")
+        return str(tmp_path / name)
+
+    # Two squares a thousandth apart.
+    gap = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [1, 0, 1e-3], [2, 0, 0], [2, 1, 0], [1, 1, 1e-3]], float)
+    faces = [[0, 1, 2], [0, 2, 3], [4, 5, 6], [4, 6, 7]]
+    edited = gap * 1.0
+    edited[0, 2] = 0.1
+    before, after = write("a.obj", gap), write("b.obj", edited)
+    wanted = geodisk.sample(edited, faces, min_distance=0.15, weld=0.01)
+    samples = geodisk.sample(before, min_distance=0.15, weld=0.01)
+    assert same(geodisk.update(samples, gap), samples)
+    samples.save(tmp_path / "a.csv")
+    read = geodisk.read(tmp_path / "a.csv")
+    for there in (
+        geodisk.update(samples, edited),
+        geodisk.update(samples, after),
+        geodisk.update(read, after, vertices=before, weld=0.01),
+    ):
+        assert same(there, wanted) and there._told["weld"] == "0.01"
+        assert geodisk.verify(there).ok
+    with pytest.raises(geodisk.InvalidArgument, match="made with weld=0.01"):
+        geodisk.update(read, after, vertices=before)
+
+
 def test_samples_of_a_file_need_all_parameters_that_made_them(tmp_path):
     density = 1 + (VERTICES[:, 0] > 0)
     mask = VERTICES[FACES].mean(axis=1)[:, 2] > 0

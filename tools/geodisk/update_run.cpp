@@ -78,7 +78,7 @@ void check_edit(const SampleJob& job, const MeshInput& before, const MeshInput& 
         fail("has " + std::to_string(mesh.dimension()) + " coordinates per vertex, but " +
              job.from + " has " + std::to_string(before.dimension()));
     }
-    if (before.radii && mesh.radii &&
+    if (before.radii && mesh.radii && before.radii->min_density() > 0 &&
         (before.radii->largest_density() != mesh.radii->largest_density() ||
          before.radii->min_density() != mesh.radii->min_density())) {
         fail("has another largest or least density than " + job.from +
@@ -99,12 +99,17 @@ JobFrame frame_of_samples(const SampleFile& file, const MeshInput& mesh, SampleP
 /// Checks that samples are of a kind that can be updated.
 void check_kind(const SampleFile& file) {
     const SampleHeader& header = file.header;
+    if (header.find("kept_of") != nullptr) {
+        fail_input(file.path, "has just the first samples of --order farthest, so the others are "
+                              "not known; give a file with all samples");
+    }
     const std::pair<std::string_view, const char*> kinds[] = {
         {"darts", "--method darts"},
         {"classes", "--classes"},
         {"features", "--features"},
         {"at_vertices", "--at-vertices"},
         {kLevelDistances, "--order progressive"},
+        {"order", "--order farthest"},
         {"maximal", "--maximal"},
         {"exact", "--count --exact"},
         {"avoid", "--avoid"},
@@ -128,10 +133,6 @@ void check_kind(const SampleFile& file) {
         }
         fail_input(file.path, "was made in Python with " + *options +
                                   ", which cannot be updated; sample the mesh again");
-    }
-    if (header.find("kept_of") != nullptr) {
-        fail_input(file.path, "has just the first samples of --order farthest, so the others are "
-                              "not known; give a file with all samples");
     }
     if (!fits_digest(file)) {
         fail_input(file.path, std::string("has other samples than its digest is of: ") +

@@ -47,9 +47,9 @@ struct ContextOptions {
 /// Index into `reports` of the device that `device` names.
 ///
 /// `device` is, tried in this order: empty for the best device; a device UUID in hexadecimal, with
-/// or without dashes; an index into `reports`; or a part of the device name, upper and lower case
-/// being the same. Where several devices match, the best usable one is taken: discrete before
-/// integrated, virtual and CPU devices, then the order of `reports`.
+/// or without dashes; an index into `reports`, as any number below 100; or a part of the device
+/// name, upper and lower case being the same. Where several devices match, the best usable one is
+/// taken: discrete before integrated, virtual and CPU devices, then the order of `reports`.
 ///
 /// Errors: `no_device` when nothing matches, listing what there is; `device_lacks` when no match
 /// is usable, with every reason; `out_of_host_memory`.

@@ -56,14 +56,16 @@ std::optional<Uuid> parse_uuid(std::string_view text) {
     return uuid;
 }
 
-std::optional<std::size_t> parse_index(std::string_view text, std::size_t count) noexcept {
-    std::size_t index = 0;
+/// Returns the number that the text is, if it is one.
+std::optional<std::size_t> parse_number(std::string_view text) noexcept {
+    std::size_t number = 0;
     const char* end = text.data() + text.size();
-    const auto [last, failure] = std::from_chars(text.data(), end, index);
-    if (failure != std::errc{} || last != end || index >= count)
-        return std::nullopt;
-    return index;
+    const auto [last, failure] = std::from_chars(text.data(), end, number);
+    return failure == std::errc{} && last == end ? std::optional(number) : std::nullopt;
 }
+
+/// Larger numbers may be a part of a name, as 4090.
+constexpr std::size_t kMaxIndex = 99;
 
 template <class Predicate>
 std::vector<std::size_t> indices_where(Reports reports, Predicate matches) {
@@ -82,8 +84,12 @@ std::vector<std::size_t> find_matches(Reports reports, std::string_view device) 
         if (!matches.empty())
             return matches;
     }
-    if (const std::optional<std::size_t> index = parse_index(device, reports.size()))
-        return {*index};
+    if (const std::optional<std::size_t> number = parse_number(device)) {
+        if (*number < reports.size())
+            return {*number};
+        if (*number <= kMaxIndex) // Digits of versions in names are none.
+            return {};
+    }
     return indices_where(reports, [&](const DeviceReport& report) {
         return device.empty() || contains_ignoring_case(report.name, device);
     });

@@ -177,7 +177,7 @@ def _texture_of(
     except e.MeshRejected as error:
         raise e.invalid(str(error)) from None
     if not isinstance(mesh, Mesh):
-        return source, created(surface_from(source, source.vertices, False)), path
+        return source, created(surface_from(source, source.vertices, False, False)), path
     surface = mesh._surface
     is_same = np.array_equal(source.triangles, surface.indices()) and np.array_equal(
         source.vertices, surface.coordinates()

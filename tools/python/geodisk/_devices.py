@@ -95,6 +95,8 @@ def name_of(device: DeviceLike | None) -> str:
     if isinstance(device, str):
         return text(device, "device")
     try:
+        if isinstance(device, bool):
+            raise TypeError
         return str(operator.index(device))
     except TypeError:
         raise TypeError(

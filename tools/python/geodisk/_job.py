@@ -57,7 +57,6 @@ _OTHERS = {
     "lift": "lift",
     "coordinates": "coordinates",
     "edge_lengths": "edge_lengths",
-    "order": None,
 }
 
 

@@ -25,4 +25,7 @@ def levels_of(order: str, levels: int | None, factor: float | None) -> Levels | 
     count = 0 if levels is None else integer(levels, "levels", 2**32)
     if levels is not None and not 1 <= count <= 32:
         raise e.invalid(f"levels is {count}, not from 1 to 32")
-    return Levels(count, 2.0 if factor is None else number(factor, "level_factor"))
+    ratio = 2.0 if factor is None else number(factor, "level_factor")
+    if not 1.1 <= ratio <= 8:
+        raise e.invalid(f"level_factor is {ratio:g}, not from 1.1 to 8")
+    return Levels(count, ratio)

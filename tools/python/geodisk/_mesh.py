@@ -160,7 +160,7 @@ class Mesh:
                     has_materials=_record.has_materials(),
                 )
             )
-            surface = surface_from(source, source.vertices, keep_seams)
+            surface = surface_from(source, source.vertices, weld, keep_seams)
             self._file = MeshFile(absolute(path), weld, keep_seams, mesh_format, allow_outside)
         else:
             if columns or mesh_format is not None:
@@ -185,7 +185,7 @@ class Mesh:
                     raise e.invalid("with edge lengths, all faces must be triangles")
                 polygons, places = given, Surface(points, None).coordinates()
                 source = interruptible(lambda stop: split(places, polygons, weld, keep_seams, stop))
-                surface = surface_from(source, points, keep_seams)
+                surface = surface_from(source, points, weld, keep_seams)
             else:
                 surface = Surface(points, given, edge_lengths, weld, keep_seams)
             if attributes:
@@ -278,12 +278,14 @@ class Mesh:
         return copied
 
 
-def surface_from(source: Source, vertices: Any, keep_seams: bool) -> Surface:
+def surface_from(source: Source, vertices: Any, weld: bool | float, keep_seams: bool) -> Surface:
     """Returns the surface that a source is, where `vertices` are. Its vertices are joined already."""
     return Surface(
         vertices,
         source.triangles,
+        weld=weld,
         keep_seams=keep_seams,
+        is_joined=True,
         polygons=source.polygons,
         attributes=source.attributes,
         joined=source.joined,
@@ -295,7 +297,7 @@ def surface_from(source: Source, vertices: Any, keep_seams: bool) -> Surface:
 
 def joined_surface(vertices: Any, faces: Any, weld: bool | float, keep_seams: bool) -> Surface:
     """Returns a surface of triangles whose vertices are joined; other faces stay as they are."""
-    plain = Surface(vertices, faces, keep_seams=keep_seams)
+    plain = Surface(vertices, faces, weld=weld, keep_seams=keep_seams, is_joined=True)
     places, rows = plain.coordinates(), from_rows(plain.indices())
     joined = interruptible(lambda stop: split(places, rows, weld, keep_seams, stop)).joined
     if joined is None:
@@ -312,7 +314,7 @@ def created(surface: Surface) -> c.Handle:
         index_type=s.UINT16 if corners.dtype == np.uint16 else s.UINT32,
         face_count=len(corners),
     )
-    if surface.weld is not False:
+    if surface.weld is not False and not surface.is_joined:
         params.weld = 1
         params.weld_distance = 0.0 if surface.weld is True else float(surface.weld)
     params.keep_seams = surface.keep_seams or surface.copied is not None

@@ -33,6 +33,8 @@ class Surface:
     edge_lengths : array_like of float, shape (f, 3), optional
     weld : bool or float
     keep_seams : bool
+    is_joined : bool
+        True if vertices were joined by `weld` as the mesh was read.
     polygons : ndarray of uint32, shape (f,), optional
         The caller's face of each triangle, where the numbers differ.
     attributes : dict of Attribute
@@ -64,6 +66,7 @@ class Surface:
     is_y_up: bool = False
     copied: NDArray[np.uint32] | None = None
     walls: str = ""
+    is_joined: bool = False
 
     def indices(self) -> NDArray[Any]:
         """Returns the faces as uint32 or uint16."""

@@ -70,7 +70,7 @@ def update(
     Parameters
     ----------
     samples : Samples
-        All samples of :func:`sample` on the mesh before, in any order. Not with darts, stop_count,
+        All samples of :func:`sample` on the mesh before, existing ones first. Not with darts, stop_count,
         exact, classes, features, maximal, another order or another metric.
     to : array_like of float, shape (v, d), or a mesh
         The edited mesh, or positions of its vertices; the mesh before by default.

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import numbers
 import operator
 import os
 import reprlib
@@ -105,7 +104,7 @@ def text(value: object, name: str) -> str:
 
 def choice(value: object, name: str, options: Iterable[str]) -> str:
     """Returns one of several words. Raises for anything else."""
-    if not isinstance(value, str) or value not in options:
+    if not isinstance(value, str) or value not in tuple(options):  # Of a text, each letter.
         raise e.invalid(f"{name} is {reprlib.repr(value)}, none of {', '.join(options)}")
     return value
 
@@ -160,8 +159,8 @@ def distance_of(
     min_distance: float | None, radius: float | None, count: float | None, darts: int = 0
 ) -> float | None:
     """Returns the minimum distance, or None where a count chooses it."""
-    if count is not None and not (isinstance(count, numbers.Real) and 1 <= count <= 1e300):
-        raise e.invalid(f"count is {count!r}, not a number of at least 1")
+    if count is not None and not 1 <= number(count, "count") <= 1e300:
+        raise e.invalid(f"count is {count}, not a number of at least 1")
     if count is not None and 0 < darts < count:
         raise e.invalid(f"{darts} darts cannot give {count} samples; raise darts")
     given = [x is not None for x in (min_distance, radius, count)]

@@ -115,8 +115,11 @@ def check_names(attributes: dict[str, NDArray[Any]]) -> None:
 
 
 def has_own_radii(samples: Samples) -> bool:
-    """Whether each sample has a radius of its own."""
-    return bool(len(samples) > 0 and np.ptp(samples.radius) > 0)
+    """Whether radii are others than half the minimum distance, which is that of the classes."""
+    if len(samples) == 0 or np.ptp(samples.radius) > 0:
+        return len(samples) > 0
+    half, own = samples.min_distance / 2, float(samples.radius[0])
+    return half > 0 and samples.class_distances is None and not math.isclose(own, half, rel_tol=1e-6)
 
 
 def columns_of(samples: Samples, as_box: bool) -> dict[str, NDArray[Any]]:
