@@ -215,7 +215,7 @@ def test_progressive_order_fills_level_after_level(tmp_path):
         dict(order="progressive", levels=0),
         dict(order="progressive", level_factor=1.0),
     ]:
-        with pytest.raises(ValueError, match="order|levels"):
+        with pytest.raises(ValueError, match="order|levels|level_factor"):
             geodisk.sample(square, min_distance=0.1, **wrong)
 
 
@@ -355,8 +355,9 @@ def test_bad_values():
     fails(ValueError, "alike", face_keys=[1, 2, 2, 3])
     fails(ValueError, r"shape \(3,\), not \(4,\)", face_mask=[True, False, True])
     fails(ValueError, "triangle 4, the mesh has 4; a mask of zeros", face_mask=[0, 4])
-    for count in (0, -1, 0.5, float("nan"), float("inf"), "9"):
+    for count in (0, -1, 0.5, float("nan"), float("inf")):
         fails(ValueError, "not a number of at least 1", min_distance=None, count=count)
+    fails(TypeError, "count is '9', not a number", min_distance=None, count="9")
     fails(ValueError, "pool_ratio is 0, not from", pool_ratio=0)
     fails(ValueError, "levels is 33, not from 1 to 32", order="progressive", levels=33)
     fails(ValueError, "features is True, not an angle", features=True)

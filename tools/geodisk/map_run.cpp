@@ -100,11 +100,11 @@ MapResult look_up_all(Texels texels, std::uint32_t padding, const NearestSamples
     }
     progress.clear();
     static_assert(SampleMap::kNoFace == Texels::kNone);
-    result.map.faces = std::move(texels).take_faces();
-    result.padded = pad(result.map, padding);
     result.covered = texels.covered();
     result.overlapping = texels.overlapping();
     result.repeating = texels.repeating();
+    result.map.faces = std::move(texels).take_faces();
+    result.padded = pad(result.map, padding);
     result.error = disks.error();
     return result;
 }

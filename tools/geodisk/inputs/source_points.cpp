@@ -127,7 +127,7 @@ NumberedPoints places_of(const MeshInput& mesh) {
 }
 
 NumberedPoints vertices_of(const MeshInput& mesh, const std::vector<VertexRange>& wanted) {
-    const NumberedPoints all = of_file(mesh, take(vertex_points(mesh.prepared, mesh.file.joined)));
+    NumberedPoints all = of_file(mesh, take(vertex_points(mesh.prepared, mesh.file.joined)));
     if (wanted.empty()) {
         return all;
     }

@@ -50,6 +50,7 @@ WallRule parse_wall(const std::string& text) {
 
 std::vector<WallRule> wall_rules(const std::vector<std::string>& walls) {
     std::vector<WallRule> rules;
+    rules.reserve(walls.size());
     for (const std::string& text : walls) {
         rules.push_back(parse_wall(text));
     }

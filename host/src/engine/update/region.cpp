@@ -51,7 +51,7 @@ Changes changes_between(const Darts& old, const Darts& now, bool has_keys) {
 
 Region::Region(Runner& runner, const EditedSurface& surface)
     : runner_(runner), surface_(surface),
-      reach_(surface.params.radii != nullptr ? 0 : reach_of(1, 1)),
+      reach_(surface.params.radii != nullptr ? reach_of(0, 0) : reach_of(1, 1)),
       faces_(surface.faces, surface.mesh) {
     for (const Sample& sample : surface.params.existing) {
         given_[sample.face].push_back(sample);
