@@ -81,6 +81,19 @@ std::string read_regular_file(const Path& path) {
     return read_bytes(path, std::nullopt);
 }
 
+std::string head_of(const Path& path, std::size_t max_bytes) {
+    std::error_code ignored;
+    if (input_stream(path) || !std::filesystem::is_regular_file(path, ignored)) {
+        return {};
+    }
+    const std::unique_ptr<std::FILE, FileCloser> file(open_to_read(path));
+    std::string head(file ? max_bytes : 0, '\0');
+    if (file) {
+        head.resize(std::fread(head.data(), 1, head.size(), file.get()));
+    }
+    return head;
+}
+
 std::string lower_case(std::string text) {
     for (char& character : text) {
         if (character >= 'A' && character <= 'Z') {

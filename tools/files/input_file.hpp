@@ -1,6 +1,7 @@
 // Reading a whole input file, with the errors a user can make.
 #pragma once
 
+#include <cstddef>
 #include <string>
 
 #include "program/path.hpp"
@@ -14,6 +15,10 @@ std::string read_file(const Path& path);
 /// Returns the bytes of a file that another file names. Throws UserError(bad_input) for pipes too:
 /// nobody may write to them.
 std::string read_regular_file(const Path& path);
+
+/// Returns the first `max_bytes` bytes of a regular file, fewer if it is shorter or unreadable.
+/// Empty for all else: a pipe can be read just once.
+std::string head_of(const Path& path, std::size_t max_bytes);
 
 /// Throws UserError(bad_input) if `path` is a folder.
 void check_no_folder(const Path& path);

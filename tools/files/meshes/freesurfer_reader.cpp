@@ -1,6 +1,4 @@
 #include <algorithm>
-#include <array>
-#include <fstream>
 #include <limits>
 #include <string>
 #include <string_view>
@@ -9,7 +7,6 @@
 #include "files/byte_order.hpp"
 #include "files/input_file.hpp"
 #include "files/meshes/polygon_mesh.hpp"
-#include "files/stream_path.hpp"
 #include "files/text_file.hpp"
 #include "files/text_lines.hpp"
 #include "program/exact_text.hpp"
@@ -148,12 +145,7 @@ class FreeSurferText {
 } // namespace
 
 bool begins_as_freesurfer(const Path& path) {
-    if (input_stream(path)) { // Which can be read just once.
-        return false;
-    }
-    std::array<char, kTriangleMagic.size()> head{};
-    std::ifstream(path, std::ios::binary).read(head.data(), head.size());
-    const std::string_view magic(head.data(), head.size());
+    const std::string magic = head_of(path, kTriangleMagic.size());
     return magic == kTriangleMagic || magic == kQuadMagic || magic == kNewQuadMagic;
 }
 
