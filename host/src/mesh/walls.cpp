@@ -91,11 +91,12 @@ Result<Done> check_edges(std::span<const std::uint32_t> triangles, std::uint32_t
 }
 
 bool has_faces(std::span<const std::uint32_t> triangles) {
-    bool has_one = false;
-    for (std::size_t f = 0; f < triangles.size() / 3 && !has_one; ++f) {
-        has_one = takes_part(face_of(triangles, f));
+    for (std::size_t f = 0; f < triangles.size() / 3; ++f) {
+        if (takes_part(face_of(triangles, f))) {
+            return true;
+        }
     }
-    return has_one;
+    return false;
 }
 
 /// A corner of a face, at a vertex where a wall ends.

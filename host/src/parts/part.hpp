@@ -74,8 +74,8 @@ struct Part {
     SampleParams params() const;
     /// Returns the candidates of the whole, on the faces of the part, if they are drawn.
     CandidateDraw draw() const;
-    /// Returns the stages of the whole.
-    Stages stages() const;
+    /// Returns the stages of the whole, if its candidates are listed.
+    Stages list_stages() const;
 };
 
 /// Returns a part without any faces yet, for a job in such a frame. At most so many

@@ -52,10 +52,9 @@ CandidateDraw Part::draw() const {
     return {mesh, drawn, frame};
 }
 
-Stages Part::stages() const {
-    return is_listed ? listed_stages(frame.samples, std::max<std::size_t>(1, listed.size()),
-                                     CandidateSource::list)
-                     : draw().stages();
+Stages Part::list_stages() const {
+    return listed_stages(frame.samples, std::max<std::size_t>(1, listed.size()),
+                         CandidateSource::list);
 }
 
 Result<Bytes> message_of(const Part& part) {

@@ -18,7 +18,8 @@ constexpr double kBorder = 6;
 
 PartRun::PartRun(const Part& part, Runner& runner, ProgressCallback progress)
     : part_(part), runner_(runner), progress_(std::move(progress)), order_{part.has_keys},
-      draw_(part.draw()), stages_(part.stages()), settled_(part.existing) {
+      draw_(part.draw()), stages_(part.is_listed ? part.list_stages() : draw_.stages()),
+      settled_(part.existing) {
     std::vector<std::uint8_t> is_near(part.faces.size());
     for (std::size_t face = 0; face < is_near.size(); ++face) {
         is_near[face] = part.roles[face] == FaceRole::near ? 1 : 0;
@@ -66,8 +67,7 @@ void PartRun::begin(std::uint32_t first_stage, std::uint32_t stages) {
     own_count_ = 0;
     if (part_.is_listed) {
         drawn_ = part_.listed;
-        own_count_ = static_cast<std::uint64_t>(std::ranges::count_if(
-            drawn_, [&](const DrawnCandidate& dart) { return is_own(dart); }));
+        count_own();
         return;
     }
     for (std::uint32_t face = 0; face < part_.mesh.face_count(); ++face) {
@@ -97,6 +97,10 @@ std::uint64_t PartRun::own_up_to(std::uint32_t stage, std::uint32_t priority) co
 
 void PartRun::end_at(std::uint32_t priority) {
     std::erase_if(drawn_, [&](const DrawnCandidate& dart) { return dart.priority > priority; });
+    count_own();
+}
+
+void PartRun::count_own() {
     own_count_ = static_cast<std::uint64_t>(
         std::ranges::count_if(drawn_, [&](const DrawnCandidate& dart) { return is_own(dart); }));
 }

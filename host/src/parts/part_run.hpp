@@ -53,6 +53,8 @@ class PartRun {
     /// accepted.
     Result<Darts> accepted_of(const Darts& candidates, std::span<const Sample> settled);
     void settle(const DrawnCandidate& dart);
+    /// Counts own candidates.
+    void count_own();
     /// Decides all own candidates among near samples.
     Result<Darts> decide_all(const Darts& near);
     /// Decides own candidates near others. Returns nothing if other samples may change.

@@ -51,6 +51,7 @@ Changes changes_between(const Darts& old, const Darts& now, bool has_keys) {
 
 Region::Region(Runner& runner, const EditedSurface& surface)
     : runner_(runner), surface_(surface),
+      margin_(surface.params.radii != nullptr ? halo_margin(surface.frame) : 0),
       reach_(surface.params.radii != nullptr ? reach_of(0, 0) : reach_of(1, 1)),
       faces_(surface.faces, surface.mesh) {
     for (const Sample& sample : surface.params.existing) {
@@ -60,8 +61,7 @@ Region::Region(Runner& runner, const EditedSurface& surface)
 
 double Region::reach_of(double factor, double other) const {
     const double distance = surface_.params.min_distance;
-    const double margin = surface_.params.radii != nullptr ? halo_margin(surface_.frame) : 0;
-    return distance * (kReach / 2 * (factor + other) + margin);
+    return distance * (kReach / 2 * (factor + other) + margin_);
 }
 
 bool Region::raise_reach() {

@@ -82,6 +82,7 @@ class Region {
 
     Runner& runner_;
     EditedSurface surface_;
+    double margin_; ///< Of distances to faces, in minimum distances; 0 where radii do not vary.
     /// More than candidates that conflict are apart, if one of them is in the region.
     double reach_;
     FaceReach faces_;
