@@ -282,6 +282,8 @@ TEST_CASE("lists of vertices of FreeSurfer are 1 inside and 0 outside") {
     fails(head + "1\n" + rows, "line 4: follows the last of 1 vertex");
     fails(head + "1\n4 0 0 0 0\n", "line 3: vertex 4 is out of range, the mesh has 4 vertices");
     fails(head + "1\n-1 0 0 0 0\n", "line 3: has a point of space instead of a vertex (-1)");
+    fails(head + "2\n" + rows.substr(0, rows.size() - 5),
+          "line 4: has 3 words, but the first line");
     fails(head + "1\n1.5 0 0 0 0\n", "line 3: '1.5' is not the number of a vertex");
     fails(head + "1\n" + std::string(3, '\0') + "\n", "line 3: contains a NUL byte");
 }

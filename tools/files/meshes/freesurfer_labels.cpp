@@ -193,10 +193,16 @@ VertexValues read_freesurfer_label(const Path& path, std::string_view bytes,
     VertexValues result;
     result.is_whole = true;
     result.values.assign(vertex_count, 0);
+    std::size_t width = 0;
     for (std::uint32_t i = 0; i < *count; ++i) {
         if (!next_words()) {
             fail_input(path,
                        "ends after " + grouped(i) + " of " + counted(*count, "vertex", "vertices"));
+        }
+        width = i == 0 ? words.size() : width;
+        if (words.size() != width) { // Such as one that is cut off.
+            fail("has " + counted(words.size(), "word", "words") +
+                 ", but the first line of a vertex " + std::to_string(width));
         }
         if (words[0] == "-1") {
             fail("has a point of space instead of a vertex (-1); assign it to the surface first, "
