@@ -58,6 +58,7 @@ std::optional<FieldOptions> options_for(RequestField field) {
         return FieldOptions{"--from", {"--from", "old.ply"}};
     case RequestField::class_counts: // --count has them, or else a field that excludes them.
     case RequestField::min_distance:
+    case RequestField::face_keys:
     case RequestField::frame:
     case RequestField::split_from:
     case RequestField::processes: // See tests of geodisk_mpi.

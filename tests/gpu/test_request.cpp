@@ -5,6 +5,7 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <numeric>
 #include <vector>
 
 #include <geodisk/count_search.hpp>
@@ -83,6 +84,11 @@ class PairRequest {
             params.class_factors = factors_;
             request_.class_counts = counts_;
             break;
+        case RequestField::face_keys:
+            keys_.resize(mesh_.face_count());
+            std::iota(keys_.begin(), keys_.end(), 5);
+            params.face_keys = keys_;
+            break;
         case RequestField::existing:
             params.existing = given_;
             break;
@@ -130,6 +136,7 @@ class PairRequest {
     JobFrame frame_;
     std::array<float, 4> factors_{1, 0.5F, 0.5F, 1};
     std::array<std::uint32_t, 2> counts_{9, 9};
+    std::vector<std::uint32_t> keys_;
     std::array<Sample, 1> given_{{{0, {1, 0, 0}}}};
     std::array<KeepOut, 1> avoided_{{{{0, {1, 0, 0}}, 0.1}}};
     SampleRequest request_;

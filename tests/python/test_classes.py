@@ -165,3 +165,14 @@ def test_wrong_ones_are_refused():
     ):
         with pytest.raises(geodisk.InvalidArgument, match=text):
             geodisk.sample(VERTICES, FACES, **options)
+    with pytest.raises(TypeError, match=r"class_avoid\[1\] is a pair"):
+        geodisk.sample(VERTICES, FACES, min_distance=0.6, classes=2, class_avoid={1: VERTICES})
+
+
+def test_existing_samples_without_classes_get_the_first_one_with_a_warning():
+    existing = geodisk.sample(VERTICES, FACES, min_distance=0.9)[:2]
+    with pytest.warns(geodisk.GeodiskWarning, match="^mesh 1: existing: the samples have no class"):
+        made = geodisk.sample_many(
+            [(VERTICES, FACES)] * 2, min_distance=0.6, classes=2, existing=[None, existing]
+        )
+    assert made[1].classes[:2].tolist() == [0, 0]

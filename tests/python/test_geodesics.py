@@ -84,6 +84,13 @@ def test_surfaces_of_edge_lengths():
     assert path.points is None and path.length == 4 and len(path) == 2
 
 
+def test_arguments_come_after_a_whole_mesh_or_after_its_faces(sphere):
+    radii = geodisk.disk_radii(sphere, [0, 7], 0.1)
+    for given in ((sphere.vertices, sphere.triangles, [0, 7], 0.1), (sphere, None, [0, 7], 0.1)):
+        assert geodisk.disk_radii(*given).tolist() == radii.tolist()
+    assert geodisk.disk_radii(sphere, [0, 7], area=0.1).tolist() == radii.tolist()
+
+
 def test_bad_queries_are_refused(sphere):
     distances, path = geodisk.geodesic_distances, geodisk.geodesic_path
     for call, error, message in [
@@ -98,6 +105,8 @@ def test_bad_queries_are_refused(sphere):
             geodisk.InvalidArgument,
             "each and return_nearest exclude each other",
         ),
+        (lambda: distances(sphere, 0, 5), TypeError, "sources again"),
+        (lambda: geodisk.disk_radii(sphere, 0, 5, area=0.1), TypeError, "sources again"),
         (lambda: path(sphere, 0), geodisk.InvalidArgument, "give start and end"),
         (lambda: path(sphere, 0, "x"), TypeError, "end is neither a vertex"),
         (lambda: path(sphere, 0, 10**6), geodisk.InvalidArgument, "is used by no face"),

@@ -113,6 +113,7 @@ def test_points_to_avoid():
         ([TETRAHEDRON], {"count": 9, "radius": 1}, ValueError, "one of"),
         ([TETRAHEDRON], {"count": 9, "density": [[1, 1]]}, ValueError, "mesh 0: density"),
         ([TETRAHEDRON], {"count": 9, "density": []}, ValueError, "0 arrays for 1 meshes"),
+        ([TETRAHEDRON] * 2, {"count": 9, "face_mask": [0, 1]}, ValueError, "mesh 0: face_mask is 0, neither"),
     ],
 )
 def test_wrong_ones_are_named(meshes, arguments, kind, text):

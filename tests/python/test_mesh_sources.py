@@ -190,6 +190,23 @@ def test_polygons_are_split_as_those_of_files(tmp_path):
     assert geodisk.Mesh(VERTICES, FACES).polygons is None
 
 
+@pytest.mark.filterwarnings("ignore::geodisk.MeshWarning")
+def test_values_of_faces_count_those_that_make_no_triangle():
+    mesh = geodisk.Mesh(CUBE, [*SIDES, [], [0, 1]])
+    assert len(mesh.triangles) == 12
+    first = np.arange(8) == 0
+    masked = geodisk.sample(mesh, min_distance=0.1, face_mask=first)
+    assert set(masked.face_index.tolist()) == {0, 1}
+    assert set(masked.interpolate(np.arange(8) + 5, of="faces").tolist()) == {5}
+    assert geodisk.Mesh(CUBE, [*SIDES, [], [0, 1]], walls=first).area == 5
+    assert len(geodisk.sample(mesh, min_distance=0.2, density=np.arange(8) + 1)) > 0
+    for wrong in (np.ones(7, bool), np.ones(40, bool)):
+        with pytest.raises(geodisk.InvalidArgument, match=r"face_mask has the shape \((7|40),\), not \(12,\)"):
+            geodisk.sample(mesh, min_distance=0.1, face_mask=wrong)
+    two = geodisk.Mesh(CUBE, [SIDES[0], [0, 1]])  # Two faces as given, and two triangles.
+    assert set(geodisk.sample(two, min_distance=0.1, face_mask=[True, False]).face_index.tolist()) == {0, 1}
+
+
 @pytest.mark.parametrize(
     "faces, kind, text",
     [

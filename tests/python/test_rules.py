@@ -23,6 +23,7 @@ PARAMETERS = {
     "density": ("density", {"density": np.ones(4)}),
     "class_factors": ("classes", {"classes": 2}),
     "class_counts": ("class_counts", {"class_counts": [2, 2], "classes": 2}),
+    "face_keys": ("face_keys", {"face_keys": [3, 2, 1, 0]}),
     "existing": ("existing", {"existing": POINT}),
     "avoid": ("avoid", {"avoid": (POINT, 0.1)}),
     "features": ("features", {"features": 30}),

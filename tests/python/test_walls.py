@@ -54,7 +54,7 @@ def test_walls_of_edges_part_a_mesh_and_data_of_vertices_stays_valid(tmp_path):
     assert geodisk.verify(made).ok
     assert np.allclose(made.interpolate(vertices), made.points)
     made.save(tmp_path / "a.ply")
-    assert geodisk.read(tmp_path / "a.ply")._told["walls"] == "8 edges"
+    assert geodisk.read(tmp_path / "a.ply")._told["walls"].startswith("8 edges ")
     pickled = __import__("pickle").loads(__import__("pickle").dumps(mesh))
     assert pickled.info == mesh.info
     with pytest.raises(TypeError, match="has walls"):
@@ -136,3 +136,29 @@ def test_disks_hold_the_area_asked_for():
     assert found[0] == int((distances < radius).sum())
     with pytest.raises(geodisk.InvalidArgument, match="area is 0"):
         geodisk.disk_radii(mesh, middle, area=0)
+
+
+def test_walls_go_along_with_samples_to_other_positions():
+    vertices, faces = square()
+    for walls in (column(5), np.arange(len(faces)) < 9):
+        samples = geodisk.sample(geodisk.Mesh(vertices, faces, walls=walls), min_distance=0.6, order="progressive")
+        for positions in (2 * vertices, 2 * samples._surface.vertices):
+            moved = geodisk.transfer(samples, positions)
+            assert moved.min_distance == pytest.approx(2 * geodisk.verify(samples).smallest, rel=1e-6)
+            assert moved.level_distances is None and geodisk.verify(moved).ok
+        with pytest.raises(geodisk.InvalidArgument, match="there are 80 positions for 81 vertices"):
+            geodisk.transfer(samples, vertices[:-1])
+
+
+def test_samples_of_a_file_tell_which_walls_they_were_made_with(tmp_path):
+    vertices, faces = square()
+    mesh, other = (geodisk.Mesh(vertices, faces, walls=walls) for walls in (column(5), column(5) + 2))
+    geodisk.sample(mesh, min_distance=0.6).save(tmp_path / "a.npz")
+    samples = geodisk.read(tmp_path / "a.npz")
+    assert len(geodisk.update(samples, vertices=geodisk.Mesh(vertices, faces, walls=column(5)[::-1, ::-1])))
+    with pytest.raises(geodisk.InvalidArgument, match="made with walls=5 edges .*; give the mesh before in"):
+        geodisk.update(samples, other, vertices=other)
+    for wrong in (other, geodisk.Mesh(vertices, faces)):
+        with pytest.warns(geodisk.GeodiskWarning, match="made with walls=5 edges .*, and this mesh has"):
+            geodisk.verify(samples, wrong)
+    assert geodisk.verify(samples, mesh).ok

@@ -24,6 +24,7 @@ enum class RequestField : std::uint8_t {
     density, ///< Radii that are made from a density.
     class_factors,
     class_counts,
+    face_keys,
     existing,
     avoid,
     features,
@@ -40,7 +41,7 @@ enum class RequestField : std::uint8_t {
 };
 
 /// Number of fields.
-inline constexpr std::uint32_t kRequestFields = 23;
+inline constexpr std::uint32_t kRequestFields = 24;
 
 /// Returns the name of a field as spelled above.
 GEODISK_API const char* to_string(RequestField field) noexcept;

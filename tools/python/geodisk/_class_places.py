@@ -50,7 +50,7 @@ class ClassPlaces:
         of_class = [np.full(len(points), _ALL, np.uint8)]
         all_points, all_radii = [points], [radii]
         for number, own in avoided.items():
-            points, radii = avoided_of(mesh._handle, own)
+            points, radii = avoided_of(mesh._handle, own, f"class_avoid[{number}]")
             all_points.append(points)
             all_radii.append(radii)
             of_class.append(np.full(len(points), number, np.uint8))

@@ -61,9 +61,9 @@ class Classes:
 
     def existing_of(self, existing: Any, count: int) -> NDArray[np.uint8]:
         """Returns the classes of `count` samples to keep: 0 unless they have some."""
-        if not isinstance(existing, Samples) or "class" not in existing.columns:
+        if not has_classes(existing):
             return np.zeros(count, np.uint8)
-        classes = existing.columns["class"]
+        classes: NDArray[np.uint32] = existing.columns["class"]
         if (classes >= self.count).any():
             first = int(np.argmax(classes >= self.count))
             raise e.invalid(
@@ -71,6 +71,11 @@ class Classes:
                 "numbered from 0"
             )
         return classes.astype(np.uint8)
+
+
+def has_classes(existing: Any) -> bool:
+    """Returns whether samples to keep have classes."""
+    return isinstance(existing, Samples) and "class" in existing.columns
 
 
 def _check(table: NDArray[np.float64]) -> None:

@@ -54,6 +54,8 @@ def _pyvista(arrays: Arrays) -> Any:
     import pyvista
 
     points, others = _in_space(arrays)
+    if len(points) == 0:  # It takes no empty arrays.
+        return pyvista.PolyData()
     cloud = pyvista.PolyData(points)
     for name, array in with_bytes(others).items():
         cloud.point_data["Normals" if name == "normals" else name] = array

@@ -31,17 +31,17 @@ def existing_of(mesh: c.Handle, existing: ExistingLike | None) -> NDArray[Any]:
 
 
 def avoided_of(
-    mesh: c.Handle, avoid: AvoidLike | None
+    mesh: c.Handle, avoid: AvoidLike | None, name: str = "avoid"
 ) -> tuple[NDArray[Any], NDArray[np.float64]]:
     """Returns points to avoid and their radii as the library takes them; none for None."""
     if avoid is None:
         return np.empty(0, POINT), np.empty(0)
     if not isinstance(avoid, (tuple, list)) or len(avoid) != 2:
-        raise TypeError("avoid is a pair: points, as for existing, and their radius or radii")
-    points = points_of(mesh, avoid[0], "avoid")
-    radii = real(avoid[1], "avoid").astype(np.float64)
+        raise TypeError(f"{name} is a pair: points, as for existing, and their radius or radii")
+    points = points_of(mesh, avoid[0], name)
+    radii = real(avoid[1], name).astype(np.float64)
     if radii.ndim > 0 and radii.shape != points.shape:
-        raise e.invalid(f"avoid has {len(points)} points and radii of the shape {radii.shape}")
+        raise e.invalid(f"{name} has {len(points)} points and radii of the shape {radii.shape}")
     return points, np.ascontiguousarray(np.broadcast_to(radii, points.shape))
 
 
@@ -51,7 +51,10 @@ def points_of(
     """Returns points as the library takes them. Those without faces get the nearest ones."""
     if are_points(given):
         coordinates: Any = given
-        given = Samples(real(coordinates, name).astype(np.float64))
+        places = real(coordinates, name).astype(np.float64)
+        if not np.isfinite(places).all():
+            raise e.invalid(f"{name} has coordinates that are not finite")
+        given = Samples(places)
     if isinstance(given, Samples):
         faces, weights = _places_of(mesh, given, name)
     else:
@@ -60,8 +63,8 @@ def points_of(
                 f"{name}: points are a geodisk.Samples, an array of coordinates, or a pair of "
                 "face_index and barycentric"
             )
-        faces = indices(given[0], "face_index").astype(np.uint32)
-        weights = real(given[1], "barycentric").astype(np.float64)
+        faces = indices(given[0], f"{name}: face_index").astype(np.uint32)
+        weights = real(given[1], f"{name}: barycentric").astype(np.float64)
     if faces.ndim != 1 or weights.shape != (len(faces), 3):
         raise e.invalid(
             f"{name}: face_index has the shape {faces.shape}, barycentric {weights.shape}, not "

@@ -158,6 +158,8 @@ def geodesic_distances(
     mesh, after = _mesh_and_after(
         vertices, faces, edge_lengths, weld, keep_seams, mesh_format, allow_outside
     )
+    if after is not None and sources is not None:
+        raise TypeError("a mesh and sources are given, and sources again")
     sources = after if sources is None else sources
     if sources is None:
         raise e.invalid("give sources: from where to measure")
@@ -212,7 +214,8 @@ def disk_radii(
     Parameters
     ----------
     vertices, faces, edge_lengths, weld, keep_seams, mesh_format, allow_outside
-        The mesh, as for :class:`Mesh`. After a :class:`Mesh` or a file, `sources` may come second.
+        The mesh, as for :class:`Mesh`. After a :class:`Mesh` or a file, `sources` and `area` may come second
+        and third: ``disk_radii(mesh, 0, 0.1)``.
     sources : int, array_like of int or bool, Samples, coordinates, or faces and weights
         As for :func:`geodesic_distances`.
     area : float
@@ -241,7 +244,11 @@ def disk_radii(
     mesh, after = _mesh_and_after(
         vertices, faces, edge_lengths, weld, keep_seams, mesh_format, allow_outside
     )
-    sources = after if sources is None else sources
+    if after is not None:  # As in (mesh, sources, area).
+        if sources is not None and area is not None:
+            raise TypeError("a mesh, sources and an area are given, and sources again")
+        area = sources if area is None else area
+        sources = after
     if sources is None or area is None:
         raise e.invalid("give sources and area: from where, and how much the disks hold")
     area = number(area, "area")

@@ -186,6 +186,7 @@ class Mesh:
                 polygons, places = given, Surface(points, None).coordinates()
                 source = interruptible(lambda stop: split(places, polygons, weld, keep_seams, stop))
                 surface = surface_from(source, points, weld, keep_seams)
+                surface = dataclasses.replace(surface, given_faces=len(polygons))
             else:
                 surface = Surface(points, given, edge_lengths, weld, keep_seams)
             if attributes:
@@ -199,7 +200,7 @@ class Mesh:
         self._prepare(surface, source.joined_edges if source else 0)
         oddities = oddities_of(self._handle, source.handle if source else None)
         if walls is not None:
-            oddities = tuple(one for one in oddities if one.kind not in _OF_WALLS)
+            oddities = _told_of_walls(oddities)
         self.warnings = (*left_out, *oddities)
         warn(self.warnings)
 
@@ -306,6 +307,29 @@ def joined_surface(vertices: Any, faces: Any, weld: bool | float, keep_seams: bo
     return dataclasses.replace(plain, faces=joined[corners], corners=corners, joined=joined)
 
 
+def posed(surface: Surface, positions: Any, record: Record) -> Mesh:
+    """Returns a mesh of the same faces, cut along the same walls, with its vertices at other positions."""
+    places = Surface(positions, None).coordinates()
+    if surface.copied is not None and len(places) == surface.own_vertex_count():
+        places = np.concatenate([places, places[surface.copied]])
+    if len(places) != surface.vertex_count():
+        raise e.invalid(f"there are {len(places)} positions for {surface.own_vertex_count()} vertices")
+    record.check_no_file()
+    moved = dataclasses.replace(surface, vertices=places, edge_lengths=None, attributes={}, columns={})
+    record.check(moved)
+    mesh = Mesh.__new__(Mesh)
+    check_record(mesh, record)
+    mesh._prepare(moved)
+    mesh.warnings = _told_of_walls(oddities_of(mesh._handle, None))
+    warn(mesh.warnings)
+    return mesh
+
+
+def _told_of_walls(found: tuple[e.MeshWarning, ...]) -> tuple[e.MeshWarning, ...]:
+    """Returns what is odd but for what walls make."""
+    return tuple(one for one in found if one.kind not in _OF_WALLS)
+
+
 def created(surface: Surface) -> c.Handle:
     """Returns the library's mesh."""
     corners = surface.indices()
@@ -391,7 +415,9 @@ def mask_of(
 ) -> NDArray[np.uint8]:
     """Returns which triangles take samples, as the library takes it."""
     given = array_of(face_mask, name)
-    triangles, polygons = len(surface.indices()), surface.polygons
+    triangles = len(surface.indices())
+    if given.ndim == 0:
+        raise e.invalid(f"{name} is {given}, neither a mask nor a list of triangles")
     if given.dtype.kind != "b":
         chosen = indices(given, name)
         if chosen.ndim != 1:
@@ -406,9 +432,8 @@ def mask_of(
         mask = np.zeros(triangles, np.uint8)
         mask[chosen] = 1
         return mask
-    if given.shape != (triangles,) and polygons is not None:
-        if given.ndim == 1 and given.size > int(polygons.max()):
-            given = given[polygons]
+    if given.ndim == 1:
+        given = surface.by_triangle(given)
     if given.shape != (triangles,):
         raise e.invalid(f"{name} has the shape {given.shape}, not ({triangles},)")
     return np.ascontiguousarray(given).view(np.uint8)

@@ -70,10 +70,10 @@ def _listed(kind: type[W], *arguments: Any, **options: Any) -> tuple[W, ...]:
     )
 
 
-def warn_of_whole_mask(mask: NDArray[np.uint8] | None) -> None:
+def warn_of_whole_mask(mask: NDArray[np.uint8] | None, prefix: str = "") -> None:
     """Warns of a mask that takes every triangle."""
     if mask is not None and mask.size and mask.all():
-        warn([GeodiskWarning("face_mask leaves out no triangle", "mask_of_all", 1)])
+        warn([GeodiskWarning(f"{prefix}face_mask leaves out no triangle", "mask_of_all", 1)])
 
 
 def warn(found: Sequence[GeodiskWarning]) -> None:

@@ -60,7 +60,9 @@ def from_lists(faces: Sequence[Any]) -> Polygons:
     for number, row in enumerate(rows):
         if row.ndim != 1 or (row.size > 0 and row.dtype.kind not in "iu"):
             raise TypeError(f"face {number} is not a sequence of integers")
-    return polygons_of(np.concatenate(rows), [len(row) for row in rows])
+    corners = [row for row in rows if row.size > 0]  # An empty list has no type.
+    flat = np.concatenate(corners) if corners else np.empty(0, np.uint32)
+    return polygons_of(flat, [len(row) for row in rows])
 
 
 def from_padded(faces: Any) -> Polygons:

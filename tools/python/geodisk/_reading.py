@@ -34,7 +34,7 @@ def read(path: str | os.PathLike[str]) -> Samples:
     Returns
     -------
     Samples
-        Equal to those that were saved. `min_distance` is NaN and `seed` None if the file does not
+        Equal to those that were saved, but `order` counts those of the file. `min_distance` is NaN and `seed` None if the file does not
         have them. They do not refer to their mesh.
 
     Raises

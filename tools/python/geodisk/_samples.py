@@ -434,11 +434,7 @@ class Samples:
             raise e.invalid(f"a sample lies in triangle {faces.max()}, the mesh has {len(corners)}")
         values = array_of(values, "values")
         if of == "faces":
-            polygons = surface.polygons
-            if polygons is not None and values.shape[:1] != (len(corners),):
-                array = values_of(values, int(polygons.max()) + 1, "faces")
-                return np.asarray(array[polygons[faces]])
-            return np.asarray(values_of(values, len(corners), "faces")[faces])
+            return np.asarray(values_of(surface.by_triangle(values), len(corners), "faces")[faces])
         if of == "vertices":
             count = surface.own_vertex_count()
             if values.shape[:1] == (surface.vertex_count(),):  # With those of copies.
@@ -556,6 +552,7 @@ class Samples:
         if pixel_size is not None:
             if suffix != ".star":
                 raise e.invalid("pixel_size is for samples in *.star")
+            pixel_size = number(pixel_size, "pixel_size")
             if not (math.isfinite(pixel_size) and pixel_size > 0):
                 raise e.invalid(f"pixel_size is {pixel_size}, not a positive number")
         writers = {".npz": write_npz, ".csv": write_csv, ".ply": write_ply}

@@ -37,6 +37,8 @@ class Surface:
         True if vertices were joined by `weld` as the mesh was read.
     polygons : ndarray of uint32, shape (f,), optional
         The caller's face of each triangle, where the numbers differ.
+    given_faces : int, optional
+        Number of the caller's faces, where it is known.
     attributes : dict of Attribute
         Read from a file.
     columns : dict of ndarray of uint32, shape (f,)
@@ -67,6 +69,7 @@ class Surface:
     copied: NDArray[np.uint32] | None = None
     walls: str = ""
     is_joined: bool = False
+    given_faces: int | None = None
 
     def indices(self) -> NDArray[Any]:
         """Returns the faces as uint32 or uint16."""
@@ -107,6 +110,15 @@ class Surface:
         """Returns the number of vertices without copies, which `own_corners` refers to."""
         return self.vertex_count() - (0 if self.copied is None else len(self.copied))
 
+    def by_triangle(self, values: NDArray[Any]) -> NDArray[Any]:
+        """Returns the value of each triangle for those of faces as given; else what is given."""
+        count = self.given_faces
+        if count is None:
+            count = len(self.indices()) if self.polygons is None else int(self.polygons.max()) + 1
+        if values.shape[:1] != (count,):
+            return values
+        return values[: len(self.indices())] if self.polygons is None else values[self.polygons]
+
     def vertex_values(self, values: ArrayLike, name: str) -> NDArray[Any]:
         """Returns the values as float64 or float32, one for each vertex."""
         if isinstance(values, str):
@@ -129,8 +141,8 @@ class Surface:
         """Returns values of faces or corners as those of vertices, as the program takes them."""
         faces, vertices = self.indices(), self.vertex_count()
         count = len(faces)
-        if self.polygons is not None and array.shape == (int(self.polygons.max()) + 1,):
-            array = array[self.polygons]
+        if array.ndim == 1:
+            array = self.by_triangle(array)
         if array.shape not in ((count,), (count, 3)):
             raise e.invalid(
                 f"{name} has the shape {array.shape}, not ({vertices},), one for each vertex, "

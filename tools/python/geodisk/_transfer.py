@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 from . import _errors as e
 from ._inherited import Wanted
 from ._inputs import places_of, run, surface_of
-from ._mesh import Mesh, created, is_mesh, mesh_of
+from ._mesh import Mesh, created, is_mesh, mesh_of, posed
 from ._protocols import Faces, MeshLike
 from ._record import Record, recorded
 from ._samples import Samples
@@ -99,17 +99,19 @@ def transfer(
     if source is None:
         raise e.invalid("samples in a box have no mesh")
     wanted = Wanted(texture, normals, frames, up, attributes, has_colours=True)
-    own_faces, own_weld, own_seams = source.faces, source.weld, source.keep_seams
+    own: Surface = source
 
     def make(record: Record, read: Sequence[str]) -> Mesh:
         if is_mesh(to):
-            joins = (False, False) if isinstance(to, Mesh) else (own_weld, own_seams)
+            joins = (False, False) if isinstance(to, Mesh) else (own.weld, own.keep_seams)
             return mesh_of(
                 to, None, None, *joins, attributes=read, record=record, allow_outside=allow_outside
             )
         if read:
             raise TypeError("attributes are for meshes from files")
-        return Mesh(to, own_faces, weld=own_weld, keep_seams=own_seams, _record=record)
+        if own.walls:
+            return posed(own, to, record)
+        return Mesh(to, own.faces, weld=own.weld, keep_seams=own.keep_seams, _record=record)
 
     mesh, record = wanted.mesh(samples, (), make)
     target = mesh._surface
@@ -130,6 +132,7 @@ def transfer(
         radius=np.full(len(samples), distance / 2),
         min_distance=distance,
         class_distances=None,  # Those of the other pose.
+        level_distances=None,
         report={"options": ["transfer"]},
         _surface=target,
         _job=None,

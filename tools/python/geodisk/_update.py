@@ -451,7 +451,11 @@ def _edited_mesh(
         if to_faces is None:
             columns = {name: x for name, x in source.columns.items() if name != "part"}
             mesh._surface = dataclasses.replace(
-                mesh._surface, polygons=source.polygons, attributes=own, columns=columns
+                mesh._surface,
+                polygons=source.polygons,
+                given_faces=source.given_faces,
+                attributes=own,
+                columns=columns,
             )
         return mesh
 

@@ -16,10 +16,12 @@ from ._existing import POINT, AvoidLike, avoided_of
 from ._inputs import option, run, surface_of
 from ._mesh import created, mask_of
 from ._protocols import Faces, MeshLike
+from ._oddities import warn
 from ._radii import one_of, radii_on
 from ._samples import Samples
 from ._surface import Surface
 from ._values import flag, number
+from ._walls import are_other
 from ._writing import has_own_radii
 
 
@@ -190,6 +192,11 @@ def verify(
     KeyboardInterrupt
         Ctrl-C ends it at once.
 
+    Warns
+    -----
+    GeodiskWarning
+        For samples that were made on a mesh of other walls, as far as they tell them.
+
     Examples
     --------
     >>> import geodisk
@@ -219,6 +226,8 @@ def verify(
     mask = None if surface is None or face_mask is None else mask_of(surface, face_mask)
     if mask is not None and not mask.any():
         raise e.invalid("face_mask leaves out all faces")
+    if surface is not None:
+        _warn_of_walls(samples, surface)
     handle = None if surface is None else created(surface)
     radii = None
     given = radius_factor if density is None else density
@@ -293,6 +302,17 @@ def _avoided_on(
         first = int(np.argmax(wrong))
         raise e.invalid(f"avoid: point {first} has the radius {radii[first]}, not a positive one")
     return points, radii
+
+
+def _warn_of_walls(samples: Samples, surface: Surface) -> None:
+    """Warns of samples that were made on a mesh of other walls."""
+    told, own = samples._told.get("walls", ""), surface.walls
+    is_made_there = samples.seed is not None and "transfer" not in samples.report.get("options", [])
+    if is_made_there and are_other(told, own):
+        made = f"with walls={told}" if told else "without walls"
+        here = f"walls={own}" if own else "none"
+        text = f"the samples were made {made}, and this mesh has {here}; distances may differ"
+        warn([e.GeodiskWarning(text, "other_surface", 1)])
 
 
 def _pairs(violations: dict[str, Any]) -> NDArray[np.int64]:

@@ -14,7 +14,7 @@ from . import _errors as e
 from . import _library as c
 from . import _structs as s
 from ._class_places import ClassPlaces, values_of
-from ._classes import Classes
+from ._classes import Classes, has_classes
 from ._existing import existing_of
 from ._farthest import put_farthest_first
 from ._features import degrees_of
@@ -73,7 +73,6 @@ class Wanted:
         radii = radii_of(mesh, a.density, a.radius_factor)
         keys = None if a.face_keys is None else keys_of(mesh, a.face_keys)
         mask = None if a.face_mask is None else mask_of(mesh._surface, a.face_mask)
-        warn_of_whole_mask(mask)
         kept = existing_of(mesh._handle, a.existing)
         places = ClassPlaces(
             mesh,
@@ -118,6 +117,7 @@ class Wanted:
             features=degrees,
             **request_numbers,
         )
+        self._lacks_classes = own_classes is not None and len(kept) > 0 and not has_classes(a.existing)
         self._class_counts = None
         if a.class_counts is not None:
             if own_classes is None or kinds is None:
@@ -191,6 +191,10 @@ class Wanted:
             self._degrees if samples.report["lacks_features"] else 0,
         )
         warn([e.GeodiskWarning(f"{prefix}{one}", one.kind, one.count) for one in found])
+        warn_of_whole_mask(self._mask, prefix)
+        if self._lacks_classes:
+            text = f"{prefix}existing: the samples have no class, so they get class 0"
+            warn([e.GeodiskWarning(text, "no_classes", self._existing)])
         if self._classes is not None and self._classes.count > 1 and len(samples) > 0:
             made = np.bincount(samples.columns["class"], minlength=self._classes.count)
             for number in np.flatnonzero(made == 0):

@@ -45,6 +45,7 @@ constexpr RequestRule kRules[] = {
     {Field::metric, Field::frame, "frames are for distances along the surface"},
     {Field::frame, Field::count, "a frame has a distance already"},
     {Field::frame, Field::split_from, "samples in a frame are told on the faces that it samples"},
+    {Field::at_vertices, Field::face_keys, "keys are of faces, and vertices go by their numbers"},
     {Field::at_vertices, Field::darts, "each vertex is one dart"},
     {Field::at_vertices, Field::maximal, "gaps are those between all points of the surface"},
     {Field::at_vertices, Field::density, "vertices have the density that they have"},
@@ -93,6 +94,7 @@ RequestFields fields_of(const SampleParams& params) noexcept {
     fields.add(Field::radii, params.radii != nullptr);
     fields.add(Field::density, params.radii != nullptr && !params.radii->packing().empty());
     fields.add(Field::class_factors, !params.class_factors.empty());
+    fields.add(Field::face_keys, !params.face_keys.empty());
     fields.add(Field::existing, !params.existing.empty());
     fields.add(Field::avoid, !params.avoid.empty());
     return fields;
@@ -117,7 +119,7 @@ RequestFields fields_of(const SampleRequest& request) noexcept {
 const char* to_string(RequestField field) noexcept {
     constexpr const char* kNames[] = {
         "min_distance", "count",       "is_exact",      "darts",        "stop_count", "maximal",
-        "radii",        "density",     "class_factors", "class_counts", "existing",   "avoid",
+        "radii",        "density",     "class_factors", "class_counts", "face_keys", "existing",   "avoid",
         "features",     "progressive", "farthest",      "keep",         "metric",     "frame",
         "split_from",   "at_vertices", "update",        "processes",    "frames"};
     static_assert(std::size(kNames) == kRequestFields);

@@ -5,7 +5,9 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
+from .. import _errors as e
 from .._arrays import array_of, indices
 from .._geodesics import geodesic_distances
 from .._mesh import Mesh
@@ -45,12 +47,26 @@ def geodesic_distance(
     """
     import torch
 
+    if dst is not None and np.shape(dst) != (np.shape(pos)[:1] if src is None else np.shape(src)):
+        raise e.invalid("dst has not one vertex for each of src")
     mesh = Mesh(array_of(pos, "pos"), array_of(face, "face").T, keep_seams=True)
     scale = mesh.area**0.5 if norm else 1.0
     sources = indices(np.arange(len(mesh.vertices)) if src is None else src, "src")
-    each, row = np.unique(sources, return_inverse=True)
     within = None if max_distance is None else max_distance * scale
-    found = geodesic_distances(mesh, each, each=True, within=within)[row] / scale
+    found = np.full((len(sources), len(mesh.vertices)), np.inf)
+    own = np.arange(len(sources))
+    found[own, _checked(sources, mesh, "src")] = 0  # Also for one that no face uses.
+    is_used = np.isin(sources, mesh.triangles)
+    if is_used.any():
+        each, row = np.unique(sources[is_used], return_inverse=True)
+        found[is_used] = geodesic_distances(mesh, each, each=True, within=within)[row] / scale
     if dst is not None:
-        found = found[np.arange(len(found)), indices(dst, "dst")]
+        found = found[own, _checked(indices(dst, "dst"), mesh, "dst")]
     return torch.from_numpy(found).to(pos.dtype)
+
+
+def _checked(vertices: NDArray[Any], mesh: Mesh, name: str) -> NDArray[Any]:
+    """Returns vertices of a mesh, after a check."""
+    if vertices.size and int(vertices.max()) >= len(mesh.vertices):
+        raise e.invalid(f"{name} has the vertex {vertices.max()}, the mesh has {len(mesh.vertices)}")
+    return vertices
