@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <array>
+#include <numeric>
 #include <optional>
 #include <string>
-#include <numeric>
 #include <vector>
 
 #include <geodisk/count_search.hpp>

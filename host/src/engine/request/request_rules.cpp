@@ -118,10 +118,10 @@ RequestFields fields_of(const SampleRequest& request) noexcept {
 
 const char* to_string(RequestField field) noexcept {
     constexpr const char* kNames[] = {
-        "min_distance", "count",       "is_exact",      "darts",        "stop_count", "maximal",
-        "radii",        "density",     "class_factors", "class_counts", "face_keys", "existing",   "avoid",
-        "features",     "progressive", "farthest",      "keep",         "metric",     "frame",
-        "split_from",   "at_vertices", "update",        "processes",    "frames"};
+        "min_distance", "count",      "is_exact",      "darts",        "stop_count", "maximal",
+        "radii",        "density",    "class_factors", "class_counts", "face_keys",  "existing",
+        "avoid",        "features",   "progressive",   "farthest",     "keep",       "metric",
+        "frame",        "split_from", "at_vertices",   "update",       "processes",  "frames"};
     static_assert(std::size(kNames) == kRequestFields);
     return kNames[static_cast<std::size_t>(field)];
 }
