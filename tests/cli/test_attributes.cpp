@@ -331,6 +331,47 @@ TEST_CASE("attributes that a float does not hold are refused by glTF, and double
     CHECK(run(folder, sampled("small.ply", "b.glb")).status == 0);
 }
 
+TEST_CASE("no two columns of a file have one name") {
+    const TemporaryFolder folder;
+    const auto mesh = [](const std::string& name) {
+        return "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
+               "property float z\nproperty uchar red\nproperty uchar green\nproperty uchar blue\n"
+               "property float " +
+               name +
+               "\nelement face 2\nproperty list uchar int vertex_indices\nend_header\n"
+               "0 0 0 1 2 3 4\n1 0 0 1 2 3 5\n1 1 0 1 2 3 6\n0 1 0 1 2 3 7\n3 0 1 2\n3 0 2 3\n";
+    };
+    folder.write("vertex.ply", mesh("vertex"));
+    folder.write("rgb.ply", mesh("rgb"));
+    const auto sampled = [](const std::string& name, const std::string& attributes,
+                            const std::string& out) {
+        return Arguments{"sample", name, "-o", out, "-d", "0.3", "--attributes", attributes};
+    };
+    check_fails(folder, 3, "the attribute 'vertex' has the name of a column of samples",
+                joined(sampled("vertex.ply", "vertex", "a.csv"), {"--at-vertices"}));
+    check_fails(folder, 2, "a.pcd: two columns would be called 'rgb'",
+                sampled("rgb.ply", "all", "a.pcd"));
+    CHECK(run(folder, sampled("rgb.ply", "rgb", "a.pcd")).status == 0);
+    CHECK(run(folder, sampled("rgb.ply", "all", "a.vtp")).status == 0);
+    folder.write("five.txt", "0 0 0 0\n1 0 0 1\n1 1 0 0\n0 1 0 1\n");
+    folder.write("coordinates.ply", mesh("coordinates"));
+    check_fails(
+        folder, 2, "a.vtp: two columns would be called 'coordinates'",
+        joined(sampled("coordinates.ply", "coordinates", "a.vtp"), {"--coordinates", "five.txt"}));
+}
+
+TEST_CASE("columns that have none somewhere are -1 in glTF") {
+    const TemporaryFolder folder;
+    folder.write("a.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\ng top\nf 1 3 4\n");
+    REQUIRE(run(folder, {"sample", "a.obj", "-d", "0.2", "--columns", "group", "-o", "a.gltf"})
+                .status == 0);
+    const Json document = Json::parse(bytes_of(folder / "a.gltf"));
+    const Json& attributes = document["meshes"][0]["primitives"][0]["attributes"];
+    const Json& group = document["accessors"][attributes["_GROUP"].get<std::size_t>()];
+    CHECK(group["min"][0] == -1);
+    CHECK(group["max"][0] == 0);
+}
+
 TEST_CASE("scenes are turned as pictures guess, as an option says, or as glTF is") {
     const TemporaryFolder folder;
     REQUIRE(run(folder, {"shapes", "terrain:10", "-o", "t.ply"}).status == 0);

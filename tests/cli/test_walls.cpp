@@ -4,12 +4,14 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <filesystem>
 #include <string>
 #include <tuple>
 #include <utility>
 #include <vector>
 
 #include "cli/command.hpp"
+#include "files/meshes/sidecar_files.hpp"
 #include "files/samples/sample_file.hpp"
 
 namespace geodisk::test {
@@ -180,6 +182,56 @@ TEST_CASE("samples follow an edit of a mesh with walls") {
     check_fails(
         folder, 3, "has as its walls material:wall, not none",
         {"sample", "b.obj", "-o", "d.ply", "--from", "a.obj", "--update", "a.ply", "-d", "0.7"});
+}
+
+TEST_CASE("samples of other walls, masks and radii than their files give now are not updated") {
+    const TemporaryFolder folder;
+    folder.write("a.obj", rooms(true));
+    std::string some, all, factors;
+    for (int v = 0; v < 81; ++v) {
+        some += v % 9 < 5 ? "1\n" : "0\n";
+        all += "1\n";
+        factors += v == 0 ? "0.9\n" : "1\n";
+    }
+    // What the file has at first, and then.
+    const std::tuple<const char*, const char*, std::string, std::string> cases[] = {
+        {"--walls", "edges:f.txt", column_of_edges(7), column_of_edges(2)},
+        {"--mask", "file:f.txt", some, all},
+        {"--radius-factor", "file:f.txt", factors, all}};
+    for (const auto& [name, value, first, then] : cases) {
+        const std::string option = name;
+        CAPTURE(option);
+        const Arguments how{"-d", "0.7", name, value};
+        const Arguments update =
+            joined({"sample", "a.obj", "-o", "b.csv", "--from", "a.obj", "--update", "a.csv"}, how);
+        folder.write("f.txt", first);
+        REQUIRE(run(folder, joined({"sample", "a.obj", "-o", "a.csv"}, how)).status == 0);
+        CHECK(run(folder, update).status == 0);
+        folder.write("f.txt", then);
+        std::filesystem::remove(folder / "b.csv");
+        check_fails(folder, 3, "was made with other walls, another mask or other radii", update);
+    }
+}
+
+TEST_CASE("labels of vertices on a wall are those of their nearest side") {
+    const TemporaryFolder folder;
+    folder.write("a.obj", rooms(true));
+    folder.write("cut.txt", column_of_edges(7));
+    const Arguments walls{"--walls", "edges:cut.txt"};
+    REQUIRE(run(folder, joined({"sample", "a.obj", "-d", "1.7", "-o", "a.csv"}, walls)).status ==
+            0);
+    REQUIRE(
+        run(folder,
+            joined({"cells", "a.obj", "a.csv", "-o", "b.csv", "--labels", "a.label.gii"}, walls))
+            .status == 0);
+    REQUIRE(run(folder, joined({"distances", "a.obj", "a.csv", "-o", "d.csv"}, walls)).status == 0);
+    const std::vector<double> labels = tools::read_values(folder / "a.label.gii", 81).values;
+    const std::vector<std::string> lines = lines_of(bytes_of(folder / "d.csv"));
+    REQUIRE(labels.size() == 81);
+    for (std::size_t v = 0; v < labels.size(); ++v) {
+        CAPTURE(v);
+        CHECK(lines[v + 1].ends_with(',' + std::to_string(static_cast<int>(labels[v]) - 1)));
+    }
 }
 
 TEST_CASE("samples move to another pose with the walls of both, and are told without them") {

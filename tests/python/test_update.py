@@ -397,3 +397,18 @@ def test_samples_of_a_file_need_all_parameters_that_made_them(tmp_path):
             geodisk.update(read, moved(), before=before, **of_mesh)
     there = geodisk.update(read, moved(), before={"density": density, "face_mask": mask}, **of_mesh)
     assert same(there, whole(moved(), density=density, face_mask=mask))
+
+
+def test_samples_of_a_file_tell_which_mask_they_were_made_with(tmp_path):
+    all_faces = np.ones(len(FACES), bool)
+    mask = np.arange(len(FACES)) < len(FACES) // 2
+    geodisk.sample(VERTICES, FACES, min_distance=0.3, face_mask=mask).save(tmp_path / "a.csv")
+    samples = geodisk.read(tmp_path / "a.csv")
+    mesh = geodisk.Mesh(VERTICES, FACES)
+    with pytest.raises(geodisk.InvalidArgument, match="made with another face_mask"):
+        geodisk.update(samples, vertices=mesh, before={"face_mask": all_faces})
+    wider = geodisk.update(samples, vertices=mesh, before={"face_mask": mask}, face_mask=all_faces)
+    wider.save(tmp_path / "b.csv")
+    again = geodisk.read(tmp_path / "b.csv")
+    kept = geodisk.update(again, vertices=mesh, before={"face_mask": all_faces})
+    assert np.array_equal(kept.points, wider.points) and len(kept) > len(samples)

@@ -5,8 +5,8 @@
 #include <utility>
 
 #include <geodisk/nearest.hpp>
+#include <geodisk/neighbours.hpp>
 
-#include "geodisk/inputs/source_points.hpp"
 #include "program/batches.hpp"
 #include "program/failure.hpp"
 #include "program/interrupt.hpp"
@@ -77,13 +77,17 @@ NearestSamples find_nearest(std::span<const SampleRow> rows, const MeshInput& me
 
 std::vector<std::uint32_t> samples_at_vertices(const NearestSamples& nearest,
                                                const MeshInput& mesh) {
-    const NumberedPoints vertices = vertices_of(mesh, {});
+    const std::size_t count = mesh.prepared.vertex_count();
+    const VertexPoints vertices = take(vertex_points(mesh.prepared, mesh.file.joined));
     const std::vector<NearestSample> found = take(nearest.of(vertices.points));
-    std::vector<std::uint32_t> samples(mesh.file.file_vertices(mesh.prepared.vertex_count()),
-                                       NearestSample::kNone);
-    for (std::size_t i = 0; i < found.size(); ++i) {
-        samples[vertices.numbers[i]] = found[i].sample;
+    std::vector<NearestSample> own(mesh.file.file_vertices(count));
+    for (std::size_t i = 0; i < found.size(); ++i) { // Of a vertex on a wall, all sides count.
+        NearestSample& at = own[mesh.file.file_vertex(vertices.vertices[i], count)];
+        const bool is_nearer = at.sample == NearestSample::kNone || found[i].distance < at.distance;
+        at = is_nearer ? found[i] : at;
     }
+    std::vector<std::uint32_t> samples(own.size());
+    std::ranges::transform(own, samples.begin(), &NearestSample::sample);
     return samples;
 }
 

@@ -12,6 +12,7 @@
 #include <geodisk/params.hpp>
 #include <geodisk/update.hpp>
 
+#include "files/samples/fingerprint.hpp"
 #include "files/samples/job_frame_text.hpp"
 #include "files/samples/sample_columns.hpp"
 #include "geodisk/checks/sample_checks.hpp"
@@ -151,8 +152,8 @@ bool tells(const std::string& text, Number number) {
 }
 
 /// Checks that the samples before are of this job, as far as their header tells.
-void check_job(const SampleFile& file, const SampleJob& job, const MeshInput& mesh,
-               double min_distance) {
+void check_job(const SampleFile& file, const SampleJob& job, const MeshInput& before,
+               const MeshInput& mesh, double min_distance) {
     if (file.header.find("min_distance") == nullptr || file.header.find("seed") == nullptr) {
         fail_input(job.update,
                    "does not say its seed and minimum distance, so it may not be whole; "
@@ -171,6 +172,12 @@ void check_job(const SampleFile& file, const SampleJob& job, const MeshInput& me
         if (is != should) {
             fail(key, is, should);
         }
+    }
+    const std::string* const fields = file.header.find(kFieldDigest);
+    if (fields != nullptr && trimmed(*fields) != field_digest(before)) {
+        fail_input(job.update, "was made with other walls, another mask or other radii than the "
+                               "same options give on " +
+                                   job.from + " now; give the files that they name as they were");
     }
     const SampleParams plain;
     HeaderEntries defaults;
@@ -229,7 +236,8 @@ UpdateRun::UpdateRun(const SampleJob& job, const MeshInput& mesh, ProgressLine& 
                                "a file of geodisk with them");
     }
     check_kind(file);
-    check_job(file, job, mesh_, distance_on_mesh(*job.min_distance, before_.prepared.statistics()));
+    check_job(file, job, before_, mesh_,
+              distance_on_mesh(*job.min_distance, before_.prepared.statistics()));
     print_warnings(warnings);
     if (!decide_alike(frame_of_samples(file, before_, params_), plain)) {
         decide_all(job.update + " was decided with other tolerances than a run over " + job.from +

@@ -74,8 +74,8 @@ std::set<std::string> names_taken() {
     names.insert(kSampleColumnNames.begin(), kSampleColumnNames.end());
     names.insert(kNumberedColumnNames.begin(), kNumberedColumnNames.end());
     names.insert(kFrameColumnNames.begin(), kFrameColumnNames.end());
-    for (const std::string_view name :
-         {kExistingColumn, kClassColumn, kLevelColumn, kFeatureColumn, kCoverColumn, kRowColumn}) {
+    for (const std::string_view name : {kExistingColumn, kClassColumn, kLevelColumn, kFeatureColumn,
+                                        kVertexColumn, kCoverColumn, kRowColumn}) {
         names.emplace(name);
     }
     for (const std::string& name : part_column_names()) {

@@ -19,6 +19,7 @@
 #include "files/output/block_writer.hpp"
 #include "files/samples/sample_instances.hpp"
 #include "files/samples/sample_writers.hpp"
+#include "geometry/mesh_parts.hpp"
 #include "program/exact_text.hpp"
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
@@ -42,17 +43,14 @@ std::size_t append_to(json& list, json member) {
     return list.size() - 1;
 }
 
-/// Throws for what a float does not hold exactly: glTF allows attributes of its users no integers
-/// of 32 bits. `index_of(i)` is that of row i.
-template <class IndexOf>
-void check_indices(std::size_t rows, const IndexOf& index_of) {
-    for (std::size_t i = 0; i < rows; ++i) {
-        if (index_of(i) > 1u << 24) {
-            fail_usage("glTF holds numbers of faces up to 16,777,216, and samples lie in face " +
-                       std::to_string(index_of(i)) + "; use " +
-                       listed_formats(&FormatFacts::holds_all));
-        }
+/// Returns a number of a column as float: glTF allows attributes of its users no integers of 32
+/// bits. Throws for what a float does not hold exactly; -1 stands for none.
+float float_of_index(const std::string& name, std::uint32_t index) {
+    if (index != kNoPart && index > 1u << 24) {
+        fail_usage("glTF holds whole numbers up to 16,777,216, and " + name + " has " +
+                   std::to_string(index) + "; use " + listed_formats(&FormatFacts::holds_all));
     }
+    return index == kNoPart ? -1.0F : static_cast<float>(index);
 }
 
 std::string upper_case(std::string text) {
@@ -151,11 +149,14 @@ class Points {
     void add(const std::string& name, std::size_t components, const Value& value) {
         attributes_[name] = accessors_.add(components, value);
     }
-    /// The same for numbers of faces, one of each point.
+    /// The same for whole numbers, one of each point.
     template <class IndexOf>
     void add_indices(const std::string& name, const IndexOf& index_of) {
-        check_indices(accessors_.count(), index_of);
-        add(name, 1, [&](std::size_t i, std::size_t) { return static_cast<float>(index_of(i)); });
+        std::vector<float> numbers(accessors_.count());
+        for (std::size_t i = 0; i < numbers.size(); ++i) {
+            numbers[i] = float_of_index(name, index_of(i));
+        }
+        add(name, 1, [&](std::size_t i, std::size_t) { return numbers[i]; });
     }
 
     /// Returns what has these attributes. A mode of 0 draws points, one of 4 triangles.

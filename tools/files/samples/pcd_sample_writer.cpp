@@ -1,5 +1,7 @@
 #include <array>
 #include <concepts>
+#include <set>
+#include <string>
 
 #include "files/output/block_writer.hpp"
 #include "files/samples/sample_writers.hpp"
@@ -30,7 +32,11 @@ void write_pcd(AtomicFile& file, const SampleHeader& header, std::span<const Sam
                                               exact_text(layout.origin[2]));
     }
     std::string fields, sizes, types, counts;
+    std::set<std::string> names;
     visit_columns({}, 0, layout, [&](std::string_view name, auto value) {
+        if (!names.insert(field_name(name)).second) {
+            fail_same_name(target, field_name(name));
+        }
         fields += ' ' + field_name(name);
         sizes += ' ' + std::to_string(sizeof value);
         types += std::floating_point<decltype(value)>    ? " F"

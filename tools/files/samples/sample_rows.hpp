@@ -54,7 +54,7 @@ SampleRow make_row(const ColumnPlaces& places, const ValueAt& value_at, const Fa
         if (!std::isfinite(row.position[axis])) {
             fail(std::string(places.is_numbered ? kNumberedColumnNames[axis]
                                                 : kSampleColumnNames[axis]) +
-                 " is out of range");
+                 (std::isnan(row.position[axis]) ? " is no number" : " is out of range"));
         }
     }
     for (std::size_t i = 0; i < places.named.size(); ++i) {
@@ -82,6 +82,7 @@ class ExtraReader {
         names.emplace_back(kClassColumn);
         names.emplace_back(kFeatureColumn);
         names.emplace_back(kLevelColumn);
+        names.emplace_back(kVertexColumn);
         names.emplace_back(kLineColumn);
         for (const std::string& name : names) {
             if (const std::optional<std::size_t> place = place_of(name)) {

@@ -87,6 +87,11 @@ std::optional<std::string> rounding_note(const SampleTarget& target,
            listed_formats(&FormatFacts::holds_all, ".", " and ") + " hold doubles";
 }
 
+void fail_same_name(const SampleTarget& target, const std::string& name) {
+    fail_usage(target.path.string() + ": two columns would be called " + in_quotes(name) +
+               "; leave one out, or use " + listed_formats(&FormatFacts::holds_all));
+}
+
 const std::string* SampleHeader::find(std::string_view key) const {
     const auto entry = std::find_if(entries.begin(), entries.end(),
                                     [key](const auto& one) { return one.first == key; });

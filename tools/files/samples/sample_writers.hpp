@@ -18,6 +18,9 @@ void append_text_row(std::string& text, const SampleRow& row, std::size_t index,
 void append_binary_row(std::string& bytes, const SampleRow& row, std::size_t index,
                        const SampleLayout& layout);
 
+/// Throws UserError(usage) for two columns that a format calls the same.
+[[noreturn]] void fail_same_name(const SampleTarget& target, const std::string& name);
+
 /// Writes PLY, CSV or XYZ.
 void write_by_row(AtomicFile& file, const SampleHeader& header, std::span<const SampleRow> rows,
                   const SampleTarget& target, const SampleLayout& layout);
@@ -52,7 +55,7 @@ void write_vtp(AtomicFile& file, const SampleHeader& header, std::span<const Sam
 void write_star(AtomicFile& file, const SampleHeader& header, std::span<const SampleRow> rows,
                 const SampleTarget& target, const SampleLayout& layout);
 
-/// Throws UserError(usage) for faces whose numbers a float does not hold.
+/// Throws UserError(usage) for whole numbers that a float does not hold. Has -1 for kNoPart.
 void write_gltf(AtomicFile& file, const SampleHeader& header, std::span<const SampleRow> rows,
                 const SampleTarget& target, const SampleLayout& layout);
 

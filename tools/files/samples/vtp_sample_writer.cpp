@@ -50,10 +50,15 @@ void add_points(VtpArrays& arrays, std::span<const SampleRow> rows, const Sample
     }
 }
 
-void add_point_data(VtpArrays& arrays, std::span<const SampleRow> rows,
+void add_point_data(VtpArrays& arrays, std::span<const SampleRow> rows, const SampleTarget& target,
                     const SampleLayout& layout) {
     if (layout.numbered() > 0) {
-        arrays.add("coordinates", rows.size(), layout.numbered(),
+        constexpr const char* kName = "coordinates";
+        if (std::ranges::find(layout.further.fields, std::string(kName), &SampleField::name) !=
+            layout.further.fields.end()) {
+            fail_same_name(target, kName);
+        }
+        arrays.add(kName, rows.size(), layout.numbered(),
                    [rows](std::size_t i, std::size_t k) { return rows[i].position[k]; });
     }
     if (layout.has_normals()) {
@@ -100,7 +105,7 @@ void write_vtp(AtomicFile& file, const SampleHeader& header, std::span<const Sam
                [](std::size_t i, std::size_t) { return static_cast<std::int64_t>(i + 1); });
     file.write("</Verts>\n<PointData" +
                std::string(layout.has_normals() ? " Normals=\"Normals\"" : "") + ">\n");
-    add_point_data(arrays, rows, layout);
+    add_point_data(arrays, rows, target, layout);
     file.write("</PointData>\n</Piece>\n");
     arrays.finish();
 }

@@ -147,7 +147,8 @@ SampleFile without_strays(const MeshInput& mesh, SampleInput input, const ReadAs
     fail_input(input.file.path,
                counted(input.strays.size(), "point lies", "points lie") + " farther off " +
                    mesh.path + " than --tolerance allows; " + sample + rounded(first.offset, 3) +
-                   " away. Give the mesh that the points were made on, or raise --tolerance");
+                   " away. Give the mesh that the points were made on, or raise --tolerance" +
+                   (mesh.has_walls() ? "; faces that are walls take no points" : ""));
 }
 
 SampleInput read_samples_on(const std::string& path, const MeshInput& mesh,

@@ -126,7 +126,7 @@ void warn_of_other_walls(const SampleFile& samples, const std::vector<std::strin
             told.push_back(value);
         }
     }
-    if (told != walls) {
+    if (told != walls && !samples.header.entries.empty()) { // Points of other programs have none.
         warnings.push_back({"other_surface", 1, "",
                             told.empty() ? "made without --walls, so distances may differ"
                                          : "made with --walls " + listed(told) +

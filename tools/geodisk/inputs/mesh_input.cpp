@@ -1,10 +1,13 @@
 #include "geodisk/inputs/mesh_input.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <memory>
 #include <utility>
 #include <vector>
+
+#include <geodisk/detail/fnv1a.hpp>
 
 #include "files/meshes/mesh_file.hpp"
 #include "files/samples/told_samples.hpp"
@@ -182,6 +185,33 @@ void MeshInput::place(SampleRow& row) const {
     row.normal[1] = static_cast<float>(n.y);
     row.normal[2] = static_cast<float>(n.z);
     row.polygon = polygon(row.face);
+}
+
+bool MeshInput::has_walls() const {
+    return std::ranges::any_of(additions, [](const auto& entry) { return entry.first == "walls"; });
+}
+
+std::string field_digest(const MeshInput& mesh) {
+    if (mesh.known || (!mesh.has_walls() && mesh.face_mask.empty() && !mesh.radii)) {
+        return "";
+    }
+    detail::Fnv1a hash;
+    const auto add = [&hash](const auto& values) {
+        hash.add(values.size());
+        for (const auto value : values) {
+            hash.add(value);
+        }
+    };
+    add(mesh.has_walls() ? mesh.file.triangles : std::vector<std::uint32_t>());
+    add(mesh.face_mask);
+    std::vector<std::uint32_t> radii;
+    if (mesh.radii) {
+        for (const float factor : mesh.radii->factors()) {
+            radii.push_back(std::bit_cast<std::uint32_t>(factor));
+        }
+    }
+    add(radii);
+    return detail::hexadecimal(hash.value());
 }
 
 MeshInput load_silently(const MeshOptions& options, ProgressLine& progress,

@@ -81,6 +81,8 @@ struct MeshInput {
     Sample in_file(const Sample& sample) const {
         return split ? split->faces.parts().whole(sample) : sample;
     }
+    /// Returns true if options gave walls.
+    bool has_walls() const;
     /// Returns true if there are places without samples, or without those of a class.
     bool leaves_out() const { return !face_mask.empty() || class_count > 0; }
     /// Returns false for a point of sampled() where a class has no samples.
@@ -144,6 +146,10 @@ struct MeshInput {
     /// Sets position, normal and polygon of `row` by its face and weights.
     void place(SampleRow& row) const;
 };
+
+/// Returns a digest of the walls, the mask and the radii, since files that options name may change;
+/// "" without any of them.
+std::string field_digest(const MeshInput& mesh);
 
 /// Reads and prepares a mesh. Throws UserError as read_mesh(), lifted_positions(), load_radii() and
 /// load_mask(), or bad_input when the mesh is rejected. The error for samples in its place ends

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import zlib
 from typing import Any
 
 import numpy as np
@@ -96,3 +97,8 @@ def indices(
             int(place[0]),
         )
     return np.ascontiguousarray(array, dtype=np.uint32)
+
+
+def checksum(array: NDArray[Any]) -> str:
+    """Returns eight digits that practically differ for other values."""
+    return f"{zlib.crc32(array.astype(array.dtype.newbyteorder('<')).tobytes()):08x}"

@@ -9,10 +9,15 @@ import struct
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
-from numpy.typing import ArrayLike
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from . import _errors as e
 from . import _library as c
+from ._arrays import checksum
+
+#: Entry of headers that tells a mask from others.
+MASK_DIGEST = "mask_digest"
 
 
 @dataclass(frozen=True, eq=False)
@@ -69,7 +74,7 @@ def option_of(key: str) -> str | None:
 def values() -> tuple[str, ...]:
     """Returns the entries of one value each, which samples keep and headers tell again."""
     plain = [name for name, default in options().items() if isinstance(default, (int, float, str))]
-    return (*plain, "features", "kept_of", "weld", "keep_seams", "walls")
+    return (*plain, "features", "kept_of", "weld", "keep_seams", "walls", MASK_DIGEST)
 
 
 def joins_of(weld: bool | float, keep_seams: bool, walls: str = "") -> dict[str, str]:
@@ -82,6 +87,11 @@ def joins_of(weld: bool | float, keep_seams: bool, walls: str = "") -> dict[str,
     if walls:
         told["walls"] = walls
     return told
+
+
+def mask_digest(mask: NDArray[np.uint8]) -> str:
+    """Returns what headers tell of a mask, as the library takes it."""
+    return checksum(np.packbits(mask))
 
 
 def told_text(value: bool | float | str) -> str:

@@ -21,7 +21,7 @@ from ._devices import DeviceLike, name_of
 from ._existing import AvoidLike, ExistingLike, avoided_of, existing_of, points_of
 from ._inherited import Wanted
 from ._inputs import surface_of
-from ._job import FOLLOWED, Job, JobFrame, joins_of
+from ._job import FOLLOWED, MASK_DIGEST, Job, JobFrame, joins_of, mask_digest
 from ._mesh import Mesh, is_mesh, keys_of, mask_of, mesh_of
 from ._protocols import Faces, MeshLike
 from ._radii import one_of, radii_of
@@ -149,6 +149,8 @@ def update(
     edited = dataclasses.replace(job, **chosen)
     _check_joins(samples, before_edit)
     old = _Side(before_edit, job, samples)
+    if samples._told.get(MASK_DIGEST, old.mask_digest) != old.mask_digest:
+        raise e.invalid("the samples were made with another face_mask; give it as it was")
     if existing is None:
         edited = dataclasses.replace(edited, existing=old.existing)
     if avoid is None:
@@ -196,7 +198,7 @@ def update(
     there = dataclasses.replace(
         there,
         _job=dataclasses.replace(edited, source=file),
-        _told=_told_of(samples, mesh),
+        _told=_told_of(samples, new),
         _frame=frames_of_run[-1],
     )
     there = recorded(there, mesh, record)
@@ -206,10 +208,11 @@ def update(
     return there
 
 
-def _told_of(samples: Samples, mesh: Mesh) -> dict[str, str]:
-    """Returns what headers tell of the samples before, with the walls of the edited mesh."""
-    told = {name: value for name, value in samples._told.items() if name != "walls"}
-    return {**told, "walls": mesh._surface.walls} if mesh._surface.walls else told
+def _told_of(samples: Samples, new: _Side) -> dict[str, str]:
+    """Returns what headers tell of the samples before, with the walls and the mask after the edit."""
+    own = {"walls": new.mesh._surface.walls, MASK_DIGEST: new.mask_digest}
+    kept = {name: value for name, value in samples._told.items() if name not in own}
+    return {**kept, **{name: value for name, value in own.items() if value}}
 
 
 def _check_joins(samples: Samples, mesh: Mesh) -> None:
@@ -232,6 +235,7 @@ class _Side:
         radii = radii_of(mesh, job.density, job.radius_factor)
         keys = None if job.face_keys is None else keys_of(mesh, job.face_keys)
         mask = None if job.face_mask is None else mask_of(mesh._surface, job.face_mask)
+        self.mask_digest = "" if mask is None else mask_digest(mask)
         has_existing = job.existing is not None and not _is_empty(job.existing)
         kept = existing_of(mesh._handle, job.existing if has_existing else None)
         avoided, avoid_radii = avoided_of(

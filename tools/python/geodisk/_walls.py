@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import dataclasses
 import re
-import zlib
 from ctypes import byref, c_size_t
 from typing import Any
 
@@ -14,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from . import _errors as e
 from . import _library as c
 from . import _structs as s
-from ._arrays import array_of, indices
+from ._arrays import array_of, checksum, indices
 from ._surface import Surface
 
 
@@ -41,11 +40,11 @@ def cut(surface: Surface, walls: ArrayLike) -> Surface:
     if given.dtype == bool:
         mask = _mask_of(surface, given)
         params.faces = mask.ctypes.data
-        told = f"{int(mask.sum())} faces {_checksum(np.packbits(mask))}"
+        told = f"{int(mask.sum())} faces {checksum(np.packbits(mask))}"
     else:
         edges = _edges_of(surface, given)
         params.edges, params.edge_count = edges.ctypes.data, len(edges)
-        told = f"{len(edges)} edges {_checksum(np.unique(np.sort(edges, axis=1), axis=0))}"
+        told = f"{len(edges)} edges {checksum(np.unique(np.sort(edges, axis=1), axis=0))}"
     made = np.empty((len(triangles), 3), np.uint32)
     copied, count = np.empty(3 * len(triangles), np.uint32), c_size_t()
     c.call(
@@ -67,10 +66,6 @@ def are_other(told: str, own: str) -> bool:
     """Returns whether walls differ, as headers tell them. Those of the program have no checksum."""
     both_here = all(_TOLD.fullmatch(walls) for walls in (told, own))
     return told != own and (both_here or not told or not own)
-
-
-def _checksum(array: NDArray[Any]) -> str:
-    return f"{zlib.crc32(array.astype(array.dtype.newbyteorder('<')).tobytes()):08x}"
 
 
 def _mask_of(surface: Surface, given: NDArray[Any]) -> NDArray[np.uint8]:

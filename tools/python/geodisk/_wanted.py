@@ -18,7 +18,7 @@ from ._classes import Classes, has_classes
 from ._existing import existing_of
 from ._farthest import put_farthest_first
 from ._features import degrees_of
-from ._job import FOLLOWED, Job, JobFrame, joins_of, options, told_text, values
+from ._job import FOLLOWED, MASK_DIGEST, Job, JobFrame, joins_of, mask_digest, options, told_text, values
 from ._levels import levels_of
 from ._mesh import Mesh, attributes_with, keys_of, mask_of, mesh_of
 from ._oddities import oddities_of_set, warn, warn_of_whole_mask
@@ -146,6 +146,8 @@ class Wanted:
             told["darts"] = str(report["candidates"])
         if self._params.is_maximal:
             told["maximal"] = "certified" if report["is_certified"] else "not certified"
+        if self._mask is not None:
+            told[MASK_DIGEST] = mask_digest(self._mask)
         if report["cut"] and self._class_counts is None:
             told["exact"] = str(report["samples"])
         samples = samples_of(
