@@ -187,17 +187,18 @@ TEST_CASE("samples follow an edit of a mesh with walls") {
 TEST_CASE("samples of other walls, masks and radii than their files give now are not updated") {
     const TemporaryFolder folder;
     folder.write("a.obj", rooms(true));
-    std::string some, all, factors;
+    std::string some, more, ones, factors;
     for (int v = 0; v < 81; ++v) {
         some += v % 9 < 5 ? "1\n" : "0\n";
-        all += "1\n";
+        more += v % 9 < 8 ? "1\n" : "0\n";
+        ones += "1\n";
         factors += v == 0 ? "0.9\n" : "1\n";
     }
     // What the file has at first, and then.
     const std::tuple<const char*, const char*, std::string, std::string> cases[] = {
         {"--walls", "edges:f.txt", column_of_edges(7), column_of_edges(2)},
-        {"--mask", "file:f.txt", some, all},
-        {"--radius-factor", "file:f.txt", factors, all}};
+        {"--mask", "file:f.txt", some, more},
+        {"--radius-factor", "file:f.txt", factors, ones}};
     for (const auto& [name, value, first, then] : cases) {
         const std::string option = name;
         CAPTURE(option);
