@@ -434,7 +434,9 @@ class Samples:
             raise e.invalid(f"a sample lies in triangle {faces.max()}, the mesh has {len(corners)}")
         values = array_of(values, "values")
         if of == "faces":
-            return np.asarray(values_of(surface.by_triangle(values), len(corners), "faces")[faces])
+            own = surface.by_triangle(values)
+            count = len(corners) if own.shape[:1] == (len(corners),) else surface.face_count()
+            return np.asarray(values_of(own, count, "faces")[faces])
         if of == "vertices":
             count = surface.own_vertex_count()
             if values.shape[:1] == (surface.vertex_count(),):  # With those of copies.

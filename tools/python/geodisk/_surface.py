@@ -110,12 +110,15 @@ class Surface:
         """Returns the number of vertices without copies, which `own_corners` refers to."""
         return self.vertex_count() - (0 if self.copied is None else len(self.copied))
 
+    def face_count(self) -> int:
+        """Returns the number of faces as given, as far as it is known."""
+        if self.given_faces is not None:
+            return self.given_faces
+        return len(self.indices()) if self.polygons is None else int(self.polygons.max()) + 1
+
     def by_triangle(self, values: NDArray[Any]) -> NDArray[Any]:
         """Returns the value of each triangle for those of faces as given; else what is given."""
-        count = self.given_faces
-        if count is None:
-            count = len(self.indices()) if self.polygons is None else int(self.polygons.max()) + 1
-        if values.shape[:1] != (count,):
+        if values.shape[:1] != (self.face_count(),):
             return values
         return values[: len(self.indices())] if self.polygons is None else values[self.polygons]
 
