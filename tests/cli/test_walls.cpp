@@ -194,7 +194,7 @@ TEST_CASE("samples of other walls, masks and radii than their files give now are
         ones += "1\n";
         factors += v == 0 ? "0.9\n" : "1\n";
     }
-    // What the file has at first, and then.
+    // Option, its value, and the content of the file at first and later.
     const std::tuple<const char*, const char*, std::string, std::string> cases[] = {
         {"--walls", "edges:f.txt", column_of_edges(7), column_of_edges(2)},
         {"--mask", "file:f.txt", some, more},

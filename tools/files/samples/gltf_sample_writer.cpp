@@ -149,7 +149,7 @@ class Points {
     void add(const std::string& name, std::size_t components, const Value& value) {
         attributes_[name] = accessors_.add(components, value);
     }
-    /// The same for whole numbers, one of each point.
+    /// Adds whole numbers, one of each point; `index_of(i)` is that of point i.
     template <class IndexOf>
     void add_indices(const std::string& name, const IndexOf& index_of) {
         std::vector<float> numbers(accessors_.count());

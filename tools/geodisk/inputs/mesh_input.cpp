@@ -202,7 +202,8 @@ std::string field_digest(const MeshInput& mesh) {
             hash.add(value);
         }
     };
-    add(mesh.has_walls() ? mesh.file.triangles : std::vector<std::uint32_t>());
+    add(mesh.has_walls() ? std::span<const std::uint32_t>(mesh.file.triangles)
+                         : std::span<const std::uint32_t>());
     add(mesh.face_mask);
     std::vector<std::uint32_t> radii;
     if (mesh.radii) {

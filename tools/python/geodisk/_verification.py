@@ -15,8 +15,8 @@ from . import _library as c
 from ._existing import POINT, AvoidLike, avoided_of
 from ._inputs import option, run, surface_of
 from ._mesh import created, mask_of
-from ._protocols import Faces, MeshLike
 from ._oddities import warn
+from ._protocols import Faces, MeshLike
 from ._radii import one_of, radii_on
 from ._samples import Samples
 from ._surface import Surface
