@@ -354,6 +354,29 @@ TEST_SUITE("existing") {
         }
     }
 
+    TEST_CASE(
+        "a batch that is decided in part is not restarted after the disks of points to avoid") {
+        const PreparedMesh mesh = prepared(knot());
+        SampleParams params = params_for(mesh, 60);
+        const std::vector<KeepOut> avoid{{{700, {0.25f, 0.25f, 0.5f}}, 2 * params.min_distance}};
+        params.avoid = avoid;
+        RunnerOptions tight;
+        tight.plan.slots = 200;
+        tight.plan.list_capacity = 64;
+        // When a submission ends depends on the speed of the device; of some that begin the first
+        // batch, it is in the middle of its decisions.
+        for (const double seconds : {0.01, 10.0}) {
+            tight.submission_seconds = seconds;
+            for (params.seed = 0; params.seed < 8; ++params.seed) {
+                CAPTURE(seconds);
+                CAPTURE(params.seed);
+                const SampleSet set = sample(mesh, params, tight);
+                CHECK(points_of(set) == float_set(mesh, params, set.report.plan.error_bound));
+                CHECK(set.report.regrown > 0);
+            }
+        }
+    }
+
     TEST_CASE("a point may keep out all, and a job counts and places the others") {
         const PreparedMesh mesh = prepared(knot());
         SampleParams params = params_for(mesh, 100);

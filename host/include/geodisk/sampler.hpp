@@ -389,7 +389,9 @@ class GEODISK_API Sampler {
     void record_detect(VkCommandBuffer commands, Job& job) const noexcept;
     /// Records the third part: decides them once all of these disks are complete.
     void record_resolve(VkCommandBuffer commands, Job& job) const noexcept;
-    /// Restarts the batch in progress, after Job::set_plan() or set_samples().
+    /// Restarts the batch in progress, after Job::set_plan() or set_samples(). Record it only where
+    /// Job::advance() asks for it: no candidate of the batch is decided then. A batch that is
+    /// decided in part would accept candidates too close to its samples.
     void record_rewind(VkCommandBuffer commands, Job& job) const noexcept;
     /// Writes the samples so far in order, as gpu::SampleRec. Returns true when everything is
     /// recorded.

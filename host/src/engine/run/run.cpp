@@ -23,6 +23,12 @@
 namespace geodisk {
 namespace {
 
+/// Returns true if some candidates of the batch in progress may be decided. It cannot be restarted
+/// then: one that is blocked for good, but not rejected yet, would be idle again.
+bool is_deciding(const gpu::ControlRec& control) {
+    return control.slots_used > 0 && control.incomplete == 0;
+}
+
 /// One run: its memory, its job and its submissions.
 class Run {
   public:
@@ -273,10 +279,12 @@ Result<Done> Run::change_plan(const RunPlan& changed) {
     return job_->set_plan(plan, memory_.range(BufferRole::pool));
 }
 
-/// Returns true if the plan is that of disks of points to avoid, and these are done in this chunk.
-/// They may be far larger than all others and then leave room for few slots.
+/// Returns true if the plan is that of disks of points to avoid, these are done in this chunk, and
+/// the plan can be changed now. They may be far larger than all others and then leave room for few
+/// slots.
 bool Run::is_past_avoided(const Advice& advice) const {
-    return is_for_avoided_ && advice.next == Next::go_on && control().next_sample >= of_.avoided;
+    const bool is_past = control().next_sample >= of_.avoided && !is_deciding(control());
+    return is_for_avoided_ && advice.next == Next::go_on && is_past;
 }
 
 Task<Result<Done>> Run::enlarge_samples(std::uint32_t capacity) {
