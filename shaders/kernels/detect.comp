@@ -79,6 +79,7 @@ void hand_in_slot() {
     own_disks.windows += lane.pushed;
     own_disks.tested += lane.tested;
     own_disks.max_waiting = max(own_disks.max_waiting, lane.max_waiting);
+    own_disks.max_windows = max(own_disks.max_windows, lane.pushed);
     own_disks.max_vertices = max(own_disks.max_vertices, lane.vertices);
     own_disks.max_conflicts =
         max(own_disks.max_conflicts, lane.idle_conflicts + lane.active_conflicts);

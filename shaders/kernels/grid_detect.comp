@@ -257,7 +257,7 @@ void find_conflicts(uint slot) {
     if (overflow != 0u) {
         atomicOr(control.overflow, overflow);
     } else if (!running() && block_conflicts(slot)) {
-        own_disks = DiskTotals(own_disks.steps, 1u, rows_visited, tested, 0u, 0u,
+        own_disks = DiskTotals(own_disks.steps, 1u, rows_visited, tested, 0u, rows_visited, 0u,
                                idle_conflicts + active_conflicts);
         complete(slot);
     }

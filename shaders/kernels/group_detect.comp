@@ -408,6 +408,7 @@ void hand_in_slot() {
     own_disks.windows += group.pushed;
     own_disks.tested += group.tested;
     own_disks.max_waiting = max(own_disks.max_waiting, group.max_waiting);
+    own_disks.max_windows = max(own_disks.max_windows, group.pushed);
     own_disks.max_vertices = max(own_disks.max_vertices, group.vertices);
     own_disks.max_conflicts = max(own_disks.max_conflicts, group.conflicts);
     complete_one();

@@ -8,11 +8,12 @@ struct DiskTotals {
     uint windows;
     uint tested;
     uint max_waiting;
+    uint max_windows;
     uint max_vertices;
     uint max_conflicts;
 };
 
-const DiskTotals kNoDisks = DiskTotals(0u, 0u, 0u, 0u, 0u, 0u, 0u);
+const DiskTotals kNoDisks = DiskTotals(0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u);
 
 DiskTotals own_disks; // of this invocation
 shared DiskTotals group_disks;
@@ -30,6 +31,7 @@ void sum_disks() {
         atomicAdd(group_disks.windows, own_disks.windows);
         atomicAdd(group_disks.tested, own_disks.tested);
         atomicMax(group_disks.max_waiting, own_disks.max_waiting);
+        atomicMax(group_disks.max_windows, own_disks.max_windows);
         atomicMax(group_disks.max_vertices, own_disks.max_vertices);
         atomicMax(group_disks.max_conflicts, own_disks.max_conflicts);
     }
@@ -40,6 +42,7 @@ void sum_disks() {
         GEODISK_ADD_WIDE(control.windows_low, control.windows_high, group_disks.windows)
         GEODISK_ADD_WIDE(control.tested_low, control.tested_high, group_disks.tested)
         atomicMax(control.max_waiting, group_disks.max_waiting);
+        atomicMax(control.max_windows, group_disks.max_windows);
         atomicMax(control.max_vertices, group_disks.max_vertices);
         atomicMax(control.max_conflicts, group_disks.max_conflicts);
     }

@@ -13,6 +13,9 @@ GEODISK_BUFFER(kBindList, , uint, list);
 // since their candidates come in crowds.
 const float kListFill = 0.75;
 const float kListFillAlike = 0.375;
+// Other disks of a batch are to take this part of the time of its largest one at least, if slots last. More
+// would be in vain too often.
+const float kBusyPart = 0.5;
 // A list that holds less than this part of its orders is made again, of fewer orders.
 const uint kListPart = 8u;
 
@@ -40,14 +43,25 @@ uint order_after(uint first, float idle) {
 // Returns true if exactly the first candidates that are due get the slots.
 bool is_ranked() { return push.slots <= kMaxRanked; }
 
+// Returns so many slots that lanes are busy for a part of the time of the largest disk of a candidate so far.
+uint slots_beside_largest() {
+    precise float windows = float(control.windows_high) * 4294967296.0 + float(control.windows_low);
+    precise float usual = windows / max(float(control.disks), 1.0);
+    precise float slots = kBusyPart * float(push.lanes) * float(control.max_windows) / max(usual, 1.0);
+    return uint(min(slots, float(push.slots)));
+}
+
 // Returns the slots for the next batch: all of them if it is for candidates of a single order.
-uint batch_slots() { return control.longest_span == 1u ? push.slots : push.batch; }
+uint batch_slots() {
+    return control.longest_span == 1u ? push.slots : max(slots_beside_largest(), push.batch);
+}
 
 // Returns the number of idle candidates to aim at: if ranked, so many that mostly all slots are filled;
 // else so few that mostly all find a slot, since one without a slot cuts the batch short.
 float wanted_idle() {
-    precise float deviation = sqrt(float(push.batch));
-    precise float wanted = float(push.batch) + (is_ranked() ? 3.0 : -1.5) * deviation;
+    precise float batch = float(batch_slots());
+    precise float deviation = sqrt(batch);
+    precise float wanted = batch + (is_ranked() ? 3.0 : -1.5) * deviation;
     return wanted;
 }
 
@@ -138,6 +152,7 @@ void go_on() {
 void end_batch() {
     if (control.mode == kSelectSettled) {
         control.next_sample += control.slots_used;
+        control.max_windows = 0u; // Those of candidates count.
     } else {
         control.first_order = min(control.batch_end, control.first_left);
     }

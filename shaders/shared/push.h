@@ -36,7 +36,7 @@ struct JobRec {
 // part of a pass.
 struct Push {
     uint slots;           // most candidates active at a time
-    uint batch;           // of them, to make active at a time; more only where many share one order
+    uint batch;           // of them, to make active at a time; more where many share one order, or disks are uneven
     uint lanes;           // invocations that compute their disks, or work groups
     uint lanes_per_group; // of detect; 1 where a work group computes a disk together
     uint window_capacity; // windows one lane can hold, and events; a power of two

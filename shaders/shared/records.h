@@ -179,6 +179,7 @@ struct ControlRec {
     uint tested_low;       // candidates tested in completed disks, 64 bits
     uint tested_high;
     uint max_waiting;
+    uint max_windows;      // pushed in a disk
     uint longest_chain;    // in disks of accepted candidates
     uint max_vertices;
     uint max_conflicts;
@@ -203,7 +204,7 @@ static_assert(sizeof(SlotRec) == 64 && offsetof(SlotRec, rows_visited) == 60);
 static_assert(sizeof(LaneRec) == 176 && offsetof(LaneRec, held_b0) == 172);
 static_assert(sizeof(GroupRec) == 112 && offsetof(GroupRec, longest_chain) == 108);
 static_assert(sizeof(LitRec) == 32 && offsetof(LitRec, high) == 28);
-static_assert(sizeof(ControlRec) == 252 && offsetof(ControlRec, lane_trips_high) == 248);
+static_assert(sizeof(ControlRec) == 256 && offsetof(ControlRec, lane_trips_high) == 252);
 } // namespace geodisk::gpu
 #endif
 

@@ -191,6 +191,8 @@ enum class DisksBy : std::uint32_t {
 /// distance lies within the guard of the minimum.
 struct RunPlan {
     std::uint32_t slots = 0;           ///< Candidates active at a time, at least kMinSlots.
+    std::uint32_t batch = 0;           ///< Of them, active at a time until a disk turns out much
+                                       ///< larger than the others; 0 for all.
     std::uint32_t lanes = 0;           ///< Invocations that compute their disks, one after another;
                                        ///< or work groups, as `disks_by` says.
     std::uint32_t window_capacity = 0; ///< Maximum of waiting windows in a lane, and of vertex
@@ -227,6 +229,8 @@ struct RunPlan {
     /// than usual widen both for themselves (host/docs/precision.md).
     double error_bound = 0;
 
+    /// Returns the candidates active at a time until a disk turns out much larger than the others.
+    GEODISK_API std::uint32_t batch_slots() const noexcept;
     /// Returns the size of a lane's slice of the pool, in rows of 16 bytes.
     GEODISK_API std::uint32_t lane_rows() const noexcept;
     /// Returns the size of the slice of a work group for large disks, in rows of 16 bytes.

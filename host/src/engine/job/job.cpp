@@ -116,7 +116,7 @@ void Job::Impl::apply_plan(const RunPlan& new_plan) {
     // Very large disks leave only the slots that disks of equal order need. Disks beyond the groups
     // would then be computed after the others, many of them in vain.
     const bool is_min = by_groups && plan.slots == kMinSlots;
-    push.batch = is_min ? std::min(plan.lanes, plan.slots) : plan.slots;
+    push.batch = is_min ? std::min(plan.lanes, plan.slots) : plan.batch_slots();
     push.window_capacity = plan.window_capacity;
     push.table_capacity = plan.table_capacity;
     push.list_capacity = plan.list_capacity;

@@ -28,6 +28,9 @@ constexpr double kMaxSlots = (1u << 16) - 512;
 // Maximum on a CPU: more lists would not fit its caches.
 constexpr double kMaxCpuSlots = 1u << 13;
 constexpr double kMaxPasses = 32;
+// How many times as many slots a CPU has as a batch takes at first, and the maximum of them.
+constexpr std::uint32_t kRoom = 4;
+constexpr std::uint32_t kMaxRoom = 1u << 11;
 // Several milliseconds per dispatch.
 constexpr std::uint32_t kCpuDispatchItems = 1u << 19;
 constexpr std::uint32_t kDispatchItems = 1u << 21;
@@ -80,6 +83,28 @@ std::uint32_t wanted_idle_capacity(std::uint32_t slots, std::uint32_t capacity) 
     return std::clamp(wanted, kMinIdle, gpu::kMaxListed);
 }
 
+/// Returns the plan with slots for larger batches, where the lanes of a CPU compute disks and the
+/// pool has room for their lists: other lanes then have work beside a few disks that are much
+/// larger than the others.
+// Of a batch of more than half of the samples, most disks would be in vain.
+RunPlan with_room(RunPlan plan, const Domain::Impl& of, std::uint64_t pool_bytes,
+                  const DeviceReport& report) {
+    if (report.type != VK_PHYSICAL_DEVICE_TYPE_CPU || plan.disks_by == DisksBy::groups ||
+        of.has_lane_per_slot || of.kernels.records()) {
+        return plan;
+    }
+    RunPlan roomy = plan;
+    roomy.batch = plan.slots;
+    const std::uint32_t most = plan.slots <= gpu::kMaxRanked ? gpu::kMaxRanked : kMaxRoom;
+    const auto half = static_cast<std::uint32_t>(std::min<double>(of.samples / 2, most));
+    roomy.slots = std::max(plan.slots, std::min(kRoom * plan.slots, half));
+    roomy.sample_capacity += roomy.slots - plan.slots;
+    const std::uint64_t bytes = std::uint64_t{roomy.sample_capacity} * sizeof(gpu::SampleRec);
+    const bool fits =
+        roomy.pool_bytes() <= pool_bytes && bytes <= report.limits.max_storage_buffer_range;
+    return fits ? roomy : plan;
+}
+
 Result<Done> check_needs(const WorkspaceNeeds& needs, const Domain::Impl& of,
                          std::uint32_t candidates, const DeviceReport& report) {
     const std::uint64_t limit = report.limits.max_storage_buffer_range;
@@ -118,7 +143,9 @@ RunPlan overridden(RunPlan plan, const RunPlan& wanted) noexcept {
     };
     // A batch needs room for all of its samples.
     plan.sample_capacity += wanted.slots;
+    plan.batch = wanted.slots != 0 ? wanted.batch : plan.batch;
     replace(plan.slots, wanted.slots);
+    replace(plan.batch, wanted.batch);
     replace(plan.window_capacity, wanted.window_capacity);
     replace(plan.table_capacity, wanted.table_capacity);
     replace(plan.list_capacity, wanted.list_capacity);
@@ -219,7 +246,7 @@ Result<RunPlan> Sampler::plan_run(const Domain& domain, std::uint64_t pool_bytes
         plan.step_budget = max_steps(report, variant);
         plan.detect_passes = static_cast<std::uint32_t>(
             std::clamp(of.detect_passes(plan, candidates), 1.0, kMaxPasses));
-        return plan;
+        return with_room(plan, of, pool_bytes, report);
     });
 }
 

@@ -93,6 +93,10 @@ void provide_for_large(RunPlan& plan) {
 
 } // namespace
 
+std::uint32_t RunPlan::batch_slots() const noexcept {
+    return batch == 0 ? slots : std::min(batch, slots);
+}
+
 std::uint32_t RunPlan::lane_rows() const noexcept {
     if (disks_by == DisksBy::groups) {
         return group_rows(window_capacity, table_capacity);

@@ -108,11 +108,11 @@ std::uint32_t Submissions::record_rounds(VkCommandBuffer commands) {
     const RunPlan& plan = job_->plan();
     std::uint64_t rounds = paces_->rounds.items() / items_of_round(plan);
     // A batch computes a disk per slot, however few are samples.
-    const double disks = std::max<double>(kDisksPerSample * of_.samples, plan.slots);
+    const double disks = std::max<double>(kDisksPerSample * of_.samples, plan.batch_slots());
     const double steps = disks * std::max(of_.disk_steps(plan, job().constants.capacity), 1.0);
     if (paces_->rounds.fits(steps)) {
-        rounds =
-            std::max(rounds, kRoundsBeside + 2 * static_cast<std::uint64_t>(disks) / plan.slots);
+        rounds = std::max(rounds, kRoundsBeside +
+                                      2 * static_cast<std::uint64_t>(disks) / plan.batch_slots());
     }
     const auto count = static_cast<std::uint32_t>(std::clamp<std::uint64_t>(rounds, 1, kMaxRounds));
     runner_.sampler.record_rounds(commands, *job_, count);
