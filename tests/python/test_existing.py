@@ -71,6 +71,7 @@ def test_wrong_ones_are_refused():
     refuses("has no samples", whole[:0])
     refuses("a geodisk.Samples, an array of coordinates, or a pair", whole.points[0], TypeError)
     refuses("existing: .*off the mesh", whole.points + 1)
+    refuses(r"existing: points have the shape \(\d+, 1\)", whole.points[:, :1])
     refuses("existing sample 1 is in face 1000000", ([0, 1000000], [[1, 0, 0], [1, 0, 0]]))
     refuses("existing sample 0 has weights", ([0], [[1, 1, 0]]))
     refuses("existing sample 0 has weights", ([0], [[np.nan, 1, 0]]))

@@ -98,6 +98,9 @@ def test_only_true_and_false_are_flags(samples):
         geodisk.sample_box([1, 1], count=9, periodic=1)
     with pytest.raises(TypeError, match="maximal"):
         geodisk.verify(samples, maximal="no")
+    for name in ("each", "return_nearest"):
+        with pytest.raises(TypeError, match=f"{name} is 2,"):
+            geodisk.geodesic_distances(*torus(), 0, **{name: 2})
     with pytest.raises(TypeError, match="legend"):
         geodisk.render(samples, legend="no")
     with pytest.raises(TypeError, match="progress is 'yes'"):

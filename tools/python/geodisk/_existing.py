@@ -52,6 +52,8 @@ def points_of(
     if are_points(given):
         coordinates: Any = given
         places = real(coordinates, name).astype(np.float64)
+        if places.shape[1] < 2:
+            raise e.invalid(f"{name}: points have the shape {places.shape}, not (n, 2) to (n, 8)")
         if not np.isfinite(places).all():
             raise e.invalid(f"{name} has coordinates that are not finite")
         given = Samples(places)

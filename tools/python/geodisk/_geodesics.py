@@ -163,7 +163,8 @@ def geodesic_distances(
     sources = after if sources is None else sources
     if sources is None:
         raise e.invalid("give sources: from where to measure")
-    if flag(each, "each") and flag(return_nearest, "return_nearest"):
+    each, return_nearest = flag(each, "each"), flag(return_nearest, "return_nearest")
+    if each and return_nearest:
         raise e.invalid("each and return_nearest exclude each other: each source has a row")
     query = _Query(mesh, sources)
     params, count = query.params, query.count
