@@ -134,6 +134,34 @@ def test_meshes_of_files_are_baked(pipe, tmp_path, monkeypatch):
         geodisk.bake(mesh, samples, size=32)
 
 
+def test_walls_are_those_of_the_program(tmp_path):
+    points, uvs, faces = sheet(6)
+    halves = faces[::2], faces[1::2]
+    path = write_obj(tmp_path / "a.obj", points, uvs, halves[0] + halves[1])
+    text = path.read_text().replace("f ", "g wall\nf ", 1)
+    second = "f " + " ".join(f"{i + 1}/{i + 1}" for i in halves[1][0])
+    path.write_text(text.replace(second, f"g other\n{second}"))
+    cuts = np.array([[3 + 7 * i, 10 + 7 * i] for i in range(5)])
+    (tmp_path / "cuts.txt").write_text("".join(f"{a + 1} {b + 1}\n" for a, b in cuts))
+    mask = np.arange(36) < 18
+    program = [os.environ.get("GEODISK_COMMAND", "geodisk"), "bake", str(path)]
+    program += [str(tmp_path / "s.csv"), "-q", "--size", "40", "--padding", "1"]
+    for walls, told in ((cuts, f"edges:{tmp_path / 'cuts.txt'}"), (mask, "group:wall")):
+        mesh = geodisk.Mesh(path, walls=walls)
+        samples = geodisk.sample(mesh, min_distance=0.4)
+        found = geodisk.bake(mesh, samples, size=40, padding=1)
+        samples.save(tmp_path / "s.csv")
+        more = ["--walls", told, "-o", str(tmp_path / "p.npz")]
+        subprocess.run([*program, *more], check=True, capture_output=True)
+        with np.load(tmp_path / "p.npz") as expected:
+            assert np.array_equal(found.distance, expected["distance"], equal_nan=True)
+            assert np.array_equal(found.sample, expected["sample"])
+            assert np.array_equal(found.face, expected["face"])
+    path.write_text(path.read_text().replace("v 1.0 ", "v 1.5 "))
+    with pytest.raises(geodisk.InvalidArgument, match="changed since the mesh was read"):
+        geodisk.bake(mesh, samples, size=32)
+
+
 def quarter(path):
     """A sheet in the lower left quarter of its texture."""
     points, uvs, faces = sheet(4)

@@ -126,8 +126,16 @@ def test_poisson_disks_of_open3d():
     assert np.allclose(cloud.normals, directions, atol=0.1) and np.allclose(cloud.colors, [1, 0.5, 0])
     flat = compat.open3d.sample_points_poisson_disk(mesh, 100, use_triangle_normal=True, seed=1)
     assert np.array_equal(flat.points, cloud.points) and not np.allclose(flat.normals, cloud.normals)
+    tensors = package.t.geometry.TriangleMesh.create_sphere()
+    with pytest.raises(TypeError, match=r"not TriangleMesh; give mesh.to_legacy\(\)"):
+        compat.open3d.sample_points_poisson_disk(tensors, 100)
     with pytest.raises(geodisk.InvalidArgument, match="pcl"):
         compat.open3d.sample_points_poisson_disk(mesh, 100, pcl=cloud)
+
+
+def test_what_is_no_mesh_of_open3d():
+    with pytest.raises(TypeError, match="open3d.geometry.TriangleMesh, not NoneType"):
+        compat.open3d.sample_points_poisson_disk(None, 100)
 
 
 class Tensor:
@@ -162,5 +170,7 @@ def test_distances_of_pyg(monkeypatch):
     assert np.allclose(distance(twice), expected[[0, 0, 0, 3]])
     assert np.allclose(distance(twice, tensor(np.array([0, 1, 2, 2]))), [0, 1, 1, 1])
     assert np.allclose(distance(dst=twice), [0, 1, 1, 0])
+    with pytest.raises(geodisk.InvalidArgument, match=r"face has the shape \(2, 3\), not \(3, f\)"):
+        compat.pyg.geodesic_distance(pos, np.asarray(face).T)
     near = np.asarray(distance(max_distance=1.2))
     assert np.array_equal(np.isinf(near), expected > 1.2) and np.allclose(near[0, :3], [0, 1, 1])

@@ -167,6 +167,28 @@ class Tensor:
         raise AssertionError
 
 
+class BFloat(Tensor):
+    """One of a type that numpy does not have."""
+
+    def numpy(self):
+        raise TypeError("Got unsupported ScalarType BFloat16")
+
+    def detach(self):
+        return self
+
+    cpu = detach
+
+
+class FailingPath:
+    """A path of trimesh, with a property that fails."""
+
+    vertices, entities = VERTICES, ()
+
+    @property
+    def convex_hull(self):
+        raise RuntimeError("QH6214 qhull input error")
+
+
 class CuPyArray:
     """An array of CuPy."""
 
@@ -316,6 +338,56 @@ def test_attributes_of_polygons_and_of_a_pose():
     assert np.allclose(posed.points, 2 * samples.points[:9])
 
 
+def test_values_of_cells_are_those_of_their_triangles():
+    mesh = types.SimpleNamespace(
+        points=VERTICES,
+        faces=np.insert(FACES[:3], 0, 3, axis=1).ravel(),
+        strips=np.array([5, *range(50, 55), 3, *range(60, 63)]),
+        cell_data={"cell": np.arange(8), "few": np.arange(2)},
+        point_data={},
+        n_verts=1,
+        n_lines=2,
+    )
+    with pytest.warns(geodisk.MeshWarning, match="'few'"):
+        found = geodisk.Mesh(mesh, attributes="all").attributes
+    assert found["cell"].tolist() == [3, 4, 5, 6, 6, 6, 7] and "few" not in found
+
+
+def test_cells_of_vtk_come_in_its_order_and_arrays_without_a_name_are_left_out(tmp_path):
+    package = pytest.importorskip("pyvista")
+    mesh = package.PolyData(
+        VERTICES,
+        verts=[1, 0, 1, 1],
+        lines=[2, 0, 1],
+        faces=np.insert(FACES[:3], 0, 3, axis=1).ravel(),
+        strips=[5, *range(50, 55)],
+    )
+    mesh.cell_data["cell"] = np.arange(mesh.n_cells)
+    plain = vtk_named("vtkPolyData")
+    plain.ShallowCopy(mesh)
+    unnamed = vtk_named("vtkFloatArray")
+    unnamed.SetNumberOfValues(len(VERTICES))
+    plain.GetPointData().AddArray(unnamed)
+    mesh.save(tmp_path / "a.vtp")
+    for one in (mesh, plain, tmp_path / "a.vtp"):
+        with pytest.warns(geodisk.MeshWarning):
+            found = geodisk.Mesh(one, attributes="all").attributes
+        assert set(found) == {"cell"}
+        assert found["cell"].tolist() == [3, 4, 5, 6, 6, 6]
+
+
+def test_transforms_of_gifti_are_told_as_of_files(tmp_path):
+    image, package = nibabel(), pytest.importorskip("nibabel")
+    image.darrays[0].coordsys.xform = 2 * np.eye(4)
+    image.darrays[0].coordsys.xformspace = 3
+    package.save(image, tmp_path / "a.surf.gii")
+    told = []
+    for one in (image, str(tmp_path / "a.surf.gii")):
+        with pytest.warns(geodisk.MeshWarning, match="'NIFTI_XFORM_TALAIRACH' ignored"):
+            told.append([(str(x), x.kind, x.count) for x in geodisk.Mesh(one).warnings])
+    assert told[0] == told[1]
+
+
 def test_batches_are_sampled_as_many():
     with pytest.raises(TypeError, match=r"2 meshes: give one, as meshes\[0\], or all to sample_many"):
         geodisk.Mesh(Meshes(2))
@@ -340,6 +412,11 @@ def vtk_named(name):
         (lambda: types.SimpleNamespace(parts={}), r'mesh.parts\["left"\]'),
         (lambda: types.SimpleNamespace(mesh=0, data=0), r'image.mesh.parts\["left"\]'),
         (lambda: types.SimpleNamespace(pos=VERTICES, face=None), "remove_faces=False"),
+        (lambda: types.SimpleNamespace(pos=None, face=FACES.T), "its pos is None: give Data"),
+        (lambda: pytest.importorskip("pymeshlab").MeshSet(), "it is empty: call meshes.load"),
+        (lambda: pytest.importorskip("trimesh").load_path(VERTICES[:2]), r"triangulate\(\)"),
+        (lambda: FailingPath(), r"not FailingPath; lines have no faces: give \*path"),
+        (lambda: types.SimpleNamespace(vertices=BFloat(VERTICES), faces=FACES), r"\.float\(\)"),
         (lambda: (VERTICES, FACES), r"give \*mesh"),
         (lambda: Tensor(VERTICES), "faces are missing"),
     ],

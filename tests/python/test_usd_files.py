@@ -125,6 +125,23 @@ def test_scenes_keep_their_units_and_tell_of_subdivision(tmp_path):
     kinds = {one.message.kind for one in told}
     assert kinds == {"scene_units", "control_meshes", "other_primitives", "hidden_nodes"}
     assert np.array_equal(mesh.vertices, POINTS)
+    of_file = [x for x in mesh.warnings if x.kind in ("scene_units", "control_meshes")]
+    with pytest.warns(geodisk.MeshWarning):
+        of_object = geodisk.Mesh(UsdGeom.Mesh(stage.GetPrimAtPath("/m"))).warnings
+    assert {str(x) for x in of_object} == {str(x) for x in of_file}
+
+
+def test_colours_are_interpolated_as_amounts_of_light(tmp_path):
+    stage = Usd.Stage.CreateNew(str(tmp_path / "a.usda"))
+    light = np.array([(0, 0, 0), (1, 0.5, 0.2), (0, 1, 0), (0.001, 0, 1), (0.3, 0.3, 1)], "f4")
+    colours = (Sdf.ValueTypeNames.Color3fArray, "vertex", light)
+    prim = define(stage, "/m", TRIANGLES, displayColor=colours)
+    stage.Save()
+    of_file, of_object = (
+        geodisk.sample(mesh, min_distance=0.2, attributes=["color"]).attributes["color"]
+        for mesh in (tmp_path / "a.usda", prim)
+    )
+    assert np.allclose(of_file, of_object, atol=1e-6)
 
 
 @pytest.mark.parametrize("name", ["a.usdc", "a.usd"])
@@ -158,6 +175,9 @@ def test_references_instancers_and_packages_are_refused(tmp_path):
         geodisk.Mesh(part.GetPrimAtPath("/m"))
     with pytest.raises(TypeError, match=r"stage\.Flatten\(\)\.Export"):
         geodisk.Mesh(part)
+    for none in (UsdGeom.Mesh(), UsdGeom.Mesh(whole.GetPrimAtPath("/"))):
+        with pytest.raises(TypeError, match=r"not Mesh; its prim is no mesh: keep stage"):
+            geodisk.Mesh(none)
 
 
 def test_samples_that_geodisk_writes_are_no_mesh(tmp_path):

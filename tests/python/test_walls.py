@@ -94,6 +94,17 @@ def test_walls_that_cannot_be_are_refused(walls, text):
         geodisk.Mesh(*square(), walls=np.ones(2 * SIDE * SIDE, bool))
 
 
+@pytest.mark.parametrize("walls", [column(SIDE), np.arange(2 * SIDE * SIDE) < 9])
+@pytest.mark.parametrize("metric", ["euclidean", "approximate"])
+def test_other_metrics_take_no_walls(walls, metric):
+    mesh = geodisk.Mesh(*square(), walls=walls)
+    text = f"metric='{metric}' and walls exclude each other: walls are for paths along the surface"
+    with pytest.raises(geodisk.InvalidArgument, match=text):
+        geodisk.sample(mesh, min_distance=0.7, metric=metric)
+    with pytest.raises(geodisk.InvalidArgument, match=f"mesh 0: {text}"):
+        geodisk.sample_many([mesh], min_distance=0.7, metric=metric)
+
+
 def test_what_is_inside_is_not_seen_from_outside():
     ball = geodisk.Mesh("builtin:icosphere:3")
     vertices = np.concatenate([ball.vertices, 0.5 * ball.vertices])

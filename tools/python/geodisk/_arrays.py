@@ -15,6 +15,8 @@ def unreadable(name: str, error: Exception) -> TypeError:
     """Returns the error for values that numpy does not read, which failed with `error`."""
     if isinstance(error, ValueError) and "inhomogeneous" in str(error):
         return TypeError(f"{name} has to be an array, with rows of one length")
+    if "BFloat16" in str(error):  # Of torch.
+        return TypeError(f"{name} is of bfloat16, which numpy does not have; give it as .float()")
     return TypeError(f"{name} cannot be read as an array: {str(error) or type(error).__name__}")
 
 

@@ -96,7 +96,7 @@ def bake(
     ----------
     mesh : str, path-like or Mesh
         File of the mesh, with texture coordinates, or a mesh that was read from such a file, which is
-        read again. Outside of 0 to 1 the coordinates wrap around.
+        read again; its walls hold. Outside of 0 to 1 the coordinates wrap around.
     samples : Samples
         Samples of the mesh, or points of other programs, which are put on the nearest triangle.
     size : int or (width, height)
@@ -178,10 +178,13 @@ def _texture_of(
         raise e.invalid(str(error)) from None
     if not isinstance(mesh, Mesh):
         return source, created(surface_from(source, source.vertices, False, False)), path
-    surface = mesh._surface
-    is_same = np.array_equal(source.triangles, surface.indices()) and np.array_equal(
-        source.vertices, surface.coordinates()
+    surface = mesh._surface  # Which walls may have cut since.
+    places = surface.coordinates()[: surface.own_vertex_count()]
+    is_same = np.array_equal(source.corners, surface.own_corners()) and np.array_equal(
+        source.vertices, places
     )
     if not is_same:
         raise e.invalid(f"{path}: changed since the mesh was read")
+    if surface.walls:
+        source.leave_out(surface.repeats_vertex())
     return source, mesh._handle, path

@@ -135,6 +135,7 @@ class Mesh:
         _record: Record = NOTHING,
     ) -> None:
         source: Source | None = None
+        told: Sequence[e.MeshWarning] = ()
         left_out: list[e.MeshWarning] = []
         weld, keep_seams = weld_of(weld), flag(keep_seams, "keep_seams")
         allow_outside = flag(allow_outside, "allow_outside")
@@ -169,7 +170,7 @@ class Mesh:
             points: Any = vertices
             values: Iterable[Values] = ()
             if faces is None:
-                points, faces, values = arrays_of(vertices)
+                points, faces, values, told = arrays_of(vertices)
             elif attributes:
                 raise TypeError(
                     "attributes are for meshes from files and other packages; with arrays, give "
@@ -201,7 +202,7 @@ class Mesh:
         oddities = oddities_of(self._handle, source.handle if source else None)
         if walls is not None:
             oddities = _told_of_walls(oddities)
-        self.warnings = (*left_out, *oddities)
+        self.warnings = (*told, *left_out, *oddities)
         warn(self.warnings)
 
     def _prepare(self, surface: Surface, joined_edges: int = 0) -> None:

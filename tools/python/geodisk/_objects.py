@@ -26,12 +26,19 @@ _WHAT_IS_TAKEN = (
 Values = Tuple[str, str, Any]
 
 
+class Light(NamedTuple):
+    """Colours that are amounts of light, which sRGB encodes once they are interpolated."""
+
+    values: Any
+
+
 class Parts(NamedTuple):
     """What a mesh of another package has."""
 
     vertices: Any
     faces: Any  #: array_like or Polygons.
     values: Iterable[Values] = ()
+    warnings: Sequence[e.MeshWarning] = ()  #: As readers of files give them.
 
 
 # Corners of the cells of VTK and meshio that are faces. Others of higher order have the corners first.
@@ -82,7 +89,8 @@ def attributes_of(
     warnings: list[e.MeshWarning] = []
     listed: list[str] = []
     for of, name, given in values:
-        array = array_of(given, f"the attribute {name!r}")
+        is_light = isinstance(given, Light)
+        array = array_of(given.values if is_light else given, f"the attribute {name!r}")
         if name.lower() == "normals":
             continue
         if array.dtype == np.uint8 and array.ndim == 2 and array.shape[1] in (3, 4):
@@ -115,7 +123,7 @@ def attributes_of(
             corners=own if of == "vertices" or is_of_corners else None,
             of_vertices=of == "vertices",
             is_whole=array.dtype.kind != "f",
-            is_light=False,
+            is_light=is_light,
             polygons=polygons,
         )
     for one in names:
@@ -148,7 +156,15 @@ def faces_of(faces: Any) -> NDArray[Any] | Polygons:
 
 
 def _has(*names: str) -> Any:
-    return lambda source: all(hasattr(source, name) for name in names)
+    return lambda source: all(_is_there(source, name) for name in names)
+
+
+def _is_there(source: Any, name: str) -> bool:
+    """Returns whether it has an attribute that does not fail."""
+    try:
+        return hasattr(source, name)
+    except Exception:  # Of a property.
+        return False
 
 
 def _is_scene(source: Any) -> bool:
@@ -177,7 +193,7 @@ def _from_tensors(source: Any) -> Parts:
                 if name not in ("positions", "indices"):
                     yield of, _NAMES.get(name, name), values
 
-    return Parts(on_host(source.vertex.positions), on_host(source.triangle.indices), values())
+    return Parts(source.vertex.positions, source.triangle.indices, values())
 
 
 def _from_scene(scene: Any) -> Parts:
@@ -210,28 +226,38 @@ def _plain(polygons: Polygons) -> Any:
     return polygons
 
 
-def _values_of_data(source: Any) -> Iterator[Values]:
-    """Returns what PyVista and VTK have for points and, after vertices and lines, for faces."""
+def _values_of_data(source: Any, times: NDArray[Any] | None = None) -> Iterator[Values]:
+    """Returns what PyVista and VTK have for points and, after vertices and lines, for faces.
+
+    The value of each face is there `times` times, as the triangles of a strip need it.
+    """
     points = getattr(source, "point_data", {})
     coordinates = getattr(points, "active_texture_coordinates_name", None)
     for of, name, values in _each("vertices", points):
         yield of, "uv" if name == coordinates else name, values
     others = getattr(source, "n_verts", 0) + getattr(source, "n_lines", 0)
     for of, name, values in _each("faces", getattr(source, "cell_data", {})):
-        yield of, name, values[others:]
+        own = values[others:]
+        if times is not None and len(own) == len(times):
+            own = np.repeat(own, times, axis=0)
+        yield of, name, own
 
 
 def _from_polydata(source: Any) -> Parts:
-    faces, values = np.asarray(source.faces), _values_of_data(source)
+    faces = np.asarray(source.faces)
     if faces.ndim > 1:  # Rows, as trimesh has them.
-        return Parts(np.asarray(source.points), faces, values)
-    parts = [from_padded(faces)]
+        return Parts(np.asarray(source.points), faces, _values_of_data(source))
+    parts, times = [from_padded(faces)], None
     if hasattr(source, "strips"):
-        parts.append(from_strips(source.strips))
+        strips = from_padded(source.strips)
+        sizes = np.diff(strips.ends.astype(np.int64), prepend=0)
+        times = np.concatenate([np.ones(len(parts[0]), np.int64), np.maximum(sizes - 2, 0)])
+        parts.append(from_strips(strips))
     if not any(map(len, parts)):
         raise TypeError(
             "the mesh has points without faces; give pyvista.wrap(mesh).reconstruct_surface()"
         )
+    values = _values_of_data(source, times)
     return Parts(np.asarray(source.points), _plain(joined(parts)), values)
 
 
@@ -245,9 +271,9 @@ def _from_vtk(source: Any) -> Parts:
 
     def named(data: Any) -> dict[str, NDArray[Any]]:
         arrays = [data.GetArray(i) for i in range(data.GetNumberOfArrays())]
-        found = {x.GetName(): vtk_to_numpy(x) for x in arrays if x is not None}
-        if data.GetTCoords() is not None:
-            found["uv"] = found.pop(data.GetTCoords().GetName())
+        found = {x.GetName(): vtk_to_numpy(x) for x in arrays if x is not None and x.GetName()}
+        if (places := data.GetTCoords()) is not None and places.GetName():
+            found["uv"] = found.pop(places.GetName())
         return found
 
     points = source.GetPoints()
@@ -324,7 +350,7 @@ def _from_faces(source: Any) -> Parts:
         yield from _each("vertices", getattr(source, "vertex_attributes", {}))
         yield from _each("faces", getattr(source, "face_attributes", {}))
 
-    return Parts(on_host(source.vertices), source.faces, values())
+    return Parts(source.vertices, source.faces, values())
 
 
 def _from_triangles(source: Any) -> Parts:
@@ -338,6 +364,8 @@ def _from_triangles(source: Any) -> Parts:
 
 
 def _from_pymeshlab(source: Any) -> Parts:
+    if hasattr(source, "mesh_number") and source.mesh_number() == 0:
+        raise _wrong(source, "it is empty: call meshes.load_new_mesh(path) before")
     mesh = source.current_mesh() if hasattr(source, "current_mesh") else source
 
     def values() -> Iterator[Values]:
@@ -355,24 +383,31 @@ def _from_pymeshlab(source: Any) -> Parts:
 
 def _from_gifti(image: Any) -> Parts:
     """Returns the surface of an image of nibabel, and its values by the names that files give them."""
-    from nibabel.nifti1 import intent_codes
+    from nibabel.nifti1 import intent_codes, xform_codes
 
     arrays = [
         (intent_codes.niistring[one.intent].replace("NIFTI_INTENT_", "").lower(), one)
         for one in image.darrays
     ]
-    surface = {intent: one.data for intent, one in arrays if intent in ("pointset", "triangle")}
-    if len(surface) < 2:
+    parts = {intent: one for intent, one in arrays if intent in ("pointset", "triangle")}
+    if len(parts) < 2:
         raise _wrong(image, "it has no surface: load the image of a .surf.gii file")
+
+    points, system = parts["pointset"], parts["pointset"].coordsys
 
     def values() -> Iterator[Values]:
         for intent, one in arrays:
             if intent not in ("pointset", "triangle", "node_index"):
-                is_of_vertices = len(one.data) == len(surface["pointset"])
+                is_of_vertices = len(one.data) == len(points.data)
                 of = "vertices" if is_of_vertices else "faces"
                 yield of, one.meta.get("Name") or intent, one.data
 
-    return Parts(surface["pointset"], surface["triangle"], values())
+    warnings = []
+    if system is not None and not np.array_equal(system.xform, np.eye(4)):
+        space = xform_codes.niistring[system.xformspace]
+        message = f"transform to {space!r} ignored: coordinates are as the file has them"
+        warnings.append(e.MeshWarning(message, "transform_ignored", 1))
+    return Parts(points.data, parts["triangle"].data, values(), warnings)
 
 
 def _from_nilearn(source: Any) -> Parts:
@@ -397,16 +432,23 @@ def _from_pyg(source: Any) -> Parts:
     if source.face is None:
         advice = "its face is None: keep faces, as by FaceToEdge(remove_faces=False)"
         raise _wrong(source, advice)
-    faces = array_of(source.face, "face")
-    if faces.ndim != 2 or faces.shape[0] != 3:
-        raise e.invalid(f"face has the shape {faces.shape}, not (3, f)")
+    if source.pos is None:
+        raise _wrong(source, "its pos is None: give Data(pos=vertices, face=faces.T)")
 
     def values() -> Iterator[Values]:
         for of, name, given in _each("vertices", source.to_dict()):
             if name != "pos" and source.is_node_attr(name):
                 yield of, name, given
 
-    return Parts(source.pos, faces.T, values())
+    return Parts(source.pos, rows_of_columns(source.face), values())
+
+
+def rows_of_columns(face: Any) -> NDArray[Any]:
+    """Returns the triangles that PyG has as columns, as rows."""
+    faces = array_of(face, "face")
+    if faces.ndim != 2 or faces.shape[0] != 3:
+        raise e.invalid(f"face has the shape {faces.shape}, not (3, f)")
+    return faces.T
 
 
 def _from_warp(source: Any) -> Parts:
@@ -425,6 +467,9 @@ def _from_usd(mesh: Any) -> Parts:
     """Returns a UsdGeom.Mesh, placed in its stage. One that is mirrored or left-handed is turned over."""
     from pxr import Usd, UsdGeom
 
+    if not mesh:
+        advice = "its prim is no mesh: keep stage, and give UsdGeom.Mesh(stage.GetPrimAtPath(path))"
+        raise _wrong(mesh, advice)
     points, corners, counts, holes = (
         np.asarray([] if (value := _of_usd(one)) is None else value)
         for one in (
@@ -457,21 +502,39 @@ def _from_usd(mesh: Any) -> Parts:
             kind = primvar.GetInterpolation()
             if array.dtype.kind not in "biuf" or name in ("normals", "displayOpacity"):
                 continue
-            if name == "color":  # Amounts of light, which sRGB encodes.
-                low, high = 12.92 * array, 1.055 * np.maximum(array, 0) ** (1 / 2.4) - 0.055
-                array = np.where(array <= 0.0031308, low, high)
             if kind in (UsdGeom.Tokens.vertex, UsdGeom.Tokens.varying):
-                yield "vertices", name, array
+                of = "vertices"
             elif kind == UsdGeom.Tokens.uniform:
-                yield "faces", name, array
+                of = "faces"
             elif kind == UsdGeom.Tokens.constant:
-                yield "vertices", name, np.repeat(array.reshape(1, *array.shape[1:]), len(places), axis=0)
+                of = "vertices"
+                array = np.repeat(array.reshape(1, *array.shape[1:]), len(places), axis=0)
             else:
-                corner = array[order] if len(array) == len(corners) else array
-                is_plain = not isinstance(faces, Polygons) and len(corner) == 3 * len(faces)
-                yield "faces", name, corner.reshape(len(faces), 3, -1) if is_plain else corner
+                of, array = "faces", array[order] if len(array) == len(corners) else array
+                if not isinstance(faces, Polygons) and len(array) == 3 * len(faces):
+                    array = array.reshape(len(faces), 3, -1)
+            yield of, name, Light(array) if name == "color" else array
 
-    return Parts(places, faces, values())
+    return Parts(places, faces, values(), _warnings_of_usd(mesh))
+
+
+def _warnings_of_usd(mesh: Any) -> list[e.MeshWarning]:
+    """Returns what a reader of the file warns of that concerns this mesh."""
+    from pxr import UsdGeom
+
+    prim = mesh.GetPrim()
+    stage = prim.GetStage()
+    found = []
+    if mesh.GetSubdivisionSchemeAttr().Get() != UsdGeom.Tokens.none:
+        message = f"1 subdivision surface: the mesh that controls it is read (<{prim.GetPath()}>)"
+        found.append(e.MeshWarning(message, "control_meshes", 1))
+    metres = UsdGeom.GetStageMetersPerUnit(stage)
+    if UsdGeom.StageHasAuthoredMetersPerUnit(stage) and metres not in (0, 1):
+        message = f"coordinates are as the file has them: a unit is {metres:.6g} m"
+        if stage.HasAuthoredMetadata(UsdGeom.Tokens.upAxis):
+            message += f", and {UsdGeom.GetStageUpAxis(stage)} points up"
+        found.append(e.MeshWarning(message, "scene_units", 1))
+    return found
 
 
 # In this order: some have the attributes of several.
@@ -493,7 +556,7 @@ _KINDS = (
     (_has("verts_list", "faces_list"), _from_pytorch3d),
     (_has("pos", "face"), _from_pyg),
     (_has("points", "indices"), _from_warp),
-    (_has("GetPointsAttr", "GetFaceVertexIndicesAttr"), _from_usd),
+    (lambda source: hasattr(type(source), "GetFaceVertexIndicesAttr"), _from_usd),
 )
 
 #: Objects that are no mesh, and how to make one of them.
@@ -504,6 +567,10 @@ _ADVICE = (
     (_has("GetOutputPort"), "call source.Update() and give source.GetOutput()"),
     (_has("mesh", "data"), 'give one hemisphere: image.mesh.parts["left"]'),
     (_has("parts"), 'give one hemisphere: mesh.parts["left"]'),
+    (
+        _has("vertices", "entities"),
+        "lines have no faces: give *path.to_2D()[0].triangulate(), for a closed and flat path",
+    ),
     (
         _has("points", "normals"),
         "points need faces: give TriangleMesh.create_from_point_cloud_poisson(cloud)[0]",

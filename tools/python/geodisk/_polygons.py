@@ -85,13 +85,12 @@ def from_padded(faces: Any) -> Polygons:
     return polygons_of(flat[is_corner], sizes)
 
 
-def from_strips(strips: Any) -> Polygons:
-    """Returns the triangles of strips, of one array that has the size of each before its corners."""
-    found = from_padded(strips)
+def from_strips(strips: Polygons) -> Polygons:
+    """Returns the triangles of strips."""
     triangles: list[tuple[int, int, int]] = []
     begin = 0
-    for end in found.ends.tolist():
-        strip = found.corners[begin:end].tolist()
+    for end in strips.ends.tolist():
+        strip = strips.corners[begin:end].tolist()
         begin = end
         for i in range(len(strip) - 2):
             a, b = (i, i + 1) if i % 2 == 0 else (i + 1, i)

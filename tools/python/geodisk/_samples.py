@@ -527,10 +527,11 @@ class Samples:
         Parameters
         ----------
         path : str or path-like
-            ``*.npz`` for ``numpy.load``, ``*.csv``, or ``*.ply`` for viewers. :func:`read` reads
-            all of them, ``geodisk verify`` and the other commands CSV and PLY. Also ``*.pcd``,
-            ``*.obj`` and ``*.xyz`` for point clouds, ``*.vtp`` for VTK, ``*.glb``, ``*.gltf`` and ``*.usda`` for
-            scenes, and ``*.star`` for RELION, as the program writes them.
+            ``*.npz`` for ``numpy.load``, ``*.csv``, or ``*.ply`` for viewers, which :func:`read`
+            reads. Also ``*.pcd``, ``*.obj`` and ``*.xyz`` for point clouds, ``*.vtp`` for VTK,
+            ``*.glb``, ``*.gltf`` and ``*.usda`` for scenes, and ``*.star`` for RELION, as the
+            program writes them. ``geodisk verify`` and the other commands read all but those for
+            scenes and RELION; of ``*.obj`` and ``*.xyz`` the points.
         pixel_size : float, optional
             Divide coordinates by this pixel size in ``*.star``. The mesh is in angstroms then. By
             default it is in pixels.

@@ -151,7 +151,7 @@ def sample(
         Sample at vertices alone: each is a candidate, drawn by its share of the area. ``vertices`` of
         the samples are their indices. `pool_ratio` has no effect.
     metric : {"geodesic", "euclidean", "approximate"}
-        Distance to use; the last two are for comparison.
+        Distance to use; the last two are for comparison, on meshes without walls.
     edge_lengths, weld, keep_seams, columns, attributes, mesh_format, allow_outside
         Parameters of :class:`Mesh`.
     texture : str or path-like, optional

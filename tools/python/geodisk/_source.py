@@ -54,6 +54,12 @@ class Source:
     corners: NDArray[np.uint32]
     is_y_up: bool
 
+    def leave_out(self, faces: NDArray[np.bool_]) -> None:
+        """Makes triangles none, in the memory of the library, as walls do."""
+        self.triangles.flags.writeable = True
+        self.triangles[faces] = self.triangles[faces, :1]
+        self.triangles.flags.writeable = False
+
 
 class MeshFile(NamedTuple):
     """A mesh file and how it is read."""

@@ -82,6 +82,12 @@ class Surface:
         """Returns the vertices of each triangle, also those that were joined or copied."""
         return self.indices() if self.corners is None else self.corners
 
+    def repeats_vertex(self) -> NDArray[np.bool_]:
+        """Returns which triangles repeat a vertex, as those that are walls do."""
+        corners = self.indices()
+        repeats: NDArray[np.bool_] = (corners == np.roll(corners, 1, axis=1)).any(axis=1)
+        return repeats
+
     def coordinates(self) -> NDArray[Any]:
         """Returns the vertices as float64 or float32."""
         array = rows(real(self.vertices, "vertices"))

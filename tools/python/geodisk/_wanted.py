@@ -70,6 +70,9 @@ class Wanted:
         degrees = 0.0 if a.features is None else degrees_of(a.features)
 
         self.mesh = mesh = read_mesh()
+        if a.metric != "geodesic" and mesh._surface.walls:
+            named = f"metric='{a.metric}' and walls"
+            raise e.invalid(f"{named} exclude each other: walls are for paths along the surface")
         radii = radii_of(mesh, a.density, a.radius_factor)
         keys = None if a.face_keys is None else keys_of(mesh, a.face_keys)
         mask = None if a.face_mask is None else mask_of(mesh._surface, a.face_mask)

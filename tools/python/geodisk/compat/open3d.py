@@ -42,6 +42,11 @@ def sample_points_poisson_disk(
     """
     if pcl is not None:
         raise e.invalid("pcl is given, but geodisk draws its own candidates; leave it out")
+    if not hasattr(mesh, "has_vertex_colors"):
+        way = "mesh.to_legacy()" if hasattr(mesh, "to_legacy") else "it to geodisk.sample()"
+        raise TypeError(
+            f"mesh is a legacy open3d.geometry.TriangleMesh, not {type(mesh).__name__}; give {way}"
+        )
     samples = sample(
         mesh,
         count=number_of_points,

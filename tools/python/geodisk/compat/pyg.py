@@ -11,6 +11,7 @@ from .. import _errors as e
 from .._arrays import array_of, indices
 from .._geodesics import geodesic_distances
 from .._mesh import Mesh
+from .._objects import rows_of_columns
 
 
 def geodesic_distance(
@@ -49,7 +50,7 @@ def geodesic_distance(
 
     if dst is not None and np.shape(dst) != (np.shape(pos)[:1] if src is None else np.shape(src)):
         raise e.invalid("dst has not one vertex for each of src")
-    mesh = Mesh(array_of(pos, "pos"), array_of(face, "face").T, keep_seams=True)
+    mesh = Mesh(array_of(pos, "pos"), rows_of_columns(face), keep_seams=True)
     scale = mesh.area**0.5 if norm else 1.0
     sources = indices(np.arange(len(mesh.vertices)) if src is None else src, "src")
     within = None if max_distance is None else max_distance * scale
