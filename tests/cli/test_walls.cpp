@@ -100,6 +100,19 @@ TEST_CASE("walls by values, by creases and by edges of a file") {
     const TemporaryFolder folder;
     folder.write("a.obj", rooms(true));
     folder.write("cut.txt", column_of_edges(8));
+    // Walls add up, in any order and given twice.
+    const auto rows_of = [&](const Arguments& walls) {
+        const Outcome made =
+            run(folder,
+                joined({"sample", "a.obj", "-d", "1", "--no-header", "--format", "csv", "-o", "-"},
+                       walls));
+        INFO(made.err);
+        CHECK(made.status == 0);
+        return made.out;
+    };
+    const std::string two = rows_of({"--walls", "x<2.5", "--walls", "edges:cut.txt"});
+    CHECK(rows_of({"--walls", "edges:cut.txt", "--walls", "x<1.5", "--walls", "x<2.5", "--walls",
+                   "x<1.5"}) == two);
     const auto parts = [&](const Arguments& walls, const char* expected) {
         CAPTURE(walls[1]);
         const Outcome made = run(
@@ -268,8 +281,8 @@ TEST_CASE("walls that cannot be are refused") {
     refuses(2, "--walls: 'z>' is not PROPERTY<VALUE", "z>");
     refuses(2, "--walls x5: the mesh has 3 coordinates per vertex", "x5>1");
     refuses(3, "no face is of material:brick, as --walls requests", "material:brick");
-    refuses(3, "has no face that --walls z takes", "z>1");
-    refuses(3, "a.obj: every face is a wall", "z<1");
+    refuses(3, "a.obj: --walls takes no face: 'z' is from ", "z>1");
+    refuses(3, "a.obj: --walls takes every face, so that none is left", "z<1");
     refuses(3, "has no creases for --walls", "creases");
     refuses(3, "none.txt: line 2: no face has an edge 1-21", "edges:none.txt");
     refuses(3, "three.txt: line 1: an edge reads 'VERTEX VERTEX'", "edges:three.txt");

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <doctest/doctest.h>
@@ -87,6 +88,21 @@ TEST_CASE("more of a shell with a hole is seen, the wider the hole and the small
     CHECK(narrow > 0);
     CHECK(wide > narrow);
     CHECK(wide < ball.face_count());
+}
+
+TEST_CASE("which way faces are turned does not matter, also where rays run along them") {
+    TestMesh mesh;
+    append(mesh, builtin("cube", 2), 1);
+    append(mesh, builtin("cube", 2), 0.3, 0.2);
+    TestMesh turned = mesh;
+    for (std::uint32_t f = 0; f < turned.face_count(); ++f) {
+        std::swap(turned.triangles[3 * f + 1], turned.triangles[3 * f + 2]);
+    }
+    for (const double share : {0.02, 0.5, 0.97, 1.0}) {
+        CAPTURE(share);
+        CHECK(seen_of(turned, share) == seen_of(mesh, share));
+        CHECK(count(seen_of(mesh, share)) == mesh.face_count() / 2);
+    }
 }
 
 TEST_CASE("sheets, faces without area and odd scales") {

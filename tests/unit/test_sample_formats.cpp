@@ -361,6 +361,43 @@ TEST_CASE("glTF has points with attributes") {
     check_fails(ExitCode::usage, "up to 16,777,216", [&] { written("b.glb", far); });
 }
 
+TEST_CASE("scenes hold attributes of more than four numbers, and none twice") {
+    const std::vector<SampleRow> rows = rows_of_format(0);
+    SampleField wide{"c", {"c_0", "c_1", "c_2", "c_3", "c_4"}, false, false, {}, false};
+    for (std::size_t i = 0; i < 5 * rows.size(); ++i) {
+        wide.values.push_back(static_cast<double>(i));
+    }
+    const auto bytes_with = [&](const std::string& name, std::vector<SampleField> fields) {
+        const TemporaryFolder folder;
+        AtomicFile file(folder / name);
+        write_samples(file, sample_target(folder / name), kFormatHeader, rows, 3, {{}, fields});
+        file.commit();
+        return bytes_of(folder / name);
+    };
+    for (const char* const name : {"a.gltf", "a.glb"}) {
+        CAPTURE(name);
+        const GltfFile file = gltf_of(bytes_with(name, {wide}));
+        const Json& attributes = file.document["meshes"][0]["primitives"][0]["attributes"];
+        for (std::size_t k = 0; k < 5; ++k) {
+            const Json& accessor = file.document["accessors"].at(
+                attributes.at("_C_" + std::to_string(k)).get<std::size_t>());
+            CHECK(accessor["type"] == "SCALAR");
+            CHECK(accessor["min"].at(0) == static_cast<double>(k));
+            CHECK(accessor["max"].at(0) == static_cast<double>(5 * (rows.size() - 1) + k));
+        }
+    }
+    const std::string usd = bytes_with("a.usda", {wide});
+    CHECK(contains(usd, "float[] primvars:c = [0, 1, 2, 3, 4, 5, "));
+    CHECK(contains(usd, "] (\n        elementSize = 5\n        interpolation = \"vertex\"\n"));
+
+    const SampleField lower{"a", {"a"}, false, false, std::vector<double>(rows.size()), false};
+    SampleField upper = lower;
+    upper.name = "A";
+    check_fails(ExitCode::usage, "two attributes of glTF would be called '_A'", [&] {
+        bytes_with("b.glb", {lower, upper});
+    });
+}
+
 TEST_CASE("formats refuse what they cannot hold") {
     const TemporaryFolder folder;
     for (const char* const name : {"a.xyz", "a.obj", "a.gltf", "a.glb"}) {
@@ -445,12 +482,13 @@ Matrix rotation_of(const StarTable& table, std::size_t row) {
 
 std::string star_of(const std::vector<SampleRow>& rows, const FurtherColumns& further = {},
                     std::optional<double> pixel_size = std::nullopt,
-                    const std::string& mesh = "a.ply") {
+                    const std::string& mesh = "a.ply", bool has_header = true) {
     const TemporaryFolder folder;
     const std::filesystem::path path = folder / "a.star";
     AtomicFile file(path);
     SampleTarget target = sample_target(path);
     target.pixel_size = pixel_size;
+    target.has_header = has_header;
     write_samples(file, target, {{{"mesh", mesh}, {"seed", "7"}}}, rows, 3, further);
     file.commit();
     return bytes_of(path);
@@ -524,6 +562,9 @@ TEST_CASE("STAR has pixels, and names that are one word") {
     CHECK_FALSE(contains(pixels, "rlnImagePixelSize"));
     CHECK(StarTable(pixels).number(2, "_rlnCoordinateZ") == rows[2].position[2]);
     CHECK(StarTable(pixels).rows[0][3] == "mesh");
+    const std::string bare = star_of(rows, {}, std::nullopt, "a/TS_01.vtp", false);
+    CHECK(bare.starts_with("\ndata_optics"));
+    CHECK(StarTable(bare).rows[0][4] == "TS_01");
 
     const TemporaryFolder folder;
     AtomicFile file(folder / "b.star");

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 
 #include "mesh/checks.hpp"
 #include "mesh/connectivity.hpp"
@@ -92,7 +93,9 @@ class Watcher {
         const Vec normal = cross(face[1] - face[0], face[2] - face[0]);
         std::array<std::size_t, 2> rays{};
         for (const Vec& direction : directions_) {
-            rays[side_of(direction, normal)] += kPoints.size();
+            if (const auto side = side_of(direction, normal)) {
+                rays[*side] += kPoints.size();
+            }
         }
         std::array<std::size_t, 2> free{}, left = rays, needed{};
         for (std::size_t side = 0; side < 2; ++side) {
@@ -106,11 +109,11 @@ class Watcher {
                                weights[2] * face[2][axis];
             }
             for (const Vec& direction : directions_) {
-                const std::size_t side = side_of(direction, normal);
-                if (free[side] + left[side]-- < needed[side]) {
+                const auto side = side_of(direction, normal);
+                if (!side || free[*side] + left[*side]-- < needed[*side]) {
                     continue; // Too many are stopped on this side.
                 }
-                if (!tree_.is_met(origin, direction, kGap) && ++free[side] >= needed[side]) {
+                if (!tree_.is_met(origin, direction, kGap) && ++free[*side] >= needed[*side]) {
                     return true;
                 }
             }
@@ -119,8 +122,10 @@ class Watcher {
     }
 
   private:
-    static std::size_t side_of(const Vec& direction, const Vec& normal) {
-        return dot(direction, normal) > 0 ? 0 : 1;
+    /// Returns the side of a face to which a ray leaves; none for a ray along the face.
+    static std::optional<std::size_t> side_of(const Vec& direction, const Vec& normal) {
+        const double along = dot(direction, normal);
+        return along == 0 ? std::nullopt : std::optional<std::size_t>(along > 0 ? 0 : 1);
     }
 
     RayTree tree_;

@@ -30,6 +30,9 @@ namespace {
 
 using nlohmann::json;
 
+/// Numbers that an attribute holds for each point, at most.
+constexpr std::size_t kMostComponents = 4;
+
 /// Document of glTF whose accessors are all in one buffer.
 struct GltfDocument {
     json content = json::object();
@@ -86,7 +89,7 @@ class FloatAccessors {
     /// Returns the number of an accessor; `value(i, k)` is component k of point i.
     template <class Value>
     std::size_t add(std::size_t components, const Value& value) {
-        constexpr const char* kTypes[] = {"SCALAR", "VEC2", "VEC3", "VEC4"};
+        constexpr const char* kTypes[kMostComponents] = {"SCALAR", "VEC2", "VEC3", "VEC4"};
         constexpr int kFloat = 5126, kArrayBuffer = 34962;
         const std::size_t begin = gltf_.buffer.size();
         const std::size_t size = count_ * components * sizeof(float);
@@ -147,6 +150,10 @@ class Points {
     /// `value(i, k)` is component k of point i.
     template <class Value>
     void add(const std::string& name, std::size_t components, const Value& value) {
+        if (attributes_.contains(name)) {
+            fail_usage("two attributes of glTF would be called " + in_quotes(name) +
+                       "; leave one out, or use " + listed_formats(&FormatFacts::holds_all));
+        }
         attributes_[name] = accessors_.add(components, value);
     }
     /// Adds whole numbers, one of each point; `index_of(i)` is that of point i.
@@ -204,9 +211,17 @@ void add_surface(Points& points, std::span<const SampleRow> rows, const SampleLa
         }
         check_values(field);
         const std::size_t size = field.components.size();
-        points.add(attribute_name(field.name), size, [&](std::size_t i, std::size_t k) {
+        const auto value = [&](std::size_t i, std::size_t k) {
             return finite_float(field_value(field, i, k, layout.colours));
-        });
+        };
+        if (size <= kMostComponents) {
+            points.add(attribute_name(field.name), size, value);
+            continue;
+        }
+        for (std::size_t k = 0; k < size; ++k) { // glTF has no type for so many.
+            points.add(attribute_name(field.components[k]), 1,
+                       [&](std::size_t i, std::size_t) { return value(i, k); });
+        }
     }
 }
 

@@ -18,8 +18,8 @@ void append_triple(std::string& text, std::string_view name, const Number* tripl
 } // namespace
 
 void write_obj(AtomicFile& file, const SampleHeader& header, std::span<const SampleRow> rows,
-               const SampleTarget& /*target*/, const SampleLayout& layout) {
-    file.write(entry_lines(header, "# "));
+               const SampleTarget& target, const SampleLayout& layout) {
+    file.write(entry_lines(header, target, "# "));
     // Writes what `append(text, i)` appends for each row.
     const auto write_each = [&](const auto& append) {
         write_rows(file, rows.size(), [&](std::string& text, std::size_t begin, std::size_t end) {

@@ -26,7 +26,7 @@ void write_pcd(AtomicFile& file, const SampleHeader& header, std::span<const Sam
     layout.origin = origin_for_float(rows, layout.dimension);
     check_float_range(target, rows, layout.origin);
     SampleHeader all = header;
-    if (layout.origin != std::array<double, 3>{} && target.has_header) {
+    if (layout.origin != std::array<double, 3>{}) {
         all.entries.emplace_back(kOrigin, exact_text(layout.origin[0]) + ' ' +
                                               exact_text(layout.origin[1]) + ' ' +
                                               exact_text(layout.origin[2]));
@@ -46,7 +46,7 @@ void write_pcd(AtomicFile& file, const SampleHeader& header, std::span<const Sam
     });
     const std::string count = std::to_string(rows.size());
     file.write("# .PCD v0.7 - Point Cloud Data file format\n");
-    file.write(entry_lines(all, "# "));
+    file.write(entry_lines(all, target, "# "));
     file.write("VERSION 0.7\nFIELDS" + fields + "\nSIZE" + sizes + "\nTYPE" + types + "\nCOUNT" +
                counts + "\nWIDTH " + count + "\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS " +
                count + "\nDATA " + (target.is_text ? "ascii" : "binary") + '\n');

@@ -26,18 +26,19 @@ const char* ply_type(double) {
     return "double";
 }
 
-std::string ply_head(const SampleHeader& header, std::uint64_t count, bool is_text,
+std::string ply_head(const SampleHeader& header, std::uint64_t count, const SampleTarget& target,
                      const SampleLayout& layout) {
     std::string head =
-        is_text ? "ply\nformat ascii 1.0\n" : "ply\nformat binary_little_endian 1.0\n";
-    head += entry_lines(header, "comment ");
+        target.is_text ? "ply\nformat ascii 1.0\n" : "ply\nformat binary_little_endian 1.0\n";
+    head += entry_lines(header, target, "comment ");
     head += "element vertex " + std::to_string(count) + '\n';
     return head + ply_properties(layout) + "end_header\n";
 }
 
-std::string csv_head(const SampleHeader& header, std::uint64_t count, const SampleLayout& layout) {
-    std::string head = entry_lines(header, "# ");
-    if (!header.entries.empty()) {
+std::string csv_head(const SampleHeader& header, std::uint64_t count, const SampleTarget& target,
+                     const SampleLayout& layout) {
+    std::string head = entry_lines(header, target, "# ");
+    if (!head.empty()) {
         head += "# " + std::string(kSampleCount) + ": " + std::to_string(count) + '\n';
     }
     const std::size_t first = head.size();
@@ -74,9 +75,8 @@ RowFormat::RowFormat(const SampleTarget& target, const SampleLayout& layout)
     : target_(target), layout_(layout) {}
 
 std::string RowFormat::head(const SampleHeader& header, std::uint64_t count) const {
-    const SampleHeader told = target_.has_header ? header : SampleHeader{};
-    return target_.format == SampleFormat::ply   ? ply_head(told, count, target_.is_text, layout_)
-           : target_.format == SampleFormat::csv ? csv_head(told, count, layout_)
+    return target_.format == SampleFormat::ply   ? ply_head(header, count, target_, layout_)
+           : target_.format == SampleFormat::csv ? csv_head(header, count, target_, layout_)
                                                  : "";
 }
 

@@ -22,18 +22,18 @@ constexpr auto kSrgb = ColourEncoding::srgb, kBytes = ColourEncoding::bytes,
 
 /// By SampleFormat; lists are in this order.
 constexpr std::array<FormatFacts, 11> kFormats{{
-    // name, content, coordinates, floats, programs, comments, scene, colours, writer, reader
-    {"ply", kColumns, 0, 8, false, false, true, kNoScene, kBytes, write_by_row, read_ply_samples},
-    {"csv", kColumns, 0, 8, false, true, true, kNoScene, kSrgb, write_by_row, read_table_samples},
-    {"xyz", kPoints, 3, 3, false, false, false, kNoScene, kSrgb, write_by_row, read_table_samples},
-    {"npz", kColumns, 0, 8, false, true, false, kNoScene, kSrgb, write_npz, read_numpy_samples},
-    {"pcd", kColumns, 1, 8, true, false, true, kNoScene, kPacked, write_pcd, read_pcd_samples},
-    {"obj", kNormals, 3, 3, false, false, true, kNoScene, kSrgb, write_obj, read_obj_points},
-    {"gltf", kColumns, 3, 3, true, false, false, SceneAxes::y, kLight, write_gltf, nullptr},
-    {"glb", kColumns, 3, 3, true, false, false, SceneAxes::y, kLight, write_gltf, nullptr},
-    {"usda", kColumns, 3, 3, true, false, false, SceneAxes::y_or_z, kLight, write_usd, nullptr},
-    {"vtp", kColumns, 1, 8, false, false, false, kNoScene, kBytes, write_vtp, read_vtp_samples},
-    {"star", kColumns, 3, 3, false, false, true, kNoScene, kSrgb, write_star, nullptr},
+    // name, content, coordinates, floats, programs, scene, colours, writer, reader
+    {"ply", kColumns, 0, 8, false, false, kNoScene, kBytes, write_by_row, read_ply_samples},
+    {"csv", kColumns, 0, 8, false, true, kNoScene, kSrgb, write_by_row, read_table_samples},
+    {"xyz", kPoints, 3, 3, false, false, kNoScene, kSrgb, write_by_row, read_table_samples},
+    {"npz", kColumns, 0, 8, false, true, kNoScene, kSrgb, write_npz, read_numpy_samples},
+    {"pcd", kColumns, 1, 8, true, false, kNoScene, kPacked, write_pcd, read_pcd_samples},
+    {"obj", kNormals, 3, 3, false, false, kNoScene, kSrgb, write_obj, read_obj_points},
+    {"gltf", kColumns, 3, 3, true, false, SceneAxes::y, kLight, write_gltf, nullptr},
+    {"glb", kColumns, 3, 3, true, false, SceneAxes::y, kLight, write_gltf, nullptr},
+    {"usda", kColumns, 3, 3, true, false, SceneAxes::y_or_z, kLight, write_usd, nullptr},
+    {"vtp", kColumns, 1, 8, false, false, kNoScene, kBytes, write_vtp, read_vtp_samples},
+    {"star", kColumns, 3, 3, false, false, kNoScene, kSrgb, write_star, nullptr},
 }};
 
 } // namespace

@@ -44,7 +44,6 @@ struct FormatFacts {
     std::uint32_t min_dimension, max_dimension; ///< Number of coordinates.
     bool has_floats;                            ///< Coordinates are floats, whatever they need.
     bool is_for_programs; ///< Holds just the coordinates there are; viewers have x y z in any case.
-    bool has_comments;    ///< The header consists of comments, which may be left out.
     SceneAxes axes;
     ColourEncoding colours;
     SampleWriter write;

@@ -95,8 +95,12 @@ void check_float_range(const SampleTarget& target, std::span<const SampleRow> ro
     }
 }
 
-std::string entry_lines(const SampleHeader& header, const char* prefix) {
+std::string entry_lines(const SampleHeader& header, const SampleTarget& target,
+                        const char* prefix) {
     std::string lines;
+    if (!target.has_header) {
+        return lines;
+    }
     for (const auto& [key, value] : header.entries) {
         std::string entry = key + ": ";
         entry += value;

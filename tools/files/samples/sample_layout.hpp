@@ -166,8 +166,8 @@ std::array<double, 3> origin_for_float(std::span<const SampleRow> rows, std::uin
 void check_float_range(const SampleTarget& target, std::span<const SampleRow> rows,
                        const std::array<double, 3>& origin);
 
-/// Returns a line "KEY: VALUE" behind `prefix` for each entry.
-std::string entry_lines(const SampleHeader& header, const char* prefix);
+/// Returns a line "KEY: VALUE" behind `prefix` for each entry; none if the target has no header.
+std::string entry_lines(const SampleHeader& header, const SampleTarget& target, const char* prefix);
 
 /// An object of all entries, plain ASCII on one line; a key with several values has an array.
 std::string json_text(const SampleHeader& header);

@@ -15,13 +15,6 @@ namespace {
 /// Rounding of distances, as a part of the minimum distance.
 constexpr double kWorthTelling = 1e-6;
 
-void write(AtomicFile& file, const SampleTarget& target, const SampleHeader& header,
-           std::span<const SampleRow> rows, const SampleLayout& layout) {
-    const FormatFacts& format = facts_of(target.format);
-    const bool has_header = target.has_header || !format.has_comments;
-    format.write(file, has_header ? header : SampleHeader{}, rows, target, layout);
-}
-
 } // namespace
 
 void write_samples(const Path& path, const SampleHeader& header, std::span<const SampleRow> rows,
@@ -41,14 +34,15 @@ void write_samples(AtomicFile& file, const SampleTarget& target, const SampleHea
     layout.has_radius = has_radii(rows);
     layout.has_polygon = has_polygons(rows);
     layout.further = further;
-    write(file, target, header, rows, layout);
+    facts_of(target.format).write(file, header, rows, target, layout);
 }
 
 void write_box_samples(AtomicFile& file, const SampleTarget& target, const SampleHeader& header,
                        std::span<const SampleRow> rows, std::uint32_t dimension) {
     const std::uint32_t there_are = dimension > 3 ? 0 : dimension;
     const std::uint32_t named = facts_of(target.format).is_for_programs ? there_are : 3;
-    write(file, target, header, rows, {dimension, named, false, false, false, false});
+    facts_of(target.format)
+        .write(file, header, rows, target, {dimension, named, false, false, false, false});
 }
 
 std::optional<std::string> precision_note(const SampleTarget& target,

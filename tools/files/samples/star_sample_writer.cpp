@@ -90,7 +90,7 @@ void write_star(AtomicFile& file, const SampleHeader& header, std::span<const Sa
     const SampleLayout further = further_layout(layout, fields);
     const std::string name = micrograph_name(header);
 
-    std::string text = entry_lines(header, "# ");
+    std::string text = entry_lines(header, target, "# ");
     std::size_t count = 0;
     const auto add_label = [&](std::string_view label) {
         text += '_' + std::string(label) + " #" + std::to_string(++count) + '\n';

@@ -76,7 +76,11 @@ class Properties {
                 append_value(text, components, [&](std::size_t k) { return value(i, k); });
             }
         });
-        file_.write(is_primvar ? "] (\n        interpolation = \"vertex\"\n    )\n" : "]\n");
+        const std::string size = has_type(components)
+                                     ? ""
+                                     : "        elementSize = " + std::to_string(components) + "\n";
+        file_.write(is_primvar ? "] (\n" + size + "        interpolation = \"vertex\"\n    )\n"
+                               : "]\n");
     }
 
     template <class Value>
@@ -84,7 +88,6 @@ class Properties {
                      const Value& value) {
         add(type + "[] primvars:" + identifier(name), components, value, true);
     }
-
     void add_field(const SampleField& field) {
         const std::size_t size = field.components.size();
         const auto exact = [&](std::size_t i, std::size_t k) {
@@ -114,18 +117,23 @@ class Properties {
     }
 
   private:
+    /// Returns true if USD has a type for so many numbers; more are elements of an array of single
+    /// ones.
+    static bool has_type(std::size_t components) { return components <= 4; }
+
     static std::string number_of(std::size_t components) {
-        return components == 1 ? "" : std::to_string(components);
+        return components == 1 || !has_type(components) ? "" : std::to_string(components);
     }
 
     template <class Value>
     static void append_value(std::string& text, std::size_t components, const Value& value) {
-        text += components > 1 ? "(" : "";
+        const bool is_tuple = components > 1 && has_type(components);
+        text += is_tuple ? "(" : "";
         for (std::size_t k = 0; k < components; ++k) {
             text += k > 0 ? ", " : "";
             append_number(text, value(k));
         }
-        text += components > 1 ? ")" : "";
+        text += is_tuple ? ")" : "";
     }
 
     AtomicFile& file_;

@@ -388,12 +388,18 @@ std::vector<std::uint8_t> faces_of(const OnlyRule& part, const std::string& path
     return chosen_by(path, mesh, {part});
 }
 
-std::vector<std::uint8_t> faces_of(const MaskRule& rule, const MeshFile& mesh) {
+std::vector<std::uint8_t> faces_of(const MaskRule& rule, const std::string& path,
+                                   const MeshFile& mesh) {
     const bool has_number = !rule.is_map && !rule.axis();
     const MeshField* const number = has_number ? &mesh.number(rule.name) : nullptr;
     Mask mask(mesh.triangle_count(), 1);
     const RuleEffect applied(has_number ? with_value(rule, *number) : rule, mesh, number, mask);
-    return mask;
+    for (std::size_t t = 0; t < mask.size(); ++t) {
+        if (mask[t] != 0 && mesh.takes_part(t)) {
+            return mask;
+        }
+    }
+    fail_input(path, rule.option + " takes no face: " + applied.range());
 }
 
 LoadedMask load_mask(const MaskOptions& options, const std::string& path, const MeshFile& mesh,

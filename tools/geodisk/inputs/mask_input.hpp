@@ -19,8 +19,10 @@ namespace geodisk::tools {
 std::vector<std::uint8_t> faces_of(const OnlyRule& part, const std::string& path,
                                    const MeshFile& mesh);
 
-/// Returns a byte per triangle, 1 where the rule holds for the whole of it.
-std::vector<std::uint8_t> faces_of(const MaskRule& rule, const MeshFile& mesh);
+/// Returns a byte per triangle of the mesh at `path`, 1 where the rule holds for the whole of it.
+/// Throws UserError(bad_input) if it holds for none.
+std::vector<std::uint8_t> faces_of(const MaskRule& rule, const std::string& path,
+                                   const MeshFile& mesh);
 
 struct LoadedMask {
     std::vector<std::uint8_t> faces; ///< A byte per triangle, 1 where it takes samples.

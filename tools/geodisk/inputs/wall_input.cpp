@@ -27,13 +27,7 @@ class FoundWalls {
 
     void operator()(const OnlyRule& part) { take_faces(faces_of(part, path_, mesh_)); }
 
-    void operator()(const MaskRule& rule) {
-        const std::size_t before = wall_count();
-        take_faces(faces_of(rule, mesh_));
-        if (wall_count() == before) {
-            fail_input(path_, "has no face that --walls " + rule.name + " takes");
-        }
-    }
+    void operator()(const MaskRule& rule) { take_faces(faces_of(rule, path_, mesh_)); }
 
     void operator()(const CreaseWalls& creases) {
         if (mesh_.positions.empty()) {
@@ -42,11 +36,12 @@ class FoundWalls {
         }
         const MeshView view{mesh_.positions, mesh_.triangles, mesh_.dimension, true};
         const PreparedMesh prepared = take(PreparedMesh::prepare(view), path_);
-        for (const std::uint32_t edge : crease_edges(view, prepared, creases.degrees)) {
-            edges_.push_back({mesh_.triangles[edge], mesh_.triangles[next_in_face(edge)]});
-        }
-        if (edges_.empty()) {
+        const std::vector<std::uint32_t> found = crease_edges(view, prepared, creases.degrees);
+        if (found.empty()) {
             fail_input(path_, "has no creases for --walls");
+        }
+        for (const std::uint32_t edge : found) {
+            edges_.push_back({mesh_.triangles[edge], mesh_.triangles[next_in_face(edge)]});
         }
     }
 
@@ -60,6 +55,9 @@ class FoundWalls {
 
     /// Cuts the mesh, which has so many vertices.
     CutMesh cut(std::uint32_t vertices) const {
+        if (takes_all()) {
+            fail_input(path_, "--walls takes every face, so that none is left");
+        }
         auto made = geodisk::cut(mesh_.triangles, vertices, {faces_, edges_});
         const bool is_edge = !made && made.error().status == Status::invalid_argument;
         const auto found = is_edge ? named_.find(made.error().element) : named_.end();
@@ -73,8 +71,12 @@ class FoundWalls {
     }
 
   private:
-    std::size_t wall_count() const {
-        return static_cast<std::size_t>(std::ranges::count(faces_, 1));
+    bool takes_all() const {
+        bool is_left = faces_.empty();
+        for (std::size_t t = 0; t < faces_.size() && !is_left; ++t) {
+            is_left = faces_[t] == 0 && mesh_.takes_part(t);
+        }
+        return !is_left;
     }
 
     void take_faces(const std::vector<std::uint8_t>& chosen) {

@@ -163,10 +163,10 @@ void add_walls_option(Command command, MeshOptions& options) {
     command
         .add_option("--walls", options.walls, "WALL",
                     "No path crosses these: faces of material:NAME, group:NAME,\n"
-                    "node:NAME or part:N, faces where PROPERTY<VALUE holds or that\n"
-                    "are white in map:FILE, edges of creases[:DEGREES], or those in\n"
-                    "edges:FILE with a line VERTEX VERTEX each; may be given several\n"
-                    "times",
+                    "node:NAME, part:N or outside, faces where PROPERTY<VALUE or\n"
+                    "file:FILE<VALUE holds or that are white in map:FILE, edges of\n"
+                    "creases[:DEGREES], or those in edges:FILE with a line VERTEX\n"
+                    "VERTEX each; may be given several times",
                     kSurfaceGroup)
         .takes_one_value();
 }

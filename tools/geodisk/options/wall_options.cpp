@@ -40,8 +40,8 @@ WallRule parse_wall(const std::string& text) {
     if (text.find_first_of("<>=") == std::string::npos && !text.starts_with("map:") &&
         !text.starts_with("file:")) {
         fail_usage(std::string(kWalls) + ": " + in_quotes(text) +
-                   " is none of material:NAME, group:NAME, node:NAME, part:N, PROPERTY<VALUE, "
-                   "map:FILE, file:FILE, creases and edges:FILE");
+                   " is none of material:NAME, group:NAME, node:NAME, part:N, outside, "
+                   "PROPERTY<VALUE, map:FILE, file:FILE, creases and edges:FILE");
     }
     return parse_mask(kWalls, text);
 }
