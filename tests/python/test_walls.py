@@ -81,7 +81,7 @@ def test_faces_of_polygons_are_walls_as_they_are_given():
 @pytest.mark.parametrize(
     "walls, text",
     [
-        ([True, False], "mask of the shape"),
+        ([True, False], "walls has the shape"),
         ([1, 2, 3], "neither a mask of type bool"),
         ([[0, 99999]], "has the vertex 99999"),
         ([[0, 50]], "no face has the vertices 0 and 50"),

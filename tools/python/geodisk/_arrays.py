@@ -104,3 +104,8 @@ def indices(
 def checksum(array: NDArray[Any]) -> str:
     """Returns eight digits that practically differ for other values."""
     return f"{zlib.crc32(array.astype(array.dtype.newbyteorder('<')).tobytes()):08x}"
+
+
+def mask_digest(mask: NDArray[np.uint8]) -> str:
+    """Returns what headers tell of a mask, as the library takes it."""
+    return checksum(np.packbits(mask))

@@ -9,12 +9,10 @@ import struct
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
-import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from . import _errors as e
 from . import _library as c
-from ._arrays import checksum
 
 #: Entry of headers that tells a mask from others.
 MASK_DIGEST = "mask_digest"
@@ -87,11 +85,6 @@ def joins_of(weld: bool | float, keep_seams: bool, walls: str = "") -> dict[str,
     if walls:
         told["walls"] = walls
     return told
-
-
-def mask_digest(mask: NDArray[np.uint8]) -> str:
-    """Returns what headers tell of a mask, as the library takes it."""
-    return checksum(np.packbits(mask))
 
 
 def told_text(value: bool | float | str) -> str:

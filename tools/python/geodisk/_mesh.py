@@ -433,11 +433,7 @@ def mask_of(
         mask = np.zeros(triangles, np.uint8)
         mask[chosen] = 1
         return mask
-    if given.ndim == 1:
-        given = surface.by_triangle(given)
-    if given.shape != (triangles,):
-        raise e.invalid(f"{name} has the shape {given.shape}, not ({triangles},)")
-    return np.ascontiguousarray(given).view(np.uint8)
+    return surface.mask(given, name)
 
 
 def keys_of(mesh: Mesh, face_keys: ArrayLike) -> NDArray[np.uint32]:

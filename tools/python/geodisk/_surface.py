@@ -128,6 +128,14 @@ class Surface:
             return values
         return values[: len(self.indices())] if self.polygons is None else values[self.polygons]
 
+    def mask(self, given: NDArray[Any], name: str) -> NDArray[np.uint8]:
+        """Returns a mask of triangles, or of faces as given, as the library takes it."""
+        if given.ndim == 1:
+            given = self.by_triangle(given)
+        if given.shape != (len(self.indices()),):
+            raise e.invalid(f"{name} has the shape {given.shape}, not ({len(self.indices())},)")
+        return np.ascontiguousarray(given).view(np.uint8)
+
     def vertex_values(self, values: ArrayLike, name: str) -> NDArray[Any]:
         """Returns the values as float64 or float32, one for each vertex."""
         if isinstance(values, str):

@@ -16,12 +16,13 @@ from numpy.typing import ArrayLike
 from . import _errors as e
 from . import _library as c
 from . import _structs as s
+from ._arrays import mask_digest
 from ._attributes import Attribute
 from ._devices import DeviceLike, name_of
 from ._existing import AvoidLike, ExistingLike, avoided_of, existing_of, points_of
 from ._inherited import Wanted
 from ._inputs import surface_of
-from ._job import FOLLOWED, MASK_DIGEST, Job, JobFrame, joins_of, mask_digest
+from ._job import FOLLOWED, MASK_DIGEST, Job, JobFrame, joins_of
 from ._mesh import Mesh, is_mesh, keys_of, mask_of, mesh_of
 from ._protocols import Faces, MeshLike
 from ._radii import one_of, radii_of

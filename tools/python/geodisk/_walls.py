@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from . import _errors as e
 from . import _library as c
 from . import _structs as s
-from ._arrays import array_of, checksum, indices
+from ._arrays import array_of, checksum, indices, mask_digest
 from ._surface import Surface
 
 
@@ -38,9 +38,9 @@ def cut(surface: Surface, walls: ArrayLike) -> Surface:
         vertex_count=vertices,
     )
     if given.dtype == bool:
-        mask = _mask_of(surface, given)
+        mask = surface.mask(given, "walls")
         params.faces = mask.ctypes.data
-        told = f"{int(mask.sum())} faces {checksum(np.packbits(mask))}"
+        told = f"{int(mask.sum())} faces {mask_digest(mask)}"
     else:
         edges = _edges_of(surface, given)
         params.edges, params.edge_count = edges.ctypes.data, len(edges)
@@ -66,15 +66,6 @@ def are_other(told: str, own: str) -> bool:
     """Returns whether walls differ, as headers tell them. Those of the program have no checksum."""
     both_here = all(_TOLD.fullmatch(walls) for walls in (told, own))
     return told != own and (both_here or not told or not own)
-
-
-def _mask_of(surface: Surface, given: NDArray[Any]) -> NDArray[np.uint8]:
-    triangles = len(surface.indices())
-    if given.ndim == 1:
-        given = surface.by_triangle(given)
-    if given.shape != (triangles,):
-        raise e.invalid(f"walls is a mask of the shape {given.shape}, not ({triangles},)")
-    return np.ascontiguousarray(given).view(np.uint8)
 
 
 def _edges_of(surface: Surface, given: NDArray[Any]) -> NDArray[np.uint32]:

@@ -13,12 +13,13 @@ from numpy.typing import NDArray
 from . import _errors as e
 from . import _library as c
 from . import _structs as s
+from ._arrays import mask_digest
 from ._class_places import ClassPlaces, values_of
 from ._classes import Classes, has_classes
 from ._existing import existing_of
 from ._farthest import put_farthest_first
 from ._features import degrees_of
-from ._job import FOLLOWED, MASK_DIGEST, Job, JobFrame, joins_of, mask_digest, options, told_text, values
+from ._job import FOLLOWED, MASK_DIGEST, Job, JobFrame, joins_of, options, told_text, values
 from ._levels import levels_of
 from ._mesh import Mesh, attributes_with, keys_of, mask_of, mesh_of
 from ._oddities import oddities_of_set, warn, warn_of_whole_mask
