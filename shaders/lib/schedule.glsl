@@ -43,8 +43,12 @@ uint order_after(uint first, float idle) {
 // Returns true if exactly the first candidates that are due get the slots.
 bool is_ranked() { return push.slots <= kMaxRanked; }
 
-// Returns so many slots that lanes are busy for a part of the time of the largest disk of a candidate so far.
+// Returns so many slots that lanes are busy for a part of the time of the largest disk of a candidate so far;
+// none where a work group computes a disk together.
 uint slots_beside_largest() {
+    if (push.lanes_per_group == 1u) {
+        return 0u;
+    }
     precise float windows = float(control.windows_high) * 4294967296.0 + float(control.windows_low);
     precise float usual = windows / max(float(control.disks), 1.0);
     precise float slots = kBusyPart * float(push.lanes) * float(control.max_windows) / max(usual, 1.0);
