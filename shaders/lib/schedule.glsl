@@ -43,10 +43,10 @@ uint order_after(uint first, float idle) {
 // Returns true if exactly the first candidates that are due get the slots.
 bool is_ranked() { return push.slots <= kMaxRanked; }
 
-// Returns so many slots that lanes are busy for a part of the time of the largest disk of a candidate so far;
-// none where a work group computes a disk together.
+// Returns so many slots that lanes are busy for a part of the time of the largest disk so far. Returns 0 where a
+// work group computes a disk together, and after settled samples, whose disks are no measure for others.
 uint slots_beside_largest() {
-    if (push.lanes_per_group == 1u) {
+    if (push.lanes_per_group == 1u || control.settled > 0u) {
         return 0u;
     }
     precise float windows = float(control.windows_high) * 4294967296.0 + float(control.windows_low);
@@ -156,7 +156,6 @@ void go_on() {
 void end_batch() {
     if (control.mode == kSelectSettled) {
         control.next_sample += control.slots_used;
-        control.max_windows = 0u; // Those of candidates count.
     } else {
         control.first_order = min(control.batch_end, control.first_left);
     }

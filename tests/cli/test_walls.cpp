@@ -282,7 +282,7 @@ TEST_CASE("walls that cannot be are refused") {
     refuses(2, "--walls x5: the mesh has 3 coordinates per vertex", "x5>1");
     refuses(3, "no face is of material:brick, as --walls requests", "material:brick");
     refuses(3, "a.obj: --walls takes no face: 'z' is from ", "z>1");
-    refuses(3, "a.obj: --walls takes every face, so that none is left", "z<1");
+    refuses(3, "a.obj: every face is a wall", "z<1");
     refuses(3, "has no creases for --walls", "creases");
     refuses(3, "none.txt: line 2: no face has an edge 1-21", "edges:none.txt");
     refuses(3, "three.txt: line 1: an edge reads 'VERTEX VERTEX'", "edges:three.txt");

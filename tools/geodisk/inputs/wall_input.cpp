@@ -55,9 +55,6 @@ class FoundWalls {
 
     /// Cuts the mesh, which has so many vertices.
     CutMesh cut(std::uint32_t vertices) const {
-        if (takes_all()) {
-            fail_input(path_, "--walls takes every face, so that none is left");
-        }
         auto made = geodisk::cut(mesh_.triangles, vertices, {faces_, edges_});
         const bool is_edge = !made && made.error().status == Status::invalid_argument;
         const auto found = is_edge ? named_.find(made.error().element) : named_.end();
@@ -71,14 +68,6 @@ class FoundWalls {
     }
 
   private:
-    bool takes_all() const {
-        bool is_left = faces_.empty();
-        for (std::size_t t = 0; t < faces_.size() && !is_left; ++t) {
-            is_left = faces_[t] == 0 && mesh_.takes_part(t);
-        }
-        return !is_left;
-    }
-
     void take_faces(const std::vector<std::uint8_t>& chosen) {
         faces_.resize(chosen.size(), 0);
         for (std::size_t t = 0; t < chosen.size(); ++t) {

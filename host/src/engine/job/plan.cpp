@@ -86,7 +86,7 @@ std::uint32_t wanted_idle_capacity(std::uint32_t slots, std::uint32_t capacity) 
 /// Returns the plan with slots for larger batches, where the lanes of a CPU compute disks and the
 /// pool has room for their lists: other lanes then have work beside a few disks that are much
 /// larger than the others.
-// Of a batch of more than half of the samples, most disks would be in vain.
+// A batch of more than half of the samples would compute most disks in vain.
 RunPlan with_room(RunPlan plan, const Domain::Impl& of, std::uint64_t pool_bytes,
                   const DeviceReport& report) {
     if (report.type != VK_PHYSICAL_DEVICE_TYPE_CPU || plan.disks_by == DisksBy::groups ||
