@@ -130,6 +130,36 @@ TEST_SUITE("maximal") {
         check_narrow(knot, params, check_maximal(knot, params));
     }
 
+    TEST_CASE("a mesh that the device cannot hold has the set of the whole") {
+        const TestMesh shape = builtin("terrain", 120);
+        const PreparedMesh terrain = prepared(shape);
+        RunnerOptions little; // Less than the faces and their fans take.
+        little.device_bytes = 3 << 20;
+        const auto check = [&](SampleParams params) {
+            params.maximal = true;
+            const SampleSet whole = sample(terrain, params);
+            const SampleSet divided = sample(terrain, params, little);
+            CHECK(points_of(divided) == points_of(whole));
+            CHECK(divided.existing == whole.existing);
+            CHECK(divided.report.maximal.certified);
+            CHECK(divided.report.maximal.rounds == whole.report.maximal.rounds);
+            CHECK(divided.report.maximal.cells == whole.report.maximal.cells);
+            CHECK(divided.report.maximal.largest_gap == whole.report.maximal.largest_gap);
+            CHECK(divided.report.device_bytes <= little.device_bytes);
+        };
+        SampleParams params = params_for(terrain, 1200);
+        const std::vector<Sample> given = sample(terrain, params_for(terrain, 100, 7)).samples;
+        params.existing = given;
+        const std::vector<KeepOut> avoid{{{9, {0.25f, 0.5f, 0.25f}}, 2 * params.min_distance}};
+        params.avoid = avoid;
+        std::vector<std::uint8_t> mask(terrain.face_count(), 1);
+        std::fill_n(mask.begin(), mask.size() / 3, std::uint8_t{0});
+        params.face_mask = mask;
+        check(params);
+        const RadiusField radii = radius_field(terrain, wavy_factors(shape, 0.5));
+        check(params_for(terrain, 1000, 1, &radii));
+    }
+
     TEST_CASE("four samples saturate a sphere at a quarter of its girth") {
         // Chen and Holmes-Cerfon 2017. Triangles make the sphere a little smaller.
         const PreparedMesh sphere = prepared(builtin("icosphere", 4));

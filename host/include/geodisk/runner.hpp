@@ -168,9 +168,8 @@ class GEODISK_API Runner {
     /// drawn in chunks if they do not fit a binding or the device's memory, or may not be needed.
     ///
     /// A surface whose mesh does not fit is sampled in parts, one after another, each by a thread
-    /// of its own that mostly waits. Callbacks come from this thread all the same. Not for a
-    /// surface in the frame of another mesh, classes, maximal sets, features, distances through
-    /// space, and where parts would need the whole mesh around them.
+    /// of its own that mostly waits. Callbacks come from this thread all the same. Not with
+    /// classes, by distances through space, and where parts would need the whole mesh around them.
     ///
     /// Errors: `job_too_large`, `workspace_too_small` and `invalid_argument` as Sampler's
     /// functions; `mesh_rejected` as Job::advance; `out_of_device_memory`, `device_lost`,

@@ -17,6 +17,11 @@ struct NearPart {
     std::unique_ptr<PreparedMesh> mesh;
     std::vector<std::uint32_t> faces; ///< Of the whole. Ascending.
     std::vector<std::uint32_t> local; ///< For each face of the whole that of the part, or kNone.
+
+    /// Returns the half-edge of the whole that is this one of the part.
+    std::uint32_t half_edge(std::uint32_t of_part) const {
+        return 3 * faces[of_part / 3] + of_part % 3;
+    }
 };
 
 /// Returns the faces whose owner is `part`, and those within `reach` around them. `owners` has one

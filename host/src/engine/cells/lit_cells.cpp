@@ -9,10 +9,8 @@
 #include "engine/cells/open_cells.hpp"
 #include "engine/domain/surface_domain.hpp"
 #include "engine/domain/tolerances.hpp"
-#include "engine/run/first_parts.hpp"
 #include "engine/run/record_disks.hpp"
 #include "mesh/extent.hpp"
-#include "parts/halo.hpp"
 #include "support/number_text.hpp"
 #include "support/try.hpp"
 
@@ -46,7 +44,7 @@ LitCells::LitCells(Runner& runner, const PreparedMesh& mesh, std::span<const Sam
       radii_(samples.size(), 1),
       records_per_disk_(2.0 * mesh.face_count() *
                         std::min(1.0, kFacesPerDisk / static_cast<double>(samples.size()))),
-      left_(samples.size()) {}
+      left_(samples.size()), parts_(mesh, frame) {}
 
 double LitCells::largest_radius() const {
     return *std::ranges::max_element(radii_);
@@ -81,7 +79,6 @@ Result<std::size_t> LitCells::some_disks(std::span<const std::uint32_t> samples,
     const double most = std::min(kMaxRecords, impl_.record_bytes() / sizeof(gpu::LitRec));
     const double count = std::floor(
         std::clamp(std::min(most / wanted, kMaxDisks), 1.0, static_cast<double>(samples.size())));
-    parts_that_help_ = 0;
     const double largest =
         static_cast<double>(impl_.engine().report.limits.max_storage_buffer_range) /
             sizeof(gpu::LitRec) -
@@ -111,10 +108,8 @@ Result<std::size_t> LitCells::some_disks(std::span<const std::uint32_t> samples,
     DiskRecords records;
     const auto recorded = record_disks(runner_, *domain, records,
                                        [this](const Progress& now) { return report(now); });
-    if (!recorded && near == nullptr) {
-        parts_that_help_ = first_parts(impl_, Domain::Impl::of(*domain), mesh_, reach);
-    } else if (!recorded) {
-        parts_that_help_ = 2 * parts_;
+    if (!recorded) {
+        parts_.note_failed(impl_, *domain, reach);
     }
     GEODISK_TRY(recorded);
     report_.add(*recorded);
@@ -128,8 +123,7 @@ Result<std::size_t> LitCells::some_disks(std::span<const std::uint32_t> samples,
         // The device adds to it what the error bound of its run asks for.
         record.limit = static_cast<float>(-radii_[record.sample_index]);
         if (near != nullptr) {
-            const std::uint32_t h = record.place >> 1;
-            record.place = (3 * near->faces[h / 3] + h % 3) << 1 | (record.place & 1);
+            record.place = near->half_edge(record.place >> 1) << 1 | (record.place & 1);
         }
     }
     take(records.lights);
@@ -152,34 +146,19 @@ Result<Done> LitCells::disks_on(const NearPart* near, std::span<const std::uint3
     return Done{};
 }
 
-bool LitCells::divide(const Error& error) {
-    constexpr std::uint32_t kMostTries = 4; // Of ever more parts.
-    const std::uint32_t parts = std::exchange(parts_that_help_, 0);
-    if (parts == 0 || !is_too_large(error) || parts > mesh_.face_count()) {
-        return false;
-    }
-    most_parts_ = parts_ == 0 ? kMostTries * parts : most_parts_;
-    if (parts > most_parts_) {
-        return false;
-    }
-    parts_ = parts;
-    owners_ = equal_parts(mesh_, parts);
-    return true;
-}
-
 Result<Done> LitCells::disks_in_parts(std::span<const std::uint32_t> samples,
                                       const TakeLights& take) {
-    for (std::uint32_t part = 0; part < parts_; ++part) {
+    for (std::uint32_t part = 0; part < parts_.count(); ++part) {
         std::vector<std::uint32_t> own;
         double reach = 0;
         for (const std::uint32_t sample : samples) {
-            if (owners_[samples_[sample].face] == part) {
+            if (parts_.has(part, samples_[sample].face)) {
                 own.push_back(sample);
                 reach = std::max(reach, radii_[sample] * frame_.unit);
             }
         }
         if (!own.empty()) {
-            const auto near = near_part(mesh_, owners_, part, reach * (1 + halo_margin(frame_)));
+            const auto near = parts_.near(part, reach);
             GEODISK_TRY(near);
             GEODISK_TRY(disks_on(&*near, own, take));
         }
@@ -191,8 +170,9 @@ Result<Done> LitCells::all_disks(std::span<const std::uint32_t> samples, const T
     wanted_ = samples.size();
     for (;;) {
         left_ = wanted_;
-        auto done = parts_ == 0 ? disks_on(nullptr, samples, take) : disks_in_parts(samples, take);
-        if (done || !divide(done.error())) { // Lights that come twice count once.
+        auto done =
+            parts_.count() == 0 ? disks_on(nullptr, samples, take) : disks_in_parts(samples, take);
+        if (done || !parts_.divide(done.error())) { // Lights that come twice count once.
             return done;
         }
     }

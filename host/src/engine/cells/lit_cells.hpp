@@ -11,6 +11,7 @@
 
 #include "engine/cells/near_lights.hpp"
 #include "engine/maximal/lit_faces.hpp"
+#include "engine/run/mesh_parts.hpp"
 #include "engine/run/runner_impl.hpp"
 #include "parts/near_part.hpp"
 
@@ -47,8 +48,6 @@ class LitCells {
     /// Does so by parts of the mesh, where the device does not hold the whole.
     Result<Done> all_disks(std::span<const std::uint32_t> samples, const TakeLights& take);
     Result<Done> disks_in_parts(std::span<const std::uint32_t> samples, const TakeLights& take);
-    /// Divides the mesh into more parts, after an error. Returns false if that does not help.
-    bool divide(const Error& error);
     Error too_many(double records) const;
     bool report(const Progress& now) const;
 
@@ -65,11 +64,7 @@ class LitCells {
     double records_per_disk_;
     std::size_t left_;       ///< Samples whose disks are still to be computed, or larger ones.
     std::size_t wanted_ = 0; ///< Samples whose disks all_disks() computes.
-    /// The part of the mesh of each face, and the number of parts; empty and 0 for the whole.
-    std::vector<std::uint32_t> owners_;
-    std::uint32_t parts_ = 0, most_parts_ = 0;
-    /// After a run that failed: parts to divide the mesh into.
-    std::uint32_t parts_that_help_ = 0;
+    MeshParts parts_;
     RunReport report_;
 };
 

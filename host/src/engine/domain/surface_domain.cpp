@@ -216,7 +216,9 @@ SurfaceDomain::make(std::vector<PlacedSurface> surfaces) {
 
 Result<Domain> SurfaceDomain::plain(const PreparedMesh& mesh, const SampleParams& params,
                                     const JobFrame& frame) {
-    return wrapped(make({placed(mesh, params, frame)}));
+    PlacedSurface surface = placed(mesh, params, frame);
+    surface.may_divide = can_divide(params);
+    return wrapped(make({surface}));
 }
 
 SurfaceDomain::SurfaceDomain(std::vector<PlacedSurface> surfaces, FaceCells cells)

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "engine/run/first_parts.hpp"
+#include "engine/run/run.hpp"
 #include "support/try.hpp"
 
 namespace geodisk {
@@ -23,7 +24,6 @@ double reach_of(const WholeJob& job) {
 } // namespace
 
 Result<std::unique_ptr<Division>> Division::begin(const Runner::Impl& runner, const Domain& domain,
-                                                  const ProgressCallback& progress,
                                                   const Error& error) {
     const Domain::Impl& of = Domain::Impl::of(domain);
     const std::uint32_t parts = of.whole && is_too_large(error)
@@ -34,13 +34,15 @@ Result<std::unique_ptr<Division>> Division::begin(const Runner::Impl& runner, co
     }
     auto own = Runner::create(runner.shared_sampler, runner.submitter->queue(), runner.options);
     GEODISK_TRY(own);
-    std::unique_ptr<Division> division(
-        new Division(std::move(*own), *of.whole, progress, runner.progress.candidates));
-    division->expected_ = static_cast<std::uint32_t>(of.samples);
-    division->parts_ = parts;
+    std::unique_ptr<Division> division(new Division(std::move(*own), of, parts));
     division->begin_run();
     return division;
 }
+
+Division::Division(Runner runner, const Domain::Impl& of, std::uint32_t parts)
+    : runner_(std::move(runner)), job_(*of.whole),
+      candidates_(static_cast<std::uint32_t>(of.stages.candidates())),
+      expected_(static_cast<std::uint32_t>(of.samples)), parts_(parts) {}
 
 void Division::begin_run() {
     run_.reset();
@@ -50,21 +52,21 @@ void Division::begin_run() {
 bool Division::divides_more(const Error& error) {
     ++attempts_;
     parts_ *= 2;
-    return is_too_large(error) && goes_on_ && attempts_ < kMaxAttempts &&
-           parts_ <= job_.mesh->face_count();
+    return is_too_large(error) && attempts_ < kMaxAttempts && parts_ <= job_.mesh->face_count();
 }
 
-Result<std::optional<SampleSet>> Division::poll(std::chrono::milliseconds patience) {
+void Division::poll(std::chrono::milliseconds patience) {
     auto polled = run_->poll(patience);
     if (!polled && divides_more(polled.error())) {
         begin_run();
-        return std::optional<SampleSet>();
+        return;
     }
-    if (polled && !*polled && goes_on_ && on_progress_ && !on_progress_(progress())) {
-        goes_on_ = false;
-        run_->cancel();
+    if (polled && !*polled) {
+        return;
     }
-    return polled;
+    end_.emplace(polled ? Result<SampleSet>(std::move(**polled)) : polled.error());
+    run_.reset();
+    waiting_.resume(); // May destroy this.
 }
 
 Progress Division::progress() {
@@ -73,6 +75,19 @@ Progress Division::progress() {
     all.decided = std::min(all.decided, candidates_);
     all.accepted = std::min(all.accepted, expected_);
     return all;
+}
+
+Task<Result<SampleSet>> run_or_divide(Runner::Impl& runner, const Domain& domain) {
+    auto set = co_await run_job(runner, domain, nullptr);
+    if (set) {
+        co_return set;
+    }
+    auto division = Division::begin(runner, domain, set.error());
+    GEODISK_CO_TRY(division);
+    if (*division == nullptr) {
+        co_return set;
+    }
+    co_return co_await (*division)->ended(runner);
 }
 
 } // namespace geodisk

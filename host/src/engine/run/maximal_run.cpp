@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -9,6 +11,8 @@
 #include "engine/domain/surface_domain.hpp"
 #include "engine/maximal/gaps.hpp"
 #include "engine/maximal/lit_faces.hpp"
+#include "engine/run/division.hpp"
+#include "engine/run/mesh_parts.hpp"
 #include "engine/run/run.hpp"
 #include "support/try.hpp"
 
@@ -32,10 +36,27 @@ constexpr double kMaxRecords = 0x1p21;
 constexpr double kSpareRecords = 1.5;
 constexpr std::uint32_t kMinRecords = 4096;
 
+/// Points whose disks light faces: samples, and points to avoid.
+struct LightPoints {
+    std::vector<Sample> samples;
+    std::vector<KeepOut> avoid;
+};
+
+/// Returns the points in the faces of a part, by the numbers that it gives them.
+LightPoints points_on(const MeshParts& parts, std::uint32_t part, const LightPoints& of) {
+    LightPoints own;
+    std::ranges::copy_if(of.samples, std::back_inserter(own.samples),
+                         [&](const Sample& sample) { return parts.has(part, sample.face); });
+    std::ranges::copy_if(of.avoid, std::back_inserter(own.avoid), [&](const KeepOut& avoided) {
+        return parts.has(part, avoided.center.face);
+    });
+    return own;
+}
+
 class MaximalRun {
   public:
     MaximalRun(Runner::Impl& runner, const MaximalJob& job)
-        : runner_(runner), job_(job),
+        : runner_(runner), job_(job), parts_(*job.mesh, job.frame),
           lit_(*job.mesh, job.params, job.frame,
                double{ErrorModel(job.frame).tolerances(job.frame.error_bound).slack}),
           gaps_(lit_, *job.mesh, job.params, runner.options.threads) {}
@@ -46,8 +67,12 @@ class MaximalRun {
 
   private:
     Task<Result<SampleSet>> run_pool();
-    /// Lights faces by samples, and by the points to avoid.
-    Task<Result<Done>> light(std::span<const Sample> samples, std::span<const KeepOut> avoid);
+    /// Lights faces by these points, on the whole or by parts of it.
+    Task<Result<Done>> light(const LightPoints& points);
+    Task<Result<Done>> light_in_parts(const LightPoints& points);
+    /// Does so with the parameters of a mesh, which is that of the part unless it is null.
+    Task<Result<Done>> light_on(const PreparedMesh& mesh, SampleParams params,
+                                const LightPoints& points, const NearPart* near);
     /// Throws the darts of a round. Returns the samples of those that are accepted.
     Task<Result<std::vector<Sample>>> fill(std::uint32_t round, double goal);
     /// Refines the gaps with the lights from this one on.
@@ -56,6 +81,7 @@ class MaximalRun {
 
     Runner::Impl& runner_;
     const MaximalJob& job_;
+    MeshParts parts_;
     LitFaces lit_;
     Gaps gaps_;
     SampleSet set_;
@@ -68,30 +94,84 @@ Task<Result<SampleSet>> MaximalRun::run_pool() {
     params.avoid = job_.avoid;
     const auto domain = SurfaceDomain::plain(*job_.mesh, params, job_.frame);
     GEODISK_CO_TRY(domain);
-    co_return co_await run_job(runner_, *domain, nullptr);
+    co_return co_await run_or_divide(runner_, *domain);
 }
 
-Task<Result<Done>> MaximalRun::light(std::span<const Sample> samples,
-                                     std::span<const KeepOut> avoid) {
+Task<Result<Done>> MaximalRun::light(const LightPoints& points) {
+    for (;;) {
+        auto lit = parts_.count() == 0 ? light_on(*job_.mesh, job_.params, points, nullptr)
+                                       : light_in_parts(points);
+        const auto done = co_await lit;
+        if (done || !parts_.divide(done.error())) {
+            co_return done; // What is lit twice is as if lit once.
+        }
+    }
+}
+
+Task<Result<Done>> MaximalRun::light_in_parts(const LightPoints& points) {
+    for (std::uint32_t part = 0; part < parts_.count(); ++part) {
+        LightPoints own = points_on(parts_, part, points);
+        double reach = own.samples.empty() ? 0 : job_.params.min_distance;
+        for (const KeepOut& avoided : own.avoid) {
+            reach = std::max(reach, avoided.radius);
+        }
+        if (reach == 0) {
+            continue;
+        }
+        const auto near = parts_.near(part, reach);
+        GEODISK_CO_TRY(near);
+        for (Sample& sample : own.samples) {
+            sample.face = near->local[sample.face];
+        }
+        for (KeepOut& avoided : own.avoid) {
+            avoided.center.face = near->local[avoided.center.face];
+        }
+        SampleParams params = job_.params;
+        std::optional<RadiusField> radii;
+        if (params.radii != nullptr) {
+            params.radii = &radii.emplace(params.radii->on_part(*near->mesh, near->faces));
+        }
+        params.face_mask = {}; // Nothing is drawn.
+        params.face_keys = {};
+        GEODISK_CO_TRY(co_await light_on(*near->mesh, params, own, &*near));
+    }
+    co_return Done{};
+}
+
+Task<Result<Done>> MaximalRun::light_on(const PreparedMesh& mesh, SampleParams params,
+                                        const LightPoints& points, const NearPart* near) {
     const double most = std::min(kMaxRecords, runner_.record_bytes() / sizeof(gpu::LitRec));
+    std::span<const Sample> samples = points.samples;
+    std::span<const KeepOut> avoid = points.avoid;
     while (!samples.empty() || !avoid.empty()) {
         const auto disks =
             std::max<std::size_t>(1, static_cast<std::size_t>(most / records_per_disk_));
-        SampleParams params = job_.params;
         params.avoid = avoid.first(std::min(avoid.size(), disks));
         params.existing = samples.first(std::min(samples.size(), disks - params.avoid.size()));
         const auto settled = static_cast<double>(params.avoid.size() + params.existing.size());
         const double expected = records_per_disk_ * settled + kMinRecords;
-        const auto domain = SurfaceDomain::recording(*job_.mesh, params, job_.frame, Ending::light,
-                                                     {}, static_cast<std::uint32_t>(expected));
+        const auto domain = SurfaceDomain::recording(mesh, params, job_.frame, Ending::light, {},
+                                                     static_cast<std::uint32_t>(expected));
         GEODISK_CO_TRY(domain);
         DiskRecords lit;
         const auto set = co_await run_job(runner_, *domain, &lit);
-        GEODISK_CO_TRY(set);
+        if (!set) {
+            double reach = job_.params.min_distance;
+            for (const KeepOut& avoided : params.avoid) {
+                reach = std::max(reach, avoided.radius);
+            }
+            parts_.note_failed(runner_, *domain, reach);
+            co_return set.error();
+        }
         set_.report.add(set->report);
         if (lit.wanted > lit.lights.size()) {
             records_per_disk_ = std::max(lit.wanted / settled, records_per_disk_) * kSpareRecords;
             continue; // Again, with room for all.
+        }
+        for (gpu::LitRec& record : lit.lights) {
+            if (near != nullptr) {
+                record.place = near->half_edge(record.place >> 1) << 1 | (record.place & 1);
+            }
         }
         lit_.add(lit.lights);
         samples = samples.subspan(params.existing.size());
@@ -109,9 +189,9 @@ Task<Result<std::vector<Sample>>> MaximalRun::fill(std::uint32_t round, double g
     }
     ++set_.report.maximal.rounds;
     set_.report.maximal.darts += darts.size();
-    const auto domain = SurfaceDomain::listed(*job_.mesh, job_.params, job_.frame, darts);
+    const auto domain = SurfaceDomain::listed(*job_.mesh, job_.params, job_.frame, darts, true);
     GEODISK_CO_TRY(domain);
-    auto filled = co_await run_job(runner_, *domain, nullptr);
+    auto filled = co_await run_or_divide(runner_, *domain);
     GEODISK_CO_TRY(filled);
     set_.report.add(filled->report);
     co_return std::move(filled->samples);
@@ -139,7 +219,8 @@ Task<Result<SampleSet>> MaximalRun::go() {
     const RunReport& report = set_.report;
     records_per_disk_ =
         kSpareRecords * (static_cast<double>(report.windows) / std::max(report.disks, 1u) + 8);
-    GEODISK_CO_TRY(co_await light(set_.samples, job_.avoid));
+    const LightPoints all{set_.samples, job_.avoid};
+    GEODISK_CO_TRY(co_await light(all));
     double goal = kFirstGoal;
     if (gaps_.size() < kFewCells) {
         refine(kCoarseGoal, 0);
@@ -154,7 +235,8 @@ Task<Result<SampleSet>> MaximalRun::go() {
             break;
         }
         const std::size_t before = lit_.size();
-        GEODISK_CO_TRY(co_await light(*samples, {}));
+        const LightPoints more{*samples, {}};
+        GEODISK_CO_TRY(co_await light(more));
         set_.samples.insert(set_.samples.end(), samples->begin(), samples->end());
         goal = std::max(goal * kGoalFactor, kMinGoal);
         refine(goal, before);

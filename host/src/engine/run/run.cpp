@@ -11,6 +11,7 @@
 
 #include "engine/domain/domain_impl.hpp"
 #include "engine/job/plan.hpp"
+#include "engine/run/division.hpp"
 #include "engine/run/maximal_run.hpp"
 #include "engine/run/memory_budget.hpp"
 #include "engine/run/run_memory.hpp"
@@ -504,7 +505,7 @@ struct Releaser {
 
 Task<Result<SampleSet>> run(Runner::Impl& runner, const Domain& domain) {
     const auto& maximal = Domain::Impl::of(domain).maximal;
-    return maximal ? run_maximal(runner, *maximal) : run_job(runner, domain, nullptr);
+    return maximal ? run_maximal(runner, *maximal) : run_or_divide(runner, domain);
 }
 
 Task<Result<SampleSet>> run_job(Runner::Impl& runner, const Domain& domain, DiskRecords* records) {

@@ -23,8 +23,6 @@ constexpr double kSubmissionSeconds = 0.02;
 constexpr double kCpuSubmissionSeconds = 0.1;
 constexpr double kStallSeconds = 120;
 constexpr double kCpuStallSeconds = 600;
-// Between two calls of a progress callback of a run in parts, at most.
-constexpr std::chrono::milliseconds kLongestWait{100};
 // Part of the memory that a run may take, and of a binding, for records of disks.
 constexpr double kRecordsOfMemory = 0.2;
 constexpr double kRecordsOfBinding = 0.5;
@@ -93,24 +91,17 @@ Runner::Impl::~Impl() {
     settle();
 }
 
-Result<Done> Runner::Impl::divide(const Domain& whole, const ProgressCallback& callback,
-                                  const Error& error) {
-    release();
-    auto begun = guarded([&] { return Division::begin(*this, whole, callback, error); });
-    if (!begun || !*begun) {
-        return begun ? error : begun.error();
+bool Runner::Impl::go_on(std::chrono::milliseconds patience) {
+    if (division != nullptr) {
+        note(division->progress());
+        division->poll(patience);
+        return true;
     }
-    division = std::move(*begun);
-    return Done{};
-}
-
-Result<std::optional<SampleSet>>
-Runner::Impl::poll_division(std::chrono::milliseconds patience) noexcept {
-    auto polled = guarded([&] { return division->poll(patience); });
-    if (!polled || *polled) {
-        division.reset();
+    const bool goes_on = submitter->is_awaited() && submitter->is_over(patience);
+    if (goes_on) {
+        submitter->resume();
     }
-    return polled;
+    return goes_on;
 }
 
 Runner::Runner(std::unique_ptr<Impl> impl) noexcept : impl_(std::move(impl)) {}
@@ -119,7 +110,7 @@ Runner& Runner::operator=(Runner&&) noexcept = default;
 Runner::~Runner() = default;
 
 void Runner::release_memory() noexcept {
-    if (!impl_->is_busy()) {
+    if (impl_->work == nullptr) {
         impl_->release();
     }
 }
@@ -177,10 +168,10 @@ Result<Done> Runner::Impl::submit_timed(const std::function<void(VkCommandBuffer
 }
 
 void Runner::Impl::cancel() noexcept {
-    division.reset();
     if (work) {
         submitter->give_up();
         work.reset();
+        division = nullptr;
         as_whole = nullptr;
     }
 }
@@ -241,18 +232,7 @@ Result<Runner> Runner::create(std::shared_ptr<const Sampler> sampler, const Queu
 Result<SampleSet> Runner::sample_and_wait(const Domain& domain,
                                           const ProgressCallback& progress) noexcept {
     return guarded([&]() -> Result<SampleSet> {
-        auto set = impl_->complete(geodisk::run(*impl_, domain), candidates_of(domain), progress);
-        if (set || impl_->is_busy()) {
-            return set;
-        }
-        GEODISK_TRY(impl_->divide(domain, progress, set.error()));
-        for (;;) {
-            auto polled = impl_->poll_division(kLongestWait);
-            GEODISK_TRY(polled);
-            if (*polled) {
-                return std::move(**polled);
-            }
-        }
+        return impl_->complete(geodisk::run(*impl_, domain), candidates_of(domain), progress);
     });
 }
 
@@ -267,24 +247,12 @@ Result<SampleSet> Runner::sample_and_wait(const PreparedMesh& mesh, const Sample
 
 Result<Done> Runner::start(const Domain& domain, const ProgressCallback& progress) noexcept {
     return guarded([&]() -> Result<Done> {
-        GEODISK_TRY(impl_->begin(geodisk::run(*impl_, domain), candidates_of(domain), progress));
-        impl_->domain = &domain;
-        return Done{};
+        return impl_->begin(geodisk::run(*impl_, domain), candidates_of(domain), progress);
     });
 }
 
 Result<std::optional<SampleSet>> Runner::poll(std::chrono::milliseconds patience) noexcept {
-    if (impl_->division) {
-        return impl_->poll_division(patience);
-    }
-    const ProgressCallback callback = impl_->on_progress;
-    auto polled = impl_->poll<SampleSet>(patience);
-    if (polled || impl_->work || impl_->domain == nullptr) {
-        return polled;
-    }
-    const Domain& domain = *std::exchange(impl_->domain, nullptr);
-    const auto divided = impl_->divide(domain, callback, polled.error());
-    return divided ? Result<std::optional<SampleSet>>(std::nullopt) : divided.error();
+    return impl_->poll<SampleSet>(patience);
 }
 
 void Runner::cancel() noexcept {
@@ -292,7 +260,7 @@ void Runner::cancel() noexcept {
 }
 
 Progress Runner::progress() const noexcept {
-    return impl_->division ? impl_->division->progress() : impl_->progress;
+    return impl_->progress;
 }
 
 VkFence Runner::fence() const noexcept {

@@ -67,9 +67,8 @@ struct Runner::Impl {
     std::unique_ptr<Work> work; ///< The run in progress: one job, or several.
     Progress progress{};
     ProgressCallback on_progress;
-    WholeProgress as_whole;             ///< Set by a run of several jobs.
-    const Domain* domain = nullptr;     ///< Of the run in progress, if it is one of samples.
-    std::unique_ptr<Division> division; ///< The run goes on in parts.
+    WholeProgress as_whole;       ///< Set by a run of several jobs.
+    Division* division = nullptr; ///< What the run in progress awaits, if it goes on in parts.
 
     /// Clock in seconds; tests may replace it.
     std::function<double()> now;
@@ -120,12 +119,9 @@ struct Runner::Impl {
     template <class T>
     Result<T> complete(Task<Result<T>> task, std::uint32_t candidates,
                        const ProgressCallback& callback);
-    /// Begins a run in parts after an error of one of the whole, if that may help. Returns the
-    /// error if not.
-    Result<Done> divide(const Domain& whole, const ProgressCallback& callback, const Error& error);
-    /// Goes on with the run in parts, as poll().
-    Result<std::optional<SampleSet>> poll_division(std::chrono::milliseconds patience) noexcept;
-    bool is_busy() const { return work != nullptr || division != nullptr; }
+    /// Goes on with the run in progress, after waiting at most so long. Returns false if there is
+    /// nothing new.
+    bool go_on(std::chrono::milliseconds patience);
     /// Notes how far the job at hand is.
     void note(const Progress& of_job) { progress = as_whole ? as_whole(of_job) : of_job; }
     /// Ends the run in progress.
@@ -148,14 +144,13 @@ struct Runner::Impl {
 template <class T>
 Result<Done> Runner::Impl::begin(Task<Result<T>> task, std::uint32_t candidates,
                                  const ProgressCallback& callback) {
-    if (is_busy()) {
+    if (work != nullptr) {
         return Error{Status::invalid_argument, "a run is in progress"};
     }
     progress = {};
     progress.candidates = candidates;
     on_progress = callback;
     as_whole = nullptr;
-    domain = nullptr;
     auto begun = std::make_unique<WorkOn<T>>(std::move(task));
     const Task<Result<T>>& own = begun->task;
     work = std::move(begun);
@@ -174,10 +169,7 @@ Result<std::optional<T>> Runner::Impl::poll(std::chrono::milliseconds patience) 
         });
     }
     auto polled = guarded([&]() -> Result<std::optional<T>> {
-        const bool goes_on = submitter->is_awaited() && submitter->is_over(std::max(patience, {}));
-        if (goes_on) {
-            submitter->resume();
-        }
+        const bool goes_on = go_on(std::max(patience, {}));
         std::optional<T> result;
         if (own->task.is_done()) {
             auto ended = own->task.take();
