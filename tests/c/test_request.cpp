@@ -147,19 +147,40 @@ TEST_CASE("a request of the farthest order tells how far each sample is from tho
     cube.params.min_distance = 0.3;
     cube.request.order = GEODISK_ORDER_FARTHEST;
     cube.request.keep = 10;
-    const auto samples = cube.sample();
-    CHECK(placed(samples.get()) == placed_of(found));
-    std::vector<float> cover(10);
-    REQUIRE(geodisk_samples_copy(samples.get(), GEODISK_COVER, GEODISK_FLOAT32, cover.data(), 0,
-                                 cover.size(), nullptr) == GEODISK_OK);
-    CHECK(cover == found.farthest->distances);
-    CHECK(report_on(samples.get()).cover == found.farthest->cover);
+    for (const auto& samples : {cube.sample(), cube.poll()}) {
+        CHECK(placed(samples.get()) == placed_of(found));
+        std::vector<float> cover(10);
+        REQUIRE(geodisk_samples_copy(samples.get(), GEODISK_COVER, GEODISK_FLOAT32, cover.data(), 0,
+                                     cover.size(), nullptr) == GEODISK_OK);
+        CHECK(cover == found.farthest->distances);
+        CHECK(integers(samples.get(), GEODISK_ROW) == found.farthest->indices);
+        CHECK(report_on(samples.get()).cover == found.farthest->cover);
+    }
     CHECK(found.unkept > 0);
     cube.params.stop_count = 20;
     CHECK(report_on(cube.sample().get()).missing == 0); // 10 of 20 are left out.
-    cube.params.stop_count = 0;
-    CHECK(geodisk_start_request(shared_sampler(), cube.mesh.get(), &cube.request, nullptr) ==
-          GEODISK_INVALID_ARGUMENT);
+}
+
+TEST_CASE("a request of the farthest order is cancelled while it samples or orders") {
+    CubeRequest cube;
+    cube.params.min_distance = 0.05;
+    cube.request.order = GEODISK_ORDER_FARTHEST;
+    cube.request.params = &cube.params;
+    for (const std::uint32_t polls : {0u, 5u, 40u}) {
+        REQUIRE(geodisk_start_request(shared_sampler(), cube.mesh.get(), &cube.request, nullptr) ==
+                GEODISK_OK);
+        geodisk_samples* samples = nullptr;
+        geodisk_status status = GEODISK_OK;
+        for (std::uint32_t i = 0; status == GEODISK_OK && samples == nullptr; ++i) {
+            if (i == polls) {
+                geodisk_cancel(shared_sampler());
+            }
+            status = geodisk_poll(shared_sampler(), 1, &samples, nullptr);
+        }
+        CHECK((status == GEODISK_CANCELLED) == (samples == nullptr)); // It may have been soon done.
+        geodisk_samples_release(samples);
+    }
+    CHECK(cube.sample());
 }
 
 TEST_CASE("a request that contradicts itself is refused, and the sampler stays free") {

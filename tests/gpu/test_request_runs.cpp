@@ -3,6 +3,10 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
+#include <cstddef>
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -100,6 +104,51 @@ TEST_SUITE("request") {
             CHECK(found[i].set.existing == alone.set.existing);
             CHECK(found[i].set.classes == alone.set.classes);
         }
+    }
+
+    TEST_CASE("requests that are started are sampled and ordered as those that are waited for") {
+        ManyRequests many;
+        Runner runner = runner_of_requests();
+        const auto found = expect(sample(runner, many.requests));
+        std::size_t heard = 0;
+        auto started = expect(StartedRequests::start(runner, many.requests, [&](const Progress&) {
+            ++heard;
+            return true;
+        }));
+        CHECK_FALSE(sample(runner, many.requests)); // The runner is busy.
+        std::optional<std::vector<RequestedSet>> polled;
+        while (!polled) {
+            polled = expect(started.poll(std::chrono::milliseconds(5)));
+        }
+        CHECK(heard > 10);
+        REQUIRE(polled->size() == found.size());
+        for (std::size_t i = 0; i < found.size(); ++i) {
+            CAPTURE(i);
+            CHECK(points_of((*polled)[i].set) == points_of(found[i].set));
+            CHECK((*polled)[i].unkept == found[i].unkept);
+        }
+        REQUIRE(polled->back().farthest);
+        CHECK(polled->back().farthest->distances == found.back().farthest->distances);
+        CHECK_FALSE(started.poll()); // They have ended.
+    }
+
+    TEST_CASE("requests that are given up leave the runner free, whatever they were at") {
+        const PreparedMesh sphere = prepared(builtin("icosphere", 3));
+        MeshRequest one{&sphere};
+        one.request.params.min_distance = 0.06;
+        one.request.order = SampleOrder::farthest;
+        Runner runner = runner_of_requests();
+        const RequestedSet whole = expect(sample(runner, sphere, one.request));
+        for (const bool in_order : {false, true}) {
+            auto started = expect(StartedRequests::start(runner, std::span(&one, 1)));
+            // Of the order, the progress counts samples alone.
+            while (in_order && runner.progress().candidates != whole.set.samples.size()) {
+                REQUIRE_FALSE(expect(started.poll(std::chrono::milliseconds(1))));
+            }
+        }
+        CHECK(points_of(expect(sample(runner, sphere, one.request)).set) == points_of(whole.set));
+        auto none = expect(StartedRequests::start(runner, std::span<const MeshRequest>()));
+        CHECK(expect(none.poll())->empty());
     }
 
     TEST_CASE("meshes with another guard or far larger disks have jobs of their own") {

@@ -610,7 +610,7 @@ GEODISK_C_API geodisk_status geodisk_sample_request(geodisk_sampler *sampler,
                                                     geodisk_error *error);
 
 /* Begins to serve a request without waiting, and copies what it refers to. Call geodisk_poll until
- * it ends. Not for GEODISK_ORDER_FARTHEST: call geodisk_farthest_order on the samples. Stable. */
+ * it ends. Stable. */
 GEODISK_C_API geodisk_status geodisk_start_request(geodisk_sampler *sampler,
                                                    const geodisk_mesh *mesh,
                                                    const geodisk_request *request,
@@ -708,8 +708,9 @@ enum {
     /* Of geodisk_request: */
     GEODISK_FEATURE = 7,     /* 1 integer: 2 on a corner, 1 on a curve, 0 on a face, if `features`. */
     GEODISK_LEVEL = 8,       /* 1 integer: level, from 0 on, for GEODISK_ORDER_PROGRESSIVE. */
-    GEODISK_COVER = 9        /* 1 number: distance to the nearest sample before, for
+    GEODISK_COVER = 9,       /* 1 number: distance to the nearest sample before, for
                               * GEODISK_ORDER_FARTHEST; infinite for the first of a component. */
+    GEODISK_ROW = 10         /* 1 integer: its place in dart order, for GEODISK_ORDER_FARTHEST. */
 };
 
 /* Returns the count of numbers per sample of an attribute; 0 if the samples lack it. Stable. */

@@ -2,6 +2,7 @@
 // Stable.
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -124,7 +125,8 @@ struct RequestStep {
 ///     }
 ///     auto found = std::move(run).finish();
 ///
-/// Does not order samples by distance: farthest_order() needs a device.
+/// Does not order samples by distance: farthest_order() needs a device. StartedRequests and
+/// sample() do all that a request asks for.
 class GEODISK_API RequestRun {
   public:
     /// Makes the first step. The mesh and what the request refers to must outlive the run.
@@ -207,6 +209,48 @@ class GEODISK_API RequestRuns {
   private:
     static Result<RequestRuns> begin(std::vector<RequestRun> runs);
     explicit RequestRuns(std::unique_ptr<Impl> impl) noexcept;
+    std::unique_ptr<Impl> impl_;
+};
+
+/// Requests that a runner samples without waiting, as Runner::start() and Runner::poll() sample a
+/// domain:
+///
+///     auto started = StartedRequests::start(runner, requests).value();
+///     while (!(found = started.poll(std::chrono::milliseconds(10)).value())) {
+///         ...
+///     }
+///
+/// The runner must outlive it, and may neither move nor do anything else meanwhile. Destroying it
+/// ends what is in progress.
+class GEODISK_API StartedRequests {
+  public:
+    /// Begins. Meshes and what the requests refer to must outlive it. `progress` is called by
+    /// poll(), for each run anew. Errors: those of RequestRuns and Runner::start();
+    /// `job_too_large` as check_farthest_order().
+    static Result<StartedRequests> start(Runner& runner, std::span<const MeshRequest> requests,
+                                         const ProgressCallback& progress = {}) noexcept;
+    /// Begins with a set in a box.
+    static Result<StartedRequests> start(Runner& runner, const BoxRequest& request,
+                                         const ProgressCallback& progress = {}) noexcept;
+
+    StartedRequests(StartedRequests&&) noexcept;
+    StartedRequests& operator=(StartedRequests&&) noexcept;
+    ~StartedRequests();
+
+    /// Goes on, as Runner::poll(). Returns the samples of each request once all are there, else
+    /// nothing. Errors: those of RequestRuns::take(), Runner::poll() and farthest_order(), naming
+    /// the mesh by its place if there are several. Once it has returned samples or an error, the
+    /// requests have ended.
+    Result<std::optional<std::vector<RequestedSet>>>
+    poll(std::chrono::milliseconds patience = {}) noexcept;
+
+    struct Impl; ///< Internal.
+
+  private:
+    static Result<StartedRequests> begin(Runner& runner, std::span<const MeshRequest> requests,
+                                         Result<RequestRuns> runs,
+                                         const ProgressCallback& progress);
+    explicit StartedRequests(std::unique_ptr<Impl> impl) noexcept;
     std::unique_ptr<Impl> impl_;
 };
 

@@ -106,9 +106,11 @@ Result<std::shared_ptr<RequestsState>> requests_of(const geodisk_box_request* re
     return state;
 }
 
-Result<RequestRuns> RequestsState::begin() const {
+Result<StartedRequests> RequestsState::start(Runner& runner,
+                                             const ProgressCallback& progress) const {
     const RequestState& first = *each[0];
-    return first.of->is_box() ? RequestRuns::create(first.box) : RequestRuns::create(on_meshes());
+    return first.of->is_box() ? StartedRequests::start(runner, first.box, progress)
+                              : StartedRequests::start(runner, on_meshes(), progress);
 }
 
 Result<std::vector<RequestedSet>> RequestsState::sample(Runner& runner,

@@ -23,15 +23,15 @@ struct RequestState {
     BoxRequest box;        ///< Request for a box.
 };
 
-/// Requests, and the runs that serve them.
+/// Requests, and what serves them.
 struct RequestsState {
     std::vector<std::shared_ptr<RequestState>> each; ///< On surfaces; or one in a box.
-    std::optional<RequestRuns> runs;                 ///< If they were started.
+    std::optional<StartedRequests> started;          ///< If they were.
 
     /// Returns those on surfaces.
     std::vector<MeshRequest> on_meshes() const;
-    /// Makes the runs.
-    Result<RequestRuns> begin() const;
+    /// Starts to sample what is asked for.
+    Result<StartedRequests> start(Runner& runner, const ProgressCallback& progress) const;
     /// Samples what is asked for, and waits.
     Result<std::vector<RequestedSet>> sample(Runner& runner,
                                              const ProgressCallback& progress) const;

@@ -75,51 +75,39 @@ Result<Done> serve(SamplerState& state, RequestsState& requests, geodisk_progres
     return found ? hand_over(state, requests, std::move(*found), samples) : found.error();
 }
 
-/// Begins the next job of the requests in progress. Returns true if there is one.
-Result<bool> start_job(SamplerState& state) {
-    const Domain* const job = state.requested->runs->job();
-    if (job == nullptr) {
-        return false;
-    }
-    const auto go_on = [&state](const Progress&) { return !state.is_cancelled; };
-    if (const auto started = state.runner.start(*job, go_on); !started) {
-        return state.requested->runs->named(started.error());
-    }
-    return true;
-}
-
 /// Begins to serve requests.
 Result<Done> start(SamplerState& state, std::shared_ptr<RequestsState> requests) {
-    for (const auto& one : requests->each) {
-        if (one->request.order == SampleOrder::farthest) {
-            return wrong("request->order: call geodisk_farthest_order on the samples");
-        }
-    }
-    auto runs = requests->begin();
-    GEODISK_TRY(runs);
-    requests->runs.emplace(std::move(*runs));
     state.is_cancelled = false;
+    const auto go_on = [&state](const Progress&) { return !state.is_cancelled; };
+    auto started = requests->start(state.runner, go_on);
+    GEODISK_TRY(started);
+    requests->started.emplace(std::move(*started));
     state.requested = std::move(requests);
-    if (const auto started = start_job(state); !started) {
-        state.requested = nullptr;
-        return started.error();
-    }
     return Done{};
 }
 
-/// Takes the samples of a job of the requests in progress. Returns true if it was the last one.
-Result<bool> take(SamplerState& state, SampleSet set) {
-    GEODISK_TRY(state.requested->runs->take(std::move(set)));
-    const auto is_started = start_job(state);
-    return is_started ? Result<bool>(!*is_started) : is_started.error();
+/// Goes on with the domain in progress, as geodisk_poll().
+Result<Done> poll_domain(SamplerState& state, std::chrono::milliseconds patience,
+                         geodisk_samples** samples) {
+    auto polled = state.runner.poll(patience);
+    if (polled && !*polled) {
+        *samples = nullptr;
+        return Done{};
+    }
+    const auto domain = std::exchange(state.running, nullptr);
+    return polled ? hand_over(state, {domain, std::move(**polled)}, samples) : polled.error();
 }
 
-/// Waits for the latest submission of the requests in progress. Returns true once all are done.
-Result<bool> poll(SamplerState& state, Result<std::optional<SampleSet>> polled) {
-    if (!polled) {
-        return state.requested->runs->named(polled.error());
+/// Goes on with the requests in progress, as geodisk_poll().
+Result<Done> poll_requests(SamplerState& state, std::chrono::milliseconds patience,
+                           geodisk_samples** samples) {
+    auto found = state.requested->started->poll(patience);
+    if (found && !*found) {
+        std::fill_n(samples, state.requested->each.size(), nullptr);
+        return Done{};
     }
-    return *polled ? take(state, std::move(**polled)) : Result<bool>(false);
+    const auto requests = std::exchange(state.requested, nullptr);
+    return found ? hand_over(state, *requests, std::move(**found), samples) : found.error();
 }
 
 /// Samples what the requests that `copy()` returns ask for, and waits.
@@ -229,25 +217,9 @@ geodisk_status geodisk_poll(geodisk_sampler* sampler, uint32_t milliseconds,
         if (!state.running && !state.requested) {
             return wrong("the sampler has no run in progress");
         }
-        auto polled = state.runner.poll(std::chrono::milliseconds(milliseconds));
-        if (!state.requested) {
-            if (polled && !*polled) {
-                *samples = nullptr;
-                return Done{};
-            }
-            const auto domain = std::exchange(state.running, nullptr);
-            return polled ? hand_over(state, {domain, std::move(**polled)}, samples)
-                          : polled.error();
-        }
-        const auto is_done = poll(state, std::move(polled));
-        if (is_done && !*is_done) {
-            std::fill_n(samples, state.requested->each.size(), nullptr);
-            return Done{};
-        }
-        const auto requests = std::exchange(state.requested, nullptr);
-        GEODISK_TRY(is_done);
-        auto found = std::move(*requests->runs).finish();
-        return found ? hand_over(state, *requests, std::move(*found), samples) : found.error();
+        const std::chrono::milliseconds patience(milliseconds);
+        return state.requested ? poll_requests(state, patience, samples)
+                               : poll_domain(state, patience, samples);
     });
 }
 

@@ -98,7 +98,7 @@ class Places {
 
 bool is_integer(geodisk_attribute attribute) noexcept {
     return attribute == GEODISK_FACE || attribute == GEODISK_PART || attribute == GEODISK_CLASS ||
-           attribute == GEODISK_FEATURE || attribute == GEODISK_LEVEL;
+           attribute == GEODISK_FEATURE || attribute == GEODISK_LEVEL || attribute == GEODISK_ROW;
 }
 
 std::size_t count_of(const geodisk_samples& samples) noexcept {
@@ -134,6 +134,7 @@ std::uint32_t width_of(const geodisk_samples& samples, geodisk_attribute attribu
     case GEODISK_LEVEL:
         return found.levels.count > 0 ? 1 : 0;
     case GEODISK_COVER:
+    case GEODISK_ROW:
         return found.farthest ? 1 : 0;
     case GEODISK_BARYCENTRIC:
         return 3;
@@ -204,6 +205,8 @@ std::uint32_t integer_of(const geodisk_samples& samples, const Places& places,
     case GEODISK_LEVEL:
         return static_cast<std::uint32_t>(std::ranges::upper_bound(found.ends, i) -
                                           found.ends.begin());
+    case GEODISK_ROW:
+        return found.farthest->indices[i];
     default:
         return samples.set.classes[i];
     }

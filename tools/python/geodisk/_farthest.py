@@ -179,20 +179,3 @@ def order_on(
 
     searched(name_of(device), progress, find)
     return FarthestOrder(indices, distances, info.cover, info.error, info.searches)
-
-
-def put_farthest_first(
-    handle: c.Handle,
-    samples: Samples,
-    existing: int,
-    device: DeviceLike | None,
-    progress: bool | ProgressCallback,
-) -> Samples:
-    """Returns samples in farthest-point order after existing ones, with attributes cover and row."""
-    if len(samples) == 0:
-        return samples
-    points = points_of(handle, samples, "samples")
-    order = order_on(handle, points, None, 0, existing, device, progress)
-    chosen = samples[order.indices]
-    told = {"cover": order.distances.astype(np.float64), "row": order.indices.astype(np.int64)}
-    return dataclasses.replace(chosen, attributes={**chosen.attributes, **told})

@@ -82,7 +82,14 @@ def samples_of(
         corners = int(np.count_nonzero(features == 2))
         report["corners_left_out"] = report["corners"] - corners
         report["corners"] = corners
-    return _made(columns, surface, report, report["min_distance"], seed, **box)
+    cover, row = copied(made.value, s.COVER, np.float32), copied(made.value, s.ROW, np.uint32)
+    if row is not None:
+        columns["order"] = row[:, 0]
+    samples = _made(columns, surface, report, report["min_distance"], seed, **box)
+    if cover is not None and row is not None:
+        samples.attributes["cover"] = cover[:, 0].astype(np.float64)
+        samples.attributes["row"] = row[:, 0].astype(np.int64)
+    return samples
 
 
 def _level_distances(report: dict[str, Any]) -> tuple[float, ...]:

@@ -136,13 +136,16 @@ class Runs:
     def _polled(self, sampler: ctypes.c_void_p, sets: int) -> list[c.Handle]:
         """Goes on until the samples are there. Python acts on signals in between."""
         made = (ctypes.c_void_p * sets)()
-        progress, begin, long_run = s.Progress(), time.monotonic(), LongRun()
+        progress, begin, before = s.Progress(), time.monotonic(), 0.0
+        long_run: LongRun | None = LongRun()  # Of the first run: others may be much longer or shorter.
         while not made[0]:
             c.call("geodisk_poll", sampler, _PATIENCE, made)
             if not made[0]:
                 c.call("geodisk_sampler_progress", sampler, byref(progress))
                 part = progress.decided / max(1, progress.candidates)
-                if message := long_run.note(time.monotonic() - begin, part):
+                long_run = long_run if part >= before else None
+                before = part
+                if long_run and (message := long_run.note(time.monotonic() - begin, part)):
                     warn([e.GeodiskWarning(message, "long_run", 1)])
                 if self._report and stops(self._report(part, progress.accepted)):
                     raise e.Cancelled(STOPPED, "cancelled")

@@ -27,13 +27,13 @@ from ctypes import (
 from typing import Any, Iterator
 
 FLOAT64, FLOAT32, UINT32, UINT16 = range(4)
-FACE, BARYCENTRIC, POSITION, NORMAL, RADIUS, PART, CLASS, FEATURE, LEVEL = range(9)
+FACE, BARYCENTRIC, POSITION, NORMAL, RADIUS, PART, CLASS, FEATURE, LEVEL, COVER, ROW = range(11)
 METRICS = {"geodesic": 0, "euclidean": 1, "approximate": 2}
 AMONG = {"vertices": 0, "sources": 2}
 AMONG_POINTS = 1
 NO_ELEMENT = 2**64 - 1
 #: Orders that geodisk_request.order takes.
-ORDERS = {"dart": 0, "progressive": 1}
+ORDERS = {"dart": 0, "progressive": 1, "farthest": 2}
 
 #: Types of C; those of the headers are added.
 _TYPES: dict[str, Any] = {

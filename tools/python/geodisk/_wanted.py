@@ -17,7 +17,6 @@ from ._arrays import mask_digest
 from ._class_places import ClassPlaces, values_of
 from ._classes import Classes, has_classes
 from ._existing import existing_of
-from ._farthest import put_farthest_first
 from ._features import degrees_of
 from ._job import FOLLOWED, MASK_DIGEST, Job, JobFrame, joins_of, options, told_text, values
 from ._levels import levels_of
@@ -117,7 +116,7 @@ class Wanted:
         self.request = s.Request(
             params=addressof(params),
             count=0.0 if a.count is None else a.count,
-            order=s.ORDERS["dart" if in_levels is None else "progressive"],
+            order=s.ORDERS[a.order],
             features=degrees,
             **request_numbers,
         )
@@ -168,10 +167,6 @@ class Wanted:
         samples.report["options"] = self._options
         if self.request.at_vertices:
             samples.columns["vertex"] = vertices_at(samples, self.mesh._surface)
-        if self._asked.order == "farthest":
-            samples = put_farthest_first(
-                self.mesh._handle, samples, self._existing, self._asked.device, self._asked.progress
-            )
         return samples
 
     def _frame_at(self, run_distance: float) -> JobFrame | None:

@@ -161,9 +161,10 @@ Result<SurfaceCells> find_cells(Runner& runner, const PreparedMesh& mesh,
                                 std::span<const Sample> samples, const CellParams& params,
                                 const ProgressCallback& progress) noexcept {
     return guarded([&]() -> Result<SurfaceCells> {
-        const auto lit = LitSamples::make(runner, mesh, samples, params, progress);
+        Runner::Impl& impl = Runner::Impl::of(runner);
+        const auto lit = impl.complete(LitSamples::make(impl, mesh, samples, params),
+                                       2 * static_cast<std::uint32_t>(samples.size()), progress);
         GEODISK_TRY(lit);
-        const Runner::Impl& impl = Runner::Impl::of(runner);
         const double start = impl.now();
         auto cells = cells_of(mesh, **lit, impl.options.threads, progress);
         if (cells) {

@@ -9,7 +9,7 @@
 #include "engine/cells/open_cells.hpp"
 #include "engine/domain/surface_domain.hpp"
 #include "engine/domain/tolerances.hpp"
-#include "engine/run/record_disks.hpp"
+#include "engine/run/run.hpp"
 #include "mesh/extent.hpp"
 #include "support/number_text.hpp"
 #include "support/try.hpp"
@@ -35,11 +35,10 @@ constexpr double kMinRecords = 4096;
 
 } // namespace
 
-LitCells::LitCells(Runner& runner, const PreparedMesh& mesh, std::span<const Sample> samples,
-                   const SampleParams& params, const JobFrame& frame, const CellParams& cells,
-                   const ProgressCallback& progress)
-    : runner_(runner), impl_(Runner::Impl::of(runner)), mesh_(mesh), samples_(samples),
-      params_(params), frame_(frame), cells_(cells), progress_(progress),
+LitCells::LitCells(Runner::Impl& runner, const PreparedMesh& mesh, std::span<const Sample> samples,
+                   const SampleParams& params, const JobFrame& frame, const CellParams& cells)
+    : runner_(runner), mesh_(mesh), samples_(samples), params_(params), frame_(frame),
+      cells_(cells),
       lit_(mesh, params, frame, double{ErrorModel(frame).tolerances(frame.error_bound).slack}),
       radii_(samples.size(), 1),
       records_per_disk_(2.0 * mesh.face_count() *
@@ -59,11 +58,11 @@ Closeness LitCells::closeness() const {
             kTie * std::max(1.0, 2 * largest_radius())};
 }
 
-bool LitCells::report(const Progress& now) const {
+Progress LitCells::so_far(const Progress& now) const {
     const auto all = static_cast<std::uint32_t>(samples_.size());
     const auto done = all - static_cast<std::uint32_t>(left_) + now.disks;
-    return !progress_ || progress_({std::min(done, all), 2 * all, std::min(done, all),
-                                    report_.disks + now.disks, report_.windows + now.windows});
+    return {std::min(done, all), 2 * all, std::min(done, all), report_.disks + now.disks,
+            report_.windows + now.windows};
 }
 
 Error LitCells::too_many(double records) const {
@@ -73,23 +72,23 @@ Error LitCells::too_many(double records) const {
                                        " that are allowed; take fewer samples or a simpler mesh"};
 }
 
-Result<std::size_t> LitCells::some_disks(std::span<const std::uint32_t> samples,
-                                         const NearPart* near, const TakeLights& take) {
+Task<Result<std::size_t>> LitCells::some_disks(std::span<const std::uint32_t> samples,
+                                               const NearPart* near, const TakeLights& take) {
     const double wanted = kSpareRecords * records_per_disk_;
-    const double most = std::min(kMaxRecords, impl_.record_bytes() / sizeof(gpu::LitRec));
+    const double most = std::min(kMaxRecords, runner_.record_bytes() / sizeof(gpu::LitRec));
     const double count = std::floor(
         std::clamp(std::min(most / wanted, kMaxDisks), 1.0, static_cast<double>(samples.size())));
     const double largest =
-        static_cast<double>(impl_.engine().report.limits.max_storage_buffer_range) /
+        static_cast<double>(runner_.engine().report.limits.max_storage_buffer_range) /
             sizeof(gpu::LitRec) -
         1;
     // A single disk takes all there is where need be.
     const double room = std::min(wanted * count + kMinRecords, std::floor(largest));
     if (room < records_per_disk_ * count) {
-        return Error{Status::job_too_large, "the disk of a sample has about " +
-                                                number_text(records_per_disk_) +
-                                                " records of paths, more than this device binds; "
-                                                "take more samples or a simpler mesh"};
+        co_return Error{Status::job_too_large,
+                        "the disk of a sample has about " + number_text(records_per_disk_) +
+                            " records of paths, more than this device binds; "
+                            "take more samples or a simpler mesh"};
     }
     std::vector<KeepOut> disks;
     double reach = 0;
@@ -104,19 +103,18 @@ Result<std::size_t> LitCells::some_disks(std::span<const std::uint32_t> samples,
     const auto domain =
         SurfaceDomain::recording(near != nullptr ? *near->mesh : mesh_, params, frame_,
                                  Ending::light, {}, static_cast<std::uint32_t>(room));
-    GEODISK_TRY(domain);
+    GEODISK_CO_TRY(domain);
     DiskRecords records;
-    const auto recorded = record_disks(runner_, *domain, records,
-                                       [this](const Progress& now) { return report(now); });
+    const auto recorded = co_await run_job(runner_, *domain, &records);
     if (!recorded) {
-        parts_.note_failed(impl_, *domain, reach);
+        parts_.note_failed(runner_, *domain, reach);
+        co_return recorded.error();
     }
-    GEODISK_TRY(recorded);
-    report_.add(*recorded);
-    report_.plan.trims |= recorded->plan.trims;
+    report_.add(recorded->report);
+    report_.plan.trims |= recorded->report.plan.trims;
     records_per_disk_ = std::max(records_per_disk_, records.wanted / count);
     if (records.wanted > records.lights.size()) {
-        return 0;
+        co_return 0;
     }
     for (gpu::LitRec& record : records.lights) {
         record.sample_index = samples[record.sample_index];
@@ -127,27 +125,27 @@ Result<std::size_t> LitCells::some_disks(std::span<const std::uint32_t> samples,
         }
     }
     take(records.lights);
-    return disks.size();
+    co_return disks.size();
 }
 
-Result<Done> LitCells::disks_on(const NearPart* near, std::span<const std::uint32_t> samples,
-                                const TakeLights& take) {
+Task<Result<Done>> LitCells::disks_on(const NearPart* near, std::span<const std::uint32_t> samples,
+                                      const TakeLights& take) {
     while (!samples.empty()) {
-        const auto done = some_disks(samples, near, take);
-        GEODISK_TRY(done);
+        const auto done = co_await some_disks(samples, near, take);
+        GEODISK_CO_TRY(done);
         samples = samples.subspan(*done);
         left_ -= *done;
         const std::size_t computed = std::max<std::size_t>(1, wanted_ - left_);
         const double of_all = static_cast<double>(wanted_) / static_cast<double>(computed);
         if (lit_.size() > cells_.max_records) {
-            return too_many(static_cast<double>(lit_.size()) * of_all);
+            co_return too_many(static_cast<double>(lit_.size()) * of_all);
         }
     }
-    return Done{};
+    co_return Done{};
 }
 
-Result<Done> LitCells::disks_in_parts(std::span<const std::uint32_t> samples,
-                                      const TakeLights& take) {
+Task<Result<Done>> LitCells::disks_in_parts(std::span<const std::uint32_t> samples,
+                                            const TakeLights& take) {
     for (std::uint32_t part = 0; part < parts_.count(); ++part) {
         std::vector<std::uint32_t> own;
         double reach = 0;
@@ -159,28 +157,30 @@ Result<Done> LitCells::disks_in_parts(std::span<const std::uint32_t> samples,
         }
         if (!own.empty()) {
             const auto near = parts_.near(part, reach);
-            GEODISK_TRY(near);
-            GEODISK_TRY(disks_on(&*near, own, take));
+            GEODISK_CO_TRY(near);
+            GEODISK_CO_TRY(co_await disks_on(&*near, own, take));
         }
     }
-    return Done{};
+    co_return Done{};
 }
 
-Result<Done> LitCells::all_disks(std::span<const std::uint32_t> samples, const TakeLights& take) {
+Task<Result<Done>> LitCells::all_disks(std::span<const std::uint32_t> samples,
+                                       const TakeLights& take) {
     wanted_ = samples.size();
     for (;;) {
         left_ = wanted_;
-        auto done =
+        auto computed =
             parts_.count() == 0 ? disks_on(nullptr, samples, take) : disks_in_parts(samples, take);
+        const auto done = co_await computed;
         if (done || !parts_.divide(done.error())) { // Lights that come twice count once.
-            return done;
+            co_return done;
         }
     }
 }
 
-Result<Done> LitCells::choose_radii() {
+Task<Result<Done>> LitCells::choose_radii() {
     if (samples_.size() <= kFewSamples) {
-        return Done{};
+        co_return Done{};
     }
     std::vector<std::uint32_t> few;
     for (std::size_t i = 0; i < kFewSamples; ++i) {
@@ -191,31 +191,34 @@ Result<Done> LitCells::choose_radii() {
         std::ranges::fill(radii_, radius);
         records_per_disk_ = 1;
         double all = 0;
-        const auto count = [&](std::span<const gpu::LitRec> lights) {
+        const TakeLights count = [&](std::span<const gpu::LitRec> lights) {
             all += static_cast<double>(lights.size()) / part;
         };
-        GEODISK_TRY(all_disks(few, count));
+        GEODISK_CO_TRY(co_await all_disks(few, count));
         if (all <= static_cast<double>(cells_.max_records)) {
-            return Done{};
+            co_return Done{};
         }
         if (radius <= kSmallest) {
-            return too_many(all);
+            co_return too_many(all);
         }
     }
 }
 
-Result<Done> LitCells::light() {
-    GEODISK_TRY(choose_radii());
+Task<Result<Done>> LitCells::light(WholeProgress whole) {
+    runner_.as_whole = [this, whole = std::move(whole)](const Progress& now) {
+        return whole ? whole(so_far(now)) : so_far(now);
+    };
+    GEODISK_CO_TRY(co_await choose_radii());
     std::vector<std::uint32_t> samples(samples_.size());
     std::iota(samples.begin(), samples.end(), 0u);
     const double bound = 1.01 * distance_bound(mesh_) / frame_.unit;
+    const TakeLights add = [this](std::span<const gpu::LitRec> lights) { lit_.add(lights); };
     for (;;) {
-        const auto add = [this](std::span<const gpu::LitRec> lights) { lit_.add(lights); };
-        GEODISK_TRY(all_disks(samples, add));
-        const double start = impl_.now();
+        GEODISK_CO_TRY(co_await all_disks(samples, add));
+        const double start = runner_.now();
         lit_.sort_from(0);
         std::vector<std::uint8_t> marks =
-            open_cells(mesh_, lit_, radii_, closeness(), impl_.options.threads);
+            open_cells(mesh_, lit_, radii_, closeness(), runner_.options.threads);
         samples.clear();
         for (std::uint32_t i = 0; i < marks.size(); ++i) {
             marks[i] = marks[i] != 0 && radii_[i] < bound ? 1 : 0;
@@ -224,9 +227,9 @@ Result<Done> LitCells::light() {
                 samples.push_back(i);
             }
         }
-        report_.seconds.sample += impl_.now() - start;
+        report_.seconds.sample += runner_.now() - start;
         if (samples.empty()) {
-            return Done{};
+            co_return Done{};
         }
         lit_.drop(marks);
     }

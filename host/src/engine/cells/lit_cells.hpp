@@ -13,19 +13,20 @@
 #include "engine/maximal/lit_faces.hpp"
 #include "engine/run/mesh_parts.hpp"
 #include "engine/run/runner_impl.hpp"
+#include "engine/run/task.hpp"
 #include "parts/near_part.hpp"
 
 namespace geodisk {
 
 class LitCells {
   public:
-    /// Samples must be checked. All arguments must outlive it. Of progress() half is its own.
-    LitCells(Runner& runner, const PreparedMesh& mesh, std::span<const Sample> samples,
-             const SampleParams& params, const JobFrame& frame, const CellParams& cells,
-             const ProgressCallback& progress);
+    /// Samples must be checked. All arguments must outlive it.
+    LitCells(Runner::Impl& runner, const PreparedMesh& mesh, std::span<const Sample> samples,
+             const SampleParams& params, const JobFrame& frame, const CellParams& cells);
 
-    /// Computes the disks, and larger ones where cells may be larger.
-    Result<Done> light();
+    /// Computes the disks, and larger ones where cells may be larger. `whole` gets the progress,
+    /// with twice as many candidates as there are samples.
+    Task<Result<Done>> light(WholeProgress whole);
 
     const LitFaces& faces() const { return lit_; }
     Closeness closeness() const;
@@ -35,30 +36,30 @@ class LitCells {
 
   private:
     /// Makes disks smaller until so many as there are may be expected to have few enough records.
-    Result<Done> choose_radii();
+    Task<Result<Done>> choose_radii();
     using TakeLights = std::function<void(std::span<const gpu::LitRec>)>;
     /// Computes the disks of the first samples, as many as have room at once. Returns their number,
     /// or 0 if they had more records than expected. `near` is the part of the mesh that holds them,
     /// or null for the whole.
-    Result<std::size_t> some_disks(std::span<const std::uint32_t> samples, const NearPart* near,
-                                   const TakeLights& take);
+    Task<Result<std::size_t>> some_disks(std::span<const std::uint32_t> samples,
+                                         const NearPart* near, const TakeLights& take);
     /// Computes the disks of all.
-    Result<Done> disks_on(const NearPart* near, std::span<const std::uint32_t> samples,
-                          const TakeLights& take);
+    Task<Result<Done>> disks_on(const NearPart* near, std::span<const std::uint32_t> samples,
+                                const TakeLights& take);
     /// Does so by parts of the mesh, where the device does not hold the whole.
-    Result<Done> all_disks(std::span<const std::uint32_t> samples, const TakeLights& take);
-    Result<Done> disks_in_parts(std::span<const std::uint32_t> samples, const TakeLights& take);
+    Task<Result<Done>> all_disks(std::span<const std::uint32_t> samples, const TakeLights& take);
+    Task<Result<Done>> disks_in_parts(std::span<const std::uint32_t> samples,
+                                      const TakeLights& take);
     Error too_many(double records) const;
-    bool report(const Progress& now) const;
+    /// Returns the progress of all disks, from that of the ones at hand.
+    Progress so_far(const Progress& now) const;
 
-    Runner& runner_;
-    Runner::Impl& impl_;
+    Runner::Impl& runner_;
     const PreparedMesh& mesh_;
     std::span<const Sample> samples_;
     const SampleParams& params_;
     const JobFrame& frame_;
     const CellParams& cells_;
-    const ProgressCallback& progress_;
     LitFaces lit_;
     std::vector<double> radii_; ///< In units of the frame.
     double records_per_disk_;

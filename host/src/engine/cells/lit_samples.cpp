@@ -53,19 +53,18 @@ std::vector<std::uint32_t> unlike_samples(const PreparedMesh& mesh,
 
 } // namespace
 
-Result<std::unique_ptr<LitSamples>> LitSamples::make(Runner& runner, const PreparedMesh& mesh,
-                                                     std::span<const Sample> samples,
-                                                     const CellParams& params,
-                                                     const ProgressCallback& progress) {
-    GEODISK_TRY(check_samples(mesh, samples));
-    GEODISK_TRY(check_mask_size(mesh, params.face_mask));
+Task<Result<std::unique_ptr<LitSamples>>> LitSamples::make(Runner::Impl& runner,
+                                                           const PreparedMesh& mesh,
+                                                           std::span<const Sample> samples,
+                                                           CellParams params, WholeProgress whole) {
+    GEODISK_CO_TRY(check_samples(mesh, samples));
+    GEODISK_CO_TRY(check_mask_size(mesh, params.face_mask));
     if (!params.face_mask.empty() && std::ranges::count(params.face_mask, 0) ==
                                          static_cast<std::ptrdiff_t>(params.face_mask.size())) {
-        return invalid("the face mask leaves out all faces, so no cell has an area");
+        co_return invalid("the face mask leaves out all faces, so no cell has an area");
     }
     auto made = std::make_unique<LitSamples>();
     made->params = params;
-    made->progress = progress;
     made->all = samples.size();
     made->numbers = unlike_samples(mesh, samples);
     for (const std::uint32_t sample : made->numbers) {
@@ -76,12 +75,12 @@ Result<std::unique_ptr<LitSamples>> LitSamples::make(Runner& runner, const Prepa
     made->job.min_distance =
         std::max(kFirstRadius * std::sqrt(each), statistics.longest_edge / kLongestEdge);
     const auto frame = frame_of_disks(mesh, made->job);
-    GEODISK_TRY(frame);
+    GEODISK_CO_TRY(frame);
     made->frame = *frame;
     made->lit = std::make_unique<LitCells>(runner, mesh, made->samples, made->job, made->frame,
-                                           made->params, made->progress);
-    GEODISK_TRY(made->lit->light());
-    return made;
+                                           made->params);
+    GEODISK_CO_TRY(co_await made->lit->light(std::move(whole)));
+    co_return made;
 }
 
 double LitSamples::distance_error() const {

@@ -17,11 +17,11 @@ namespace geodisk {
 
 /// Samples and their disks. If several samples are at one place, only the first has a disk.
 struct LitSamples {
-    /// Checks samples and computes their disks. `mesh` must outlive the result.
-    static Result<std::unique_ptr<LitSamples>> make(Runner& runner, const PreparedMesh& mesh,
-                                                    std::span<const Sample> samples,
-                                                    const CellParams& params,
-                                                    const ProgressCallback& progress);
+    /// Checks samples and computes their disks. `mesh` must outlive the result, and what `params`
+    /// refers to. `whole` as for LitCells::light().
+    static Task<Result<std::unique_ptr<LitSamples>>>
+    make(Runner::Impl& runner, const PreparedMesh& mesh, std::span<const Sample> samples,
+         CellParams params, WholeProgress whole = {});
 
     /// Returns a bound on the error of distances, in mesh units.
     double distance_error() const;
@@ -30,7 +30,6 @@ struct LitSamples {
     std::vector<std::uint32_t> numbers; ///< Numbers of samples with a disk. Ascending.
     std::vector<Sample> samples;        ///< Those with a disk.
     CellParams params;
-    ProgressCallback progress;
     SampleParams job;
     JobFrame frame{};
     std::unique_ptr<LitCells> lit;

@@ -11,6 +11,7 @@
 #include "engine/cells/cells_of.hpp"
 #include "engine/cells/grid_points.hpp"
 #include "engine/cells/near_lights.hpp"
+#include "engine/cells/nearest_impl.hpp"
 #include "engine/domain/existing.hpp"
 #include "engine/neighbours/check_query.hpp"
 #include "engine/run/runner_impl.hpp"
@@ -112,14 +113,6 @@ Result<std::vector<NumberedPlace>> places_of(const PreparedMesh& mesh,
 
 } // namespace
 
-struct NearestSamples::Impl {
-    std::unique_ptr<LitSamples> samples;
-    const PreparedMesh* mesh;
-    ThreadOptions threads;
-    RunReport report;
-    double error;
-};
-
 NearestSamples::NearestSamples(std::unique_ptr<Impl> impl) noexcept : impl_(std::move(impl)) {}
 NearestSamples::NearestSamples(NearestSamples&&) noexcept = default;
 NearestSamples& NearestSamples::operator=(NearestSamples&&) noexcept = default;
@@ -129,24 +122,34 @@ Result<NearestSamples> NearestSamples::create(Runner& runner, const PreparedMesh
                                               std::span<const Sample> samples,
                                               std::uint64_t max_records,
                                               const ProgressCallback& progress) noexcept {
-    return guarded([&]() -> Result<NearestSamples> {
-        CellParams params;
-        params.max_records = max_records;
-        const ProgressCallback heard = [&](Progress now) {
-            now.candidates /= 2; // The disks are all there is to compute.
-            return progress(now);
-        };
-        auto lit = LitSamples::make(runner, mesh, samples, params, progress ? heard : nullptr);
-        GEODISK_TRY(lit);
-        GEODISK_TRY(check_range((*lit)->frame.unit, distance_bound(mesh)));
-        auto impl = std::make_unique<Impl>();
-        impl->mesh = &mesh;
-        impl->threads = Runner::Impl::of(runner).options.threads;
-        impl->report = (*lit)->lit->report();
-        impl->error = (*lit)->distance_error();
-        impl->samples = std::move(*lit);
-        return NearestSamples(std::move(impl));
+    return guarded([&] {
+        Runner::Impl& impl = Runner::Impl::of(runner);
+        return impl.complete(Impl::find(impl, mesh, samples, max_records),
+                             static_cast<std::uint32_t>(samples.size()), progress);
     });
+}
+
+Task<Result<NearestSamples>> NearestSamples::Impl::find(Runner::Impl& runner,
+                                                        const PreparedMesh& mesh,
+                                                        std::span<const Sample> samples,
+                                                        std::uint64_t max_records,
+                                                        WholeProgress whole) {
+    CellParams params;
+    params.max_records = max_records;
+    const WholeProgress own = [whole = std::move(whole)](Progress now) {
+        now.candidates /= 2; // The disks are all there is to compute.
+        return whole ? whole(now) : now;
+    };
+    auto lit = co_await LitSamples::make(runner, mesh, samples, params, own);
+    GEODISK_CO_TRY(lit);
+    GEODISK_CO_TRY(check_range((*lit)->frame.unit, distance_bound(mesh)));
+    auto impl = std::make_unique<Impl>();
+    impl->mesh = &mesh;
+    impl->threads = runner.options.threads;
+    impl->report = (*lit)->lit->report();
+    impl->error = (*lit)->distance_error();
+    impl->samples = std::move(*lit);
+    co_return NearestSamples(std::move(impl));
 }
 
 Result<std::vector<NearestSample>>

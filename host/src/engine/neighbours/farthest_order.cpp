@@ -9,9 +9,11 @@
 #include <string>
 #include <utility>
 
+#include "engine/cells/nearest_impl.hpp"
 #include "engine/domain/device_mesh.hpp"
 #include "engine/domain/placed_surface.hpp"
 #include "engine/neighbours/check_query.hpp"
+#include "engine/neighbours/order_samples.hpp"
 #include "engine/neighbours/search_within.hpp"
 #include "mesh/components.hpp"
 #include "mesh/edge_paths.hpp"
@@ -37,16 +39,15 @@ constexpr float kInfinite = std::numeric_limits<float>::infinity();
 /// many at a time.
 class FarthestSearch {
   public:
-    FarthestSearch(Runner& runner, const PreparedMesh& mesh, std::span<const Sample> samples,
-                   const FarthestParams& params, const ProgressCallback& progress)
+    FarthestSearch(Runner::Impl& runner, const PreparedMesh& mesh, std::span<const Sample> samples,
+                   const FarthestParams& params)
         : runner_(runner), mesh_(mesh), samples_(samples),
           existing_(samples.first(params.existing)), start_(params.start),
-          count_(params.count == 0 ? static_cast<std::uint32_t>(samples.size()) : params.count),
-          progress_(progress), distances_(samples.size(), kInfinite),
+          count_(chosen_of(samples, params)), distances_(samples.size(), kInfinite),
           states_(samples.size(), State::open), disks_(samples.size()), paths_(mesh),
           bounded_(samples.size(), kInfinite) {}
 
-    Result<FarthestOrder> go();
+    Task<Result<FarthestOrder>> go();
 
   private:
     enum class State : std::uint8_t { open, has_disk, chosen };
@@ -65,26 +66,26 @@ class FarthestSearch {
     };
 
     /// Chooses the existing samples, and puts all in the queue.
-    Result<Done> begin();
+    Task<Result<Done>> begin();
     /// Returns the sample to choose next, which stays in the queue.
     std::uint32_t farthest();
     /// Computes the disk of this sample, the farthest one, and those of others far away.
-    Result<Done> search(std::uint32_t first);
+    Task<Result<Done>> search(std::uint32_t first);
     std::vector<std::uint32_t> first_of_parts() const;
     std::vector<std::uint32_t> farthest_open() const;
     /// Returns how far each vertex is at most from a sample chosen.
     const std::vector<double>& bounds();
     void keep(const std::vector<std::uint32_t>& sources, const Neighbours& found);
     void choose(std::uint32_t sample);
-    bool report(const Progress& now) const;
+    /// Returns the progress of all, from that of the disks at hand.
+    Progress so_far(const Progress& now) const;
 
-    Runner& runner_;
+    Runner::Impl& runner_;
     const PreparedMesh& mesh_;
     std::span<const Sample> samples_;
     std::span<const Sample> existing_;
     std::uint32_t start_;
     std::uint32_t count_;
-    const ProgressCallback& progress_;
     std::vector<float> distances_; ///< Distance from each sample to those chosen.
     std::vector<State> states_;
     std::vector<std::vector<Near>> disks_; ///< Samples that come nearer when this one is chosen.
@@ -95,16 +96,16 @@ class FarthestSearch {
     std::uint32_t searched_ = 0; ///< Disks.
 };
 
-Result<Done> FarthestSearch::begin() {
+Task<Result<Done>> FarthestSearch::begin() {
     if (!existing_.empty()) {
-        const ProgressCallback heard = [this](const Progress& now) {
-            return report({0, 0, 0, now.disks, now.windows});
+        const WholeProgress whole = [this](const Progress& now) {
+            return so_far({0, 0, 0, now.disks, now.windows});
         };
-        const auto nearest = NearestSamples::create(
-            runner_, mesh_, existing_, CellParams{}.max_records, progress_ ? heard : nullptr);
-        GEODISK_TRY(nearest);
+        const auto nearest = co_await NearestSamples::Impl::find(runner_, mesh_, existing_,
+                                                                 CellParams{}.max_records, whole);
+        GEODISK_CO_TRY(nearest);
         const auto found = nearest->of(samples_);
-        GEODISK_TRY(found);
+        GEODISK_CO_TRY(found);
         std::ranges::transform(*found, distances_.begin(), &NearestSample::distance);
         std::ranges::fill(std::span(states_).first(existing_.size()), State::chosen);
         order_.error = nearest->error();
@@ -117,7 +118,7 @@ Result<Done> FarthestSearch::begin() {
         }
         queue_.push({distances_[i], i});
     }
-    return Done{};
+    co_return Done{};
 }
 
 std::uint32_t FarthestSearch::farthest() {
@@ -177,7 +178,7 @@ const std::vector<double>& FarthestSearch::bounds() {
     return paths_.lengths();
 }
 
-Result<Done> FarthestSearch::search(std::uint32_t first) {
+Task<Result<Done>> FarthestSearch::search(std::uint32_t first) {
     const float distance = distances_[first];
     const bool is_infinite = distance == kInfinite;
     const std::vector<std::uint32_t> sources = is_infinite ? first_of_parts() : farthest_open();
@@ -192,18 +193,16 @@ Result<Done> FarthestSearch::search(std::uint32_t first) {
     query.points = samples_;
     query.within = is_infinite ? distance_bound(mesh_)
                                : std::max(kMargin * double{distance}, shortest_distance(mesh_));
-    const ProgressCallback heard = [this](const Progress& now) { return report(now); };
-    Runner::Impl& impl = Runner::Impl::of(runner_);
+    const WholeProgress whole = [this](const Progress& now) { return so_far(now); };
     const std::span<const double> ends = is_infinite ? std::span<const double>() : bounds();
-    const auto found =
-        impl.complete(search_within(impl, mesh_, query, {}, ends), 0, progress_ ? heard : nullptr);
-    GEODISK_TRY(found);
+    const auto found = co_await search_within(runner_, mesh_, query, whole, ends);
+    GEODISK_CO_TRY(found);
     order_.error = std::max(order_.error, found->error);
     order_.report.add(found->report);
     ++order_.searches;
     searched_ += static_cast<std::uint32_t>(sources.size());
     keep(sources, *found);
-    return Done{};
+    co_return Done{};
 }
 
 void FarthestSearch::keep(const std::vector<std::uint32_t>& sources, const Neighbours& found) {
@@ -231,27 +230,51 @@ void FarthestSearch::choose(std::uint32_t sample) {
     }
 }
 
-bool FarthestSearch::report(const Progress& now) const {
+Progress FarthestSearch::so_far(const Progress& now) const {
     const std::uint32_t disks = std::min(searched_ + now.decided, count_);
     const auto chosen = static_cast<std::uint32_t>(order_.indices.size());
-    return progress_({std::max(disks, chosen), count_, chosen, order_.report.disks + now.disks,
-                      order_.report.windows + now.windows});
+    return {std::max(disks, chosen), count_, chosen, order_.report.disks + now.disks,
+            order_.report.windows + now.windows};
 }
 
-Result<FarthestOrder> FarthestSearch::go() {
-    GEODISK_TRY(begin());
+Task<Result<FarthestOrder>> FarthestSearch::go() {
+    GEODISK_CO_TRY(co_await begin());
     while (order_.indices.size() < count_) {
         const std::uint32_t next = order_.indices.empty() ? start_ : farthest();
         // At the place of one chosen, it brings no other nearer.
         if (states_[next] == State::open && distances_[next] > 0) {
-            GEODISK_TRY(search(next));
+            GEODISK_CO_TRY(co_await search(next));
         }
         choose(next);
     }
     if (count_ < samples_.size()) {
         order_.cover = distances_[farthest()];
     }
-    return std::move(order_);
+    co_return std::move(order_);
+}
+
+Result<Done> check_order(const PreparedMesh& mesh, std::span<const Sample> samples,
+                         const FarthestParams& params) {
+    if (samples.empty()) {
+        return invalid("there is no sample to put in order");
+    }
+    if (params.count > samples.size()) {
+        return invalid("there are " + std::to_string(samples.size()) + " samples, fewer than " +
+                       std::to_string(params.count) + " to choose");
+    }
+    if (params.start >= samples.size()) {
+        return invalid("start is " + std::to_string(params.start) + ", but there are " +
+                       std::to_string(samples.size()) + " samples, counted from 0");
+    }
+    if (params.start != 0 && params.existing != 0) {
+        return invalid("start and existing exclude each other: existing samples come first");
+    }
+    if (params.existing > samples.size() || (params.count != 0 && params.count < params.existing)) {
+        return invalid(std::to_string(params.existing) + " samples are existing ones, more than " +
+                       std::to_string(params.count == 0 ? samples.size() : params.count) +
+                       " to choose");
+    }
+    return check_points(mesh, "sample", samples);
 }
 
 } // namespace
@@ -260,31 +283,18 @@ Result<FarthestOrder> farthest_order(Runner& runner, const PreparedMesh& mesh,
                                      std::span<const Sample> samples, const FarthestParams& params,
                                      const ProgressCallback& progress) noexcept {
     return guarded([&]() -> Result<FarthestOrder> {
-        if (samples.empty()) {
-            return invalid("there is no sample to put in order");
-        }
-        if (params.count > samples.size()) {
-            return invalid("there are " + std::to_string(samples.size()) + " samples, fewer than " +
-                           std::to_string(params.count) + " to choose");
-        }
-        if (params.start >= samples.size()) {
-            return invalid("start is " + std::to_string(params.start) + ", but there are " +
-                           std::to_string(samples.size()) + " samples, counted from 0");
-        }
-        if (params.start != 0 && params.existing != 0) {
-            return invalid("start and existing exclude each other: existing samples come first");
-        }
         GEODISK_TRY(check_farthest_order(runner, mesh));
-        if (params.existing > samples.size() ||
-            (params.count != 0 && params.count < params.existing)) {
-            return invalid(
-                std::to_string(params.existing) + " samples are existing ones, more than " +
-                std::to_string(params.count == 0 ? samples.size() : params.count) + " to choose");
-        }
-        GEODISK_TRY(check_points(mesh, "sample", samples));
-        FarthestSearch search(runner, mesh, samples, params, progress);
-        return search.go();
+        Runner::Impl& impl = Runner::Impl::of(runner);
+        return impl.complete(order_samples(impl, mesh, samples, params), chosen_of(samples, params),
+                             progress);
     });
+}
+
+Task<Result<FarthestOrder>> order_samples(Runner::Impl& runner, const PreparedMesh& mesh,
+                                          std::span<const Sample> samples, FarthestParams params) {
+    GEODISK_CO_TRY(check_order(mesh, samples, params));
+    FarthestSearch search(runner, mesh, samples, params);
+    co_return co_await search.go();
 }
 
 Result<Done> check_farthest_order(Runner& runner, const PreparedMesh& mesh) noexcept {
