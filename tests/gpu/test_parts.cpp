@@ -136,6 +136,7 @@ void check_divided(const PreparedMesh& mesh, const SampleParams& params) {
     CHECK(whole.report.starts == 1);
     const SampleSet divided = expect(small_runner().sample_and_wait(mesh, params));
     CHECK(points_of(divided) == points_of(whole));
+    CHECK(divided.classes == whole.classes);
     CHECK(divided.existing == whole.existing);
     CHECK(divided.report.candidates == whole.report.candidates);
     CHECK(divided.report.starts > 1);
@@ -328,6 +329,24 @@ TEST_SUITE("parts") {
         const RadiusField waves = radius_field(terrain, wavy_factors(large_shape(), 0.4));
         check_divided(terrain, params_for(terrain, 3000, 3, &waves));
 
+        const float factors[] = {1, 0.5f, 0.75f, 0.5f, 0.5f, 0, 0.75f, 0, 0.6f};
+        params = params_for(terrain, 3000, 5);
+        params.class_factors = factors;
+        check_divided(terrain, params);
+        const std::uint8_t kinds[] = {2, 0, 1, 1, 2, 0, 0, 2, 1, 1};
+        params.existing = std::span(given).first(std::size(kinds));
+        params.existing_classes = kinds;
+        const KeepOut kept_out[] = {{given[10], params.min_distance * 2},
+                                    {given[11], params.min_distance / 2},
+                                    {given[12], params.min_distance * 3}};
+        const std::uint8_t kept_kinds[] = {1, kAllClasses, 0};
+        params.avoid = kept_out;
+        params.avoid_classes = kept_kinds;
+        check_divided(terrain, params);
+        params.darts = 15000;
+        params.stop_count = 900;
+        check_divided(terrain, params);
+
         // In the frame of a mesh with longer edges.
         params = params_for(terrain, 3000, 4);
         JobFrame frame = expect(frame_of(terrain, params));
@@ -407,6 +426,8 @@ TEST_SUITE("parts") {
         SampleParams params = params_for(terrain, 3000);
         const float factors[] = {1, 0.5f, 0.5f, 1};
         params.class_factors = factors;
+        const std::vector<float> shares(std::size_t{6} * terrain.face_count(), 0.5f);
+        params.class_shares = shares;
         Runner runner = small_runner();
         const auto classed = runner.sample_and_wait(terrain, params);
         REQUIRE_FALSE(classed);

@@ -169,7 +169,8 @@ class GEODISK_API Runner {
     ///
     /// A surface whose mesh does not fit is sampled in parts, one after another, each by a thread
     /// of its own that mostly waits. Callbacks come from this thread all the same. Not with
-    /// classes, by distances through space, and where parts would need the whole mesh around them.
+    /// shares of classes, by distances through space, and where parts would need the whole mesh
+    /// around them.
     ///
     /// Errors: `job_too_large`, `workspace_too_small` and `invalid_argument` as Sampler's
     /// functions; `mesh_rejected` as Job::advance; `out_of_device_memory`, `device_lost`,

@@ -2,13 +2,20 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 
 #include <geodisk/exchange.hpp>
 
+#include "constants.h"
 #include "engine/domain/drawn.hpp"
 
 namespace geodisk {
+
+/// Returns the class of a candidate, if samples have any.
+inline std::uint8_t class_of(const DrawnCandidate& dart) {
+    return static_cast<std::uint8_t>(dart.priority & gpu::kClassMask);
+}
 
 /// Appends darts to a message.
 void append(Bytes& bytes, std::span<const DrawnCandidate> darts);

@@ -91,10 +91,14 @@ class Division {
                 asked_[{owners_[face], process}].push_back(face);
             }
         }
-        for (Sample sample : params_.existing) {
+        for (std::size_t i = 0; i < params_.existing.size(); ++i) {
+            Sample sample = params_.existing[i];
             if (is_within(sample.face)) {
                 sample.face = local(part, sample.face);
                 part.existing.push_back(sample);
+                if (!params_.existing_classes.empty()) {
+                    part.existing_classes.push_back(params_.existing_classes[i]);
+                }
             }
         }
         for (std::uint32_t i = 0; i < list_.size(); ++i) {
@@ -107,10 +111,14 @@ class Division {
                 from_->samples, std::back_inserter(part.settled),
                 [&](const DrawnCandidate& dart) { return is_within(dart.point.face); });
         }
-        for (KeepOut avoided : params_.avoid) {
+        for (std::size_t i = 0; i < params_.avoid.size(); ++i) {
+            KeepOut avoided = params_.avoid[i];
             if (to_faces[avoided.center.face] <= avoided_) {
                 avoided.center.face = local(part, avoided.center.face);
                 part.avoid.push_back(avoided);
+                if (!params_.avoid_classes.empty()) {
+                    part.avoid_classes.push_back(params_.avoid_classes[i]);
+                }
             }
         }
     }
@@ -185,13 +193,16 @@ Part part_for(const SampleParams& params, const JobFrame& frame, double max_cand
         part.max_stages = std::min(part.max_stages, checkpoints.stages);
     }
     part.has_keys = !params.face_keys.empty();
+    part.class_factors.assign(params.class_factors.begin(), params.class_factors.end());
     return part;
 }
 
 Result<std::vector<Bytes>> divide(const WholeSurface& whole, const JobFrame& frame,
                                   std::span<const std::uint32_t> owners, std::uint32_t processes) {
     return guarded([&]() -> Result<std::vector<Bytes>> {
-        GEODISK_TRY(check_fields(whole.params, RequestField::processes));
+        if (!whole.is_checked) {
+            GEODISK_TRY(check_fields(whole.params, RequestField::processes));
+        }
         Division division(whole, frame, owners, processes);
         for (std::uint32_t process = 0; process < processes; ++process) {
             division.choose(process);

@@ -28,7 +28,8 @@ DividedRun::DividedRun(Runner& runner, const WholeJob& job, std::uint32_t parts)
                                                  .params = job.params,
                                                  .cut = cut_,
                                                  .frame = &job.frame,
-                                                 .list = job.list},
+                                                 .list = job.list,
+                                                 .is_checked = true},
       exchanges_(LocalExchange::create(parts)), working_(parts) {
     try {
         for (std::size_t part = 0; part < exchanges_.size(); ++part) {

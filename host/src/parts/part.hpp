@@ -61,6 +61,9 @@ struct Part {
     std::vector<std::uint8_t> mask;  ///< Empty, or as SampleParams::face_mask.
     std::vector<Sample> existing;
     std::vector<KeepOut> avoid;
+    /// As in SampleParams; empty if samples have no classes.
+    std::vector<float> class_factors;
+    std::vector<std::uint8_t> existing_classes, avoid_classes;
     std::vector<Neighbour> neighbours;
     SampleParams of_whole{};        ///< Numbers of the job, see numbers_of().
     std::uint32_t all_existing = 0; ///< Number of existing samples of the whole.

@@ -28,6 +28,9 @@ void for_fields(AnyPart& part, const One& one, const All& all) {
     all(part.mask);
     all(part.existing);
     all(part.avoid);
+    all(part.class_factors);
+    all(part.existing_classes);
+    all(part.avoid_classes);
     all(part.listed);
     all(part.settled);
 }
@@ -43,6 +46,9 @@ SampleParams Part::params() const {
     params.face_mask = mask;
     params.existing = existing;
     params.avoid = avoid;
+    params.class_factors = class_factors;
+    params.existing_classes = existing_classes;
+    params.avoid_classes = avoid_classes;
     return params;
 }
 

@@ -18,8 +18,7 @@ constexpr double kBorder = 6;
 
 PartRun::PartRun(const Part& part, Runner& runner, ProgressCallback progress)
     : part_(part), runner_(runner), progress_(std::move(progress)), order_{part.has_keys},
-      draw_(part.draw()), stages_(part.is_listed ? part.list_stages() : draw_.stages()),
-      settled_(part.existing) {
+      draw_(part.draw()), stages_(part.is_listed ? part.list_stages() : draw_.stages()) {
     std::vector<std::uint8_t> is_near(part.faces.size());
     for (std::size_t face = 0; face < is_near.size(); ++face) {
         is_near[face] = part.roles[face] == FaceRole::near ? 1 : 0;
@@ -31,10 +30,8 @@ PartRun::PartRun(const Part& part, Runner& runner, ProgressCallback progress)
         }
     }
     border_reach_ += part.reach;
-    for (const Sample& sample : settled_) {
-        if (nearest_corner(part.mesh, from_near_, sample.face) <= border_reach_) {
-            settled_near_.push_back(sample);
-        }
+    for (std::size_t i = 0; i < part.existing.size(); ++i) {
+        settle(part.existing[i], part.existing_classes.empty() ? 0 : part.existing_classes[i]);
     }
     for (const DrawnCandidate& dart : part.settled) {
         settle(dart);
@@ -47,9 +44,18 @@ PartRun::PartRun(const Part& part, Runner& runner, ProgressCallback progress)
 void PartRun::settle(const DrawnCandidate& dart) {
     Sample sample = to_sample(dart.point);
     sample.face = local(dart);
-    settled_.push_back(sample);
-    if (nearest_corner(part_.mesh, from_near_, sample.face) <= border_reach_) {
-        settled_near_.push_back(sample);
+    settle(sample, class_of(dart));
+}
+
+void PartRun::settle(const Sample& sample, std::uint8_t number) {
+    const bool is_near = nearest_corner(part_.mesh, from_near_, sample.face) <= border_reach_;
+    for (Settled* const settled : {&settled_, is_near ? &settled_near_ : nullptr}) {
+        if (settled != nullptr) {
+            settled->samples.push_back(sample);
+        }
+        if (settled != nullptr && !part_.class_factors.empty()) {
+            settled->classes.push_back(number);
+        }
     }
 }
 
@@ -120,19 +126,24 @@ bool PartRun::is_own(const DrawnCandidate& dart) const {
     return part_.roles[local(dart)] == FaceRole::own;
 }
 
-Result<Darts> PartRun::accepted_of(const Darts& candidates, std::span<const Sample> settled) {
+Result<Darts> PartRun::accepted_of(const Darts& candidates, const Settled& settled) {
     Darts accepted;
     if (candidates.empty()) {
         return accepted;
     }
     std::vector<ListedCandidate> list;
+    std::vector<std::uint8_t> classes;
     list.reserve(candidates.size());
     for (const DrawnCandidate& dart : candidates) {
         list.push_back({local(dart), dart.point.weight1, dart.point.weight2});
+        if (!part_.class_factors.empty()) {
+            classes.push_back(class_of(dart));
+        }
     }
     SampleParams params = part_.params();
-    params.existing = settled;
-    const auto domain = listed_domain(part_.mesh, params, part_.frame, list);
+    params.existing = settled.samples;
+    params.existing_classes = settled.classes;
+    const auto domain = listed_domain(part_.mesh, params, part_.frame, list, classes);
     GEODISK_TRY(domain);
     const auto set = runner_.sample_and_wait(*domain, progress_);
     GEODISK_TRY(set);

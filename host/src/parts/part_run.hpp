@@ -49,9 +49,16 @@ class PartRun {
   private:
     std::uint32_t local(const DrawnCandidate& dart) const;
     bool is_own(const DrawnCandidate& dart) const;
+    /// Samples that are settled, and their classes; those may be empty.
+    struct Settled {
+        std::vector<Sample> samples;
+        std::vector<std::uint8_t> classes;
+    };
     /// Decides these candidates, in dart order, behind existing samples. Returns those that are
     /// accepted.
-    Result<Darts> accepted_of(const Darts& candidates, std::span<const Sample> settled);
+    Result<Darts> accepted_of(const Darts& candidates, const Settled& settled);
+    /// Adds a settled sample, with its class.
+    void settle(const Sample& sample, std::uint8_t number);
     void settle(const DrawnCandidate& dart);
     /// Counts own candidates.
     void count_own();
@@ -67,11 +74,10 @@ class PartRun {
     CandidateDraw draw_;
     Stages stages_;
     Darts drawn_; ///< Candidates of own faces, in dart order. Those of near faces until decided.
-    Darts settled_own_;           ///< Own samples of earlier stages.
-    std::vector<Sample> settled_; ///< Existing samples, and own and near ones of earlier stages.
-    /// Those of them that reach the border.
-    std::vector<Sample> settled_near_;
-    Darts own_; ///< Own samples as they were decided last, among these near ones.
+    Darts settled_own_;    ///< Own samples of earlier stages.
+    Settled settled_;      ///< Existing samples, and own and near ones of earlier stages.
+    Settled settled_near_; ///< Those of them that reach the border.
+    Darts own_;            ///< Own samples as they were decided last, among these near ones.
     Darts near_;
     std::vector<double> from_near_; ///< Lower bounds on the distance of vertices from near faces.
     double border_reach_ = 0; ///< Maximum distance of samples that reject candidates in the border.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <iterator>
 #include <optional>
 #include <type_traits>
 #include <utility>
@@ -59,6 +60,15 @@ std::vector<Sample> merged(const SampleParams& params, const Darts& darts) {
     return samples;
 }
 
+/// Returns the classes of these samples.
+std::vector<std::uint8_t> merged_classes(const SampleParams& params, const Darts& darts) {
+    std::vector<std::uint8_t> classes(params.existing_classes.begin(),
+                                      params.existing_classes.end());
+    classes.resize(params.existing.size());
+    std::ranges::transform(darts, std::back_inserter(classes), class_of);
+    return classes;
+}
+
 /// Adds the share of a part to that of its process.
 void add(ProcessReport& process, const ProcessReport& part) {
     process.parts += part.parts;
@@ -107,6 +117,9 @@ SharedSamples put_together(const Exchange& exchange, const SampleParams& params,
     }
     result.set.existing = existing;
     result.set.samples = merged(params, darts);
+    if (!params.class_factors.empty()) {
+        result.set.classes = merged_classes(params, darts);
+    }
     return result;
 }
 

@@ -35,6 +35,7 @@ struct WholeSurface {
     const JobFrame* frame = nullptr;          ///< Null for that of the mesh.
     /// Candidates, decided in this order, in place of those that faces draw; empty for the latter.
     std::span<const ListedCandidate> list{};
+    bool is_checked = false; ///< The caller knows that the job can be divided.
 };
 
 /// Samples a surface together with the other processes; all call it. `whole` is null on all but the

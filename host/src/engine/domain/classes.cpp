@@ -1,21 +1,17 @@
 #include "engine/domain/classes.hpp"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
 #include <cstring>
 #include <string>
 
-#include "constants.h"
 #include "support/invalid.hpp"
 #include "support/number_text.hpp"
 #include "support/try.hpp"
 
 namespace geodisk {
 namespace {
-
-using Table = std::array<std::uint32_t, gpu::kClassWords>;
 
 double factor_of(const SampleParams& params, std::uint32_t a, std::uint32_t b) {
     return params.class_factors[std::size_t{class_count(params)} * a + b];
@@ -187,14 +183,11 @@ Result<Done> check_classes(const SampleParams& params, std::uint32_t faces) {
 std::size_t class_bytes(const SampleParams& params) {
     return params.class_factors.empty()
                ? 0
-               : sizeof(Table) + share_words(params) * sizeof(std::uint32_t);
+               : sizeof(ClassWords) + share_words(params) * sizeof(std::uint32_t);
 }
 
-void add_classes(const SampleParams& params, UploadParts& parts) {
-    if (params.class_factors.empty()) {
-        return;
-    }
-    Table table{};
+ClassWords class_table(const SampleParams& params) {
+    ClassWords table{};
     const auto word_of = [](double x) {
         return std::bit_cast<std::uint32_t>(static_cast<float>(x));
     };
@@ -220,6 +213,25 @@ void add_classes(const SampleParams& params, UploadParts& parts) {
     }
     table[gpu::kClassCells] = std::bit_cast<std::uint32_t>(class_cells_per_unit(params));
     table[gpu::kClassShares] = params.class_shares.empty() ? 0 : count;
+    return table;
+}
+
+std::uint32_t priority_with_class(const ClassWords& table, std::uint32_t priority,
+                                  std::uint32_t random) noexcept {
+    std::uint32_t number = 0;
+    for (std::uint32_t a = 0; a + 1 < gpu::kMaxClasses; ++a) {
+        number += random > table[a] ? 1u : 0u;
+    }
+    const std::uint64_t turned = std::uint64_t{priority << 1} * table[gpu::kClassTurns + number];
+    return (static_cast<std::uint32_t>(turned >> 32) & ~gpu::kClassMask) | number;
+}
+
+void add_classes(const SampleParams& params, UploadParts& parts) {
+    if (params.class_factors.empty()) {
+        return;
+    }
+    const ClassWords table = class_table(params);
+    const std::uint32_t count = class_count(params);
     parts.push_back({sizeof table[0], table.size(),
                      [table](std::size_t begin, std::size_t end, std::byte* out) {
                          std::memcpy(out, &table[begin], (end - begin) * sizeof table[0]);

@@ -1,6 +1,7 @@
 // The classes of a job: SampleParams::class_factors, checked, and as the device takes them.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 
@@ -8,9 +9,13 @@
 #include <geodisk/params.hpp>
 #include <geodisk/status.hpp>
 
+#include "constants.h"
 #include "engine/domain/upload_parts.hpp"
 
 namespace geodisk {
+
+/// The table of classes, as kernels read it.
+using ClassWords = std::array<std::uint32_t, gpu::kClassWords>;
 
 /// Returns the number of classes; 1 if samples have none.
 GEODISK_API std::uint32_t class_count(const SampleParams& params) noexcept;
@@ -30,6 +35,14 @@ float class_cells_per_unit(const SampleParams& params) noexcept;
 /// Checks the table, the classes of existing samples and of disks to avoid, the shares for a mesh
 /// of so many faces, and that nothing contradicts them.
 Result<Done> check_classes(const SampleParams& params, std::uint32_t faces);
+
+/// Returns the table, for samples with classes.
+ClassWords class_table(const SampleParams& params);
+
+/// Returns the priority of a candidate with its class in the lowest bits, which a random word
+/// stands for: class_of_random() and with_class() of the shaders.
+std::uint32_t priority_with_class(const ClassWords& table, std::uint32_t priority,
+                                  std::uint32_t random) noexcept;
 
 /// Returns the bytes of the table of classes and of their shares, whole rows; 0 if samples have
 /// none.

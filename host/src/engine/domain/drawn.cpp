@@ -94,7 +94,11 @@ bool is_before(const DrawnCandidate& a, const DrawnCandidate& b, bool has_keys) 
 
 CandidateDraw::CandidateDraw(const PreparedMesh& mesh, const SampleParams& params,
                              const JobFrame& frame)
-    : surface_(placed(mesh, params, frame)) {}
+    : surface_(placed(mesh, params, frame)) {
+    if (!params.class_factors.empty()) {
+        classes_ = class_table(params);
+    }
+}
 
 void CandidateDraw::draw(std::uint32_t face, std::uint32_t stage,
                          std::vector<DrawnCandidate>& out) const {
@@ -104,7 +108,7 @@ void CandidateDraw::draw(std::uint32_t face, std::uint32_t stage,
     }
     const std::uint32_t key = key_of(surface_, face);
     const gpu::RadiiRec radii = radii_of(params, face);
-    float mean = stage_intensity(surface_.stages, stage) *
+    float mean = stage_intensity(surface_.stages, stage, class_density(params)) *
                  face_area(*surface_.mesh, face, surface_.frame.unit);
     if (params.radii != nullptr) {
         mean = mean * radii.density;
@@ -115,6 +119,9 @@ void CandidateDraw::draw(std::uint32_t face, std::uint32_t stage,
         Words random = philox(params.seed, {key, number, stage, 0});
         DrawnCandidate drawn{stage, random[0] >> (32u - gpu::kPriorityBits), {face, 0, 0}};
         weigh_evenly(drawn.point, random);
+        if (classes_) {
+            drawn.priority = priority_with_class(*classes_, drawn.priority, random[1]);
+        }
         bool is_kept = params.radii == nullptr || propose(drawn.point, radii, random);
         for (std::uint32_t proposal = 1; proposal < gpu::kMaxProposals && !is_kept; ++proposal) {
             random = philox(params.seed, {key, number, stage, proposal});

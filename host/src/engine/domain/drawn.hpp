@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include <geodisk/checkpoint.hpp>
@@ -10,6 +11,7 @@
 #include <geodisk/mesh.hpp>
 #include <geodisk/params.hpp>
 
+#include "engine/domain/classes.hpp"
 #include "engine/domain/placed_surface.hpp"
 
 namespace geodisk {
@@ -29,7 +31,8 @@ struct DartOrder {
 };
 
 /// Draws the candidates of faces of a surface, or of a part of one in the frame of the whole: each
-/// is the one that kernels draw, to the bit. Without classes.
+/// is the one that kernels draw, to the bit; a class is in the lowest bits of its priority. Without
+/// shares of classes.
 class GEODISK_API CandidateDraw {
   public:
     /// `mesh`, and what `params` refers to, must outlive it. The parameters fit the mesh and the
@@ -44,6 +47,7 @@ class GEODISK_API CandidateDraw {
 
   private:
     PlacedSurface surface_;
+    std::optional<ClassWords> classes_;
 };
 
 } // namespace geodisk

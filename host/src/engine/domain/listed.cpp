@@ -24,16 +24,20 @@ namespace {
 constexpr std::size_t kMaxListed = std::size_t{1} << gpu::kPriorityBits;
 
 Result<Done> check_listed(const PreparedMesh& mesh, const SampleParams& params,
-                          std::span<const ListedCandidate> candidates) {
-    if (candidates.empty() || candidates.size() > kMaxListed) {
-        return invalid("a list of candidates has 1 to 2^28, not " +
-                       std::to_string(candidates.size()));
+                          std::span<const ListedCandidate> candidates,
+                          std::span<const std::uint8_t> classes) {
+    const bool has_classes = !params.class_factors.empty();
+    const std::size_t most = has_classes ? kMaxListed / gpu::kMaxClasses : kMaxListed;
+    if (candidates.empty() || candidates.size() > most) {
+        return invalid(std::string("a list of candidates has 1 to 2^") +
+                       (has_classes ? "25" : "28") + ", not " + std::to_string(candidates.size()));
     }
     if (params.darts != 0) {
         return invalid("candidates are listed, so there are no darts to throw");
     }
-    if (!params.class_factors.empty()) {
-        return invalid("listed candidates have no classes");
+    if (classes.size() != (has_classes ? candidates.size() : 0)) {
+        return invalid(has_classes ? "listed candidates have no classes"
+                                   : "listed candidates have classes, and there is no table");
     }
     if (params.maximal) {
         return invalid("listed candidates make no maximal set");
@@ -104,7 +108,8 @@ Stages listed_stages(double samples, std::size_t candidates, CandidateSource sou
 }
 
 ListedBuffers listed_buffers(const PlacedSurface& surface, const FaceCells& cells,
-                             std::span<const ListedCandidate> candidates) {
+                             std::span<const ListedCandidate> candidates,
+                             std::span<const std::uint8_t> classes) {
     ListedBuffers buffers;
     std::vector<std::uint32_t>& sorted = buffers.numbers;
     sorted = sorted_by_face(surface.mesh->face_count(), candidates, buffers.starts);
@@ -113,13 +118,15 @@ ListedBuffers listed_buffers(const PlacedSurface& surface, const FaceCells& cell
     const auto count = static_cast<std::uint32_t>(candidates.size());
     // Batches are chosen as if orders were spread evenly.
     const std::uint32_t step = (1u << gpu::kPriorityBits) / count;
+    const std::uint32_t places = classes.empty() ? ~0u : ~gpu::kClassMask;
     buffers.weights.resize(2 * candidates.size());
     buffers.orders.resize(capacity + state_words(capacity), 0);
     for (std::uint32_t place = 0; place < count; ++place) {
         const ListedCandidate& candidate = candidates[sorted[place]];
-        buffers.weights[2 * std::size_t{place}] = candidate.weight1;
+        const std::uint32_t number = classes.empty() ? 0 : classes[sorted[place]];
+        buffers.weights[2 * std::size_t{place}] = candidate.weight1 | number << gpu::kClassShift;
         buffers.weights[2 * std::size_t{place} + 1] = candidate.weight2;
-        buffers.orders[place] = sorted[place] * step;
+        buffers.orders[place] = sorted[place] * (step & places) | number;
         buffers.orders[capacity + (place >> 5 << 1)] |= 1u << (place & 31); // Undecided.
     }
     return buffers;
@@ -127,7 +134,8 @@ ListedBuffers listed_buffers(const PlacedSurface& surface, const FaceCells& cell
 
 Result<Domain> SurfaceDomain::listed(const PreparedMesh& mesh, const SampleParams& params,
                                      const JobFrame& frame,
-                                     std::span<const ListedCandidate> candidates, bool may_divide) {
+                                     std::span<const ListedCandidate> candidates, bool may_divide,
+                                     std::span<const std::uint8_t> classes) {
     PlacedSurface surface = placed(mesh, params, frame);
     surface.may_divide = may_divide;
     surface.stages =
@@ -135,7 +143,7 @@ Result<Domain> SurfaceDomain::listed(const PreparedMesh& mesh, const SampleParam
     auto cells = count_cells({&surface, 1});
     GEODISK_TRY(cells);
     auto made = std::make_unique<SurfaceDomain>(std::vector{surface}, std::move(*cells));
-    made->listed_ = listed_buffers(surface, made->cells_, candidates);
+    made->listed_ = listed_buffers(surface, made->cells_, candidates, classes);
     const double most = static_cast<double>(made->settled.size() + candidates.size());
     made->samples = std::min(made->samples, most);
     if (made->whole) {
@@ -179,19 +187,19 @@ Result<Domain> listed_domain(const PreparedMesh& mesh, const SampleParams& param
     return guarded([&]() -> Result<Domain> {
         const auto frame = frame_of_disks(mesh, params); // A list may be far shorter than a pool.
         GEODISK_TRY(frame);
-        GEODISK_TRY(check_listed(mesh, params, candidates));
+        GEODISK_TRY(check_listed(mesh, params, candidates, {}));
         return SurfaceDomain::listed(mesh, params, *frame, candidates, true);
     });
 }
 
 Result<Domain> listed_domain(const PreparedMesh& mesh, const SampleParams& params,
-                             const JobFrame& frame,
-                             std::span<const ListedCandidate> candidates) noexcept {
+                             const JobFrame& frame, std::span<const ListedCandidate> candidates,
+                             std::span<const std::uint8_t> classes) noexcept {
     return guarded([&]() -> Result<Domain> {
         GEODISK_TRY(check_params(mesh, params));
         GEODISK_TRY(check_frame(frame, mesh, params));
-        GEODISK_TRY(check_listed(mesh, params, candidates));
-        return SurfaceDomain::listed(mesh, params, frame, candidates, false);
+        GEODISK_TRY(check_listed(mesh, params, candidates, classes));
+        return SurfaceDomain::listed(mesh, params, frame, candidates, false, classes);
     });
 }
 

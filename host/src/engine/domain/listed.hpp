@@ -30,11 +30,13 @@ namespace geodisk {
 GEODISK_API Result<Domain> listed_domain(const PreparedMesh& mesh, const SampleParams& params,
                                          std::span<const ListedCandidate> candidates) noexcept;
 
-/// Makes the same in a frame: that of `mesh` itself, or of a mesh that it is a part of. Errors:
-/// those above, and of Domain::surface() in a frame.
+/// Makes the same in a frame: that of `mesh` itself, or of a mesh that it is a part of. `classes`
+/// has those of the candidates, if samples have any; there are then at most 2^25. Errors: those
+/// above, and of Domain::surface() in a frame.
 GEODISK_API Result<Domain> listed_domain(const PreparedMesh& mesh, const SampleParams& params,
                                          const JobFrame& frame,
-                                         std::span<const ListedCandidate> candidates) noexcept;
+                                         std::span<const ListedCandidate> candidates,
+                                         std::span<const std::uint8_t> classes = {}) noexcept;
 
 /// Returns the sample at a candidate.
 Sample to_sample(const ListedCandidate& candidate);
@@ -54,8 +56,9 @@ struct ListedBuffers {
 /// Returns the stages of a job with so many candidates of the host: a single one.
 Stages listed_stages(double samples, std::size_t candidates, CandidateSource source);
 
-/// Sorts the candidates by face and cell.
+/// Sorts the candidates by face and cell. `classes` may be empty.
 ListedBuffers listed_buffers(const PlacedSurface& surface, const FaceCells& cells,
-                             std::span<const ListedCandidate> candidates);
+                             std::span<const ListedCandidate> candidates,
+                             std::span<const std::uint8_t> classes = {});
 
 } // namespace geodisk

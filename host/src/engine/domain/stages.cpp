@@ -96,8 +96,8 @@ double samples_per_area() noexcept {
     return expected_count(1, 1);
 }
 
-float stage_intensity(const Stages& stages, std::uint32_t stage) {
-    return static_cast<float>(stages.per_sample(stage) * samples_per_area());
+float stage_intensity(const Stages& stages, std::uint32_t stage, double density) {
+    return static_cast<float>(stages.per_sample(stage) * (samples_per_area() * density));
 }
 
 double expected_in_face(const PreparedMesh& mesh, const SampleParams& params, std::uint32_t face,

@@ -44,8 +44,8 @@ GEODISK_API double samples_per_area() noexcept;
 
 /// Candidates that a stage expects per unit of area, or where radii vary per unit of the integral
 /// of 1 / g^2; lengths in units of JobFrame::unit. It follows from the distance alone, so that no
-/// edit elsewhere changes it.
-GEODISK_API float stage_intensity(const Stages& stages, std::uint32_t stage);
+/// edit elsewhere changes it. `density` is class_density().
+GEODISK_API float stage_intensity(const Stages& stages, std::uint32_t stage, double density = 1);
 
 /// Returns the length of a border as distance_for_count() takes it: if radii vary, in multiples of
 /// the largest one. `h` is the border's half-edge in the faces of `radii`.

@@ -137,7 +137,7 @@ Result<PlacedSurface> place(const SurfacePart& part) {
 }
 
 bool can_divide(const SampleParams& params) {
-    return params.class_factors.empty() && !params.maximal;
+    return params.class_shares.empty() && !params.maximal;
 }
 
 } // namespace

@@ -21,7 +21,8 @@ class SurfaceDomain : public Domain::Impl {
     /// Implements listed_domain(), for candidates that are checked.
     static Result<Domain> listed(const PreparedMesh& mesh, const SampleParams& params,
                                  const JobFrame& frame, std::span<const ListedCandidate> candidates,
-                                 bool may_divide = false);
+                                 bool may_divide = false,
+                                 std::span<const std::uint8_t> classes = {});
 
     /// Makes the domain of the existing samples and points to avoid of `params`, whose disks record
     /// what `ending` says, at most so many times. To record what they reach is for these targets,
