@@ -23,7 +23,7 @@ constexpr std::uint64_t kManyWindows = 10000;
 /// Fewer disks say little of how long the others take.
 constexpr double kFewDisks = 4;
 
-/// Less of a search says little of how long the rest takes.
+/// Less of a run or search says little of how long the rest takes.
 constexpr double kEarly = 0.02;
 
 /// Draws how far a run is that should give about `expected` samples, after the disks of `avoided`
@@ -32,7 +32,7 @@ constexpr double kEarly = 0.02;
 ProgressCallback show_progress(ProgressLine& progress, DeviceLog& log, double expected,
                                std::size_t avoided) {
     return [&progress, &log, expected, avoided, watch = Stopwatch(), is_first = true,
-            time = TimeEstimate(std::min(0.05, kFewDisks / std::max(1.0, expected)))](
+            time = TimeEstimate(std::clamp(kFewDisks / std::max(1.0, expected), kEarly, 0.05))](
                const Progress& state) mutable {
         log.tell_progress(state);
         const double part = state.disks < avoided ? 0 : part_done(state, expected);
