@@ -40,16 +40,14 @@ Result<std::vector<std::uint32_t>> faces_within(const PreparedMesh& mesh,
                                                 std::span<const std::uint8_t> is_marked,
                                                 double reach) noexcept {
     return guarded([&]() -> Result<std::vector<std::uint32_t>> {
-        std::vector<double> distances;
-        if (reach > 0) {
-            distances = distances_from(mesh, is_marked, reach);
-        }
         std::vector<std::uint32_t> faces;
         for (std::uint32_t face = 0; face < mesh.face_count(); ++face) {
-            if (is_marked[face] != 0 ||
-                (reach > 0 && nearest_corner(mesh, distances, face) <= reach)) {
+            if (is_marked[face] != 0) {
                 faces.push_back(face);
             }
+        }
+        if (reach > 0) {
+            faces = HaloSearch(mesh).search(faces, reach);
         }
         return faces;
     });

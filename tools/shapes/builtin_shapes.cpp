@@ -29,7 +29,7 @@ constexpr BuiltinShape kShapes[] = {
     {"crossed-sheet", "open sheet in a loop that crosses itself; parts across", 32, 1, 1000,
      make_crossed_sheet},
     {"uncrossed-sheet", "crossed-sheet laid flat; parts across", 32, 1, 1000, make_uncrossed_sheet},
-    {"terrain", "square of hills; parts per edge", 160, 1, 3000, make_terrain},
+    {"terrain", "square of hills; parts per edge", 160, 1, 4000, make_terrain},
     {"moebius", "one-sided strip; parts across the strip", 12, 1, 800, make_moebius},
     {"tube", "closed tube of length 1 and radius 0.0001; points around", 6, 3, 100000, make_tube},
     {"spike", "needle on a disk, 0.0000001 wide at its tip; points around", 12, 3, 100000,

@@ -59,9 +59,11 @@ class GEODISK_API Exchange {
     virtual std::uint32_t process_of(std::uint32_t rank) const { return rank; }
     /// Returns true if there are others in this process.
     virtual bool takes_turns() const { return false; }
-    /// Returns a lock that only one of this process holds at a time, for work that needs much
-    /// memory or the device. Its holder must not wait for others.
+    /// Returns a lock that few of this process hold at a time, for work that needs much memory. Its
+    /// holder must not wait for others.
     virtual std::unique_lock<std::mutex> turn() { return {}; }
+    /// Returns a lock that only one of this process holds at a time, for work on the device.
+    virtual std::unique_lock<std::mutex> device() { return {}; }
 
     /// Sends a message to each of some processes, not this one, and returns what each of them sent,
     /// in the same order. Those must name this process too.

@@ -14,16 +14,31 @@ constexpr double kTarget = 0.95;
 // A face of lower height, in units of the distance, gets a single value: small steps would take too
 // long.
 constexpr double kNarrow = 0x1p-12;
+
 /// Values at the vertices of a mesh, raised until no face has a gradient of more than 1.
 class Slopes {
   public:
-    Slopes(const PreparedMesh& mesh, double unit, std::vector<double> values)
-        : mesh_(mesh), unit_(unit), values_(std::move(values)) {}
+    Slopes(const PreparedMesh& mesh, double unit, std::vector<double>& values)
+        : mesh_(mesh), unit_(unit), values_(values) {}
 
-    std::vector<double> relaxed() && {
+    void raise_all() {
         for (std::uint32_t f = 0; f < mesh_.face_count(); ++f) {
             relax(f);
         }
+        raise_more([](std::uint32_t) {});
+    }
+
+    void raise_some(std::span<const std::uint32_t> faces, std::vector<std::uint32_t>& raised) {
+        for (const std::uint32_t face : faces) {
+            relax(face);
+        }
+        raise_more([&](std::uint32_t vertex) { raised.push_back(vertex); });
+    }
+
+  private:
+    /// Calls `note` with each vertex that was raised.
+    template <class Note>
+    void raise_more(const Note& note) {
         // Highest vertex first: vertices that it raises rarely need to be raised again.
         while (!raised_.empty()) {
             const auto [value, vertex] = raised_.top();
@@ -31,16 +46,15 @@ class Slopes {
             if (value < values_[vertex]) {
                 continue;
             }
+            note(vertex);
             const VertexFan& fan = mesh_.fans()[vertex];
             for (const std::uint32_t corner :
                  mesh_.corners().subspan(fan.first_corner, fan.corner_count)) {
                 relax(corner / 3);
             }
         }
-        return std::move(values_);
     }
 
-  private:
     double length(std::uint32_t h) const { return mesh_.half_edges()[h].length / unit_; }
     double& start(std::uint32_t h) { return values_[mesh_.half_edges()[h].origin]; }
     double& end(std::uint32_t h) { return start(next_in_face(h)); }
@@ -87,7 +101,7 @@ class Slopes {
 
     const PreparedMesh& mesh_;
     double unit_;
-    std::vector<double> values_; ///< Values in units of the distance.
+    std::vector<double>& values_; ///< Values in units of the distance.
     std::priority_queue<std::pair<double, std::uint32_t>> raised_;
 };
 
@@ -95,7 +109,13 @@ class Slopes {
 
 std::vector<double> raised_to_slope(const PreparedMesh& mesh, double unit,
                                     std::vector<double> values) {
-    return Slopes(mesh, unit, std::move(values)).relaxed();
+    Slopes(mesh, unit, values).raise_all();
+    return values;
+}
+
+void raise_to_slope(const PreparedMesh& mesh, double unit, std::span<const std::uint32_t> faces,
+                    std::vector<double>& values, std::vector<std::uint32_t>& raised) {
+    Slopes(mesh, unit, values).raise_some(faces, raised);
 }
 
 } // namespace geodisk

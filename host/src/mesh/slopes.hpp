@@ -1,6 +1,8 @@
 // Functions on a surface that are linear in each face and change no faster than distances do.
 #pragma once
 
+#include <cstdint>
+#include <span>
 #include <vector>
 
 #include "geodisk/mesh.hpp"
@@ -12,5 +14,10 @@ namespace geodisk {
 /// measured in `unit`.
 std::vector<double> raised_to_slope(const PreparedMesh& mesh, double unit,
                                     std::vector<double> values);
+
+/// The same where only some faces may have such a gradient. Adds the vertices that are raised,
+/// perhaps more than once.
+void raise_to_slope(const PreparedMesh& mesh, double unit, std::span<const std::uint32_t> faces,
+                    std::vector<double>& values, std::vector<std::uint32_t>& raised);
 
 } // namespace geodisk

@@ -38,7 +38,7 @@ Result<std::uint64_t> draw(Exchange& exchange, Part& part, PartRun& run, std::ui
             return Done{}; // Candidates may still be left out.
         }
         // Else the mesh would soon be made once more.
-        const auto own = run.decide(nullptr);
+        const auto own = run.decide_first();
         return own ? Result<Done>(Done{}) : own.error();
     });
     GEODISK_TRY(exchange.check_all(begun ? nullptr : &begun.error()));
@@ -48,12 +48,27 @@ Result<std::uint64_t> draw(Exchange& exchange, Part& part, PartRun& run, std::ui
 }
 
 Result<Darts> decide(Exchange& exchange, Part& part, PartRun& run, const Darts* near) {
-    return guarded([&] {
-        std::optional<MeshTurn> turn;
-        if (run.has_to_decide(near)) {
-            turn.emplace(exchange, part);
+    return guarded([&]() -> Result<Darts> {
+        if (near == nullptr) {
+            std::optional<MeshTurn> turn;
+            if (!run.is_decided()) {
+                turn.emplace(exchange, part);
+            }
+            return run.decide_first();
         }
-        return run.decide(near);
+        if (!run.has_to_decide(*near)) {
+            return run.decided(*near);
+        }
+        {
+            const MeshTurn turn(exchange, run.border());
+            auto own = run.decide_border(*near);
+            GEODISK_TRY(own);
+            if (*own) {
+                return std::move(**own);
+            }
+        }
+        const MeshTurn turn(exchange, part);
+        return run.decide_all(*near);
     });
 }
 

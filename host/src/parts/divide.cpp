@@ -31,7 +31,8 @@ class Division {
     Division(const WholeSurface& whole, const JobFrame& frame,
              std::span<const std::uint32_t> owners, std::uint32_t processes)
         : mesh_(whole.mesh), params_(whole.params), list_(whole.list), owners_(owners),
-          from_(whole.checkpoints != nullptr ? whole.checkpoints->from : nullptr) {
+          is_shared_(whole.is_shared),
+          from_(whole.checkpoints != nullptr ? whole.checkpoints->from : nullptr), halo_(mesh_) {
         const CheckpointTerms terms(whole.checkpoints);
         for (std::uint32_t process = 0; process < processes; ++process) {
             Part& part = parts_.emplace_back(part_for(params_, frame, whole.max_candidates, terms));
@@ -49,38 +50,31 @@ class Division {
     }
 
     /// Chooses the faces of a part, and notes which of them their owners must tell it of.
-    void choose(std::uint32_t process) {
+    void choose(std::uint32_t process, std::span<const std::uint32_t> own) {
         Part& part = parts_[process];
-        std::vector<std::uint8_t> is_own(mesh_.face_count());
-        for (std::uint32_t face = 0; face < mesh_.face_count(); ++face) {
-            is_own[face] = owners_[face] == process ? 1 : 0;
-        }
         const double unit = part.reach;
         double largest = 0;
-        for (std::uint32_t face = 0; face < mesh_.face_count(); ++face) {
-            largest = std::max(largest, is_own[face] != 0 ? bound(face) : 0);
+        for (const std::uint32_t face : own) {
+            largest = std::max(largest, bound(face));
         }
         largest = largest > 0 ? largest : 1;
         part.reach = unit * largest;
-        const std::vector<double> distances =
-            distances_from(mesh_, is_own, std::max(unit * widths_for(largest).all, 2 * avoided_));
-        std::vector<double> to_faces(mesh_.face_count());
+        const std::vector<std::uint32_t> found =
+            halo_.search(own, std::max(unit * widths_for(largest).all, 2 * avoided_));
         const auto widths = [&](std::uint32_t face) {
             return widths_for(std::min(largest, bound(face)));
         };
         const auto is_within = [&](std::uint32_t face) {
-            return to_faces[face] <= unit * widths(face).near;
+            return halo_.nearest_corner(face) <= unit * widths(face).near;
         };
-        for (std::uint32_t face = 0; face < mesh_.face_count(); ++face) {
-            to_faces[face] = nearest_corner(mesh_, distances, face);
-            if (to_faces[face] > std::max(unit * widths(face).all, 2 * avoided_)) {
+        for (const std::uint32_t face : found) {
+            if (halo_.nearest_corner(face) > std::max(unit * widths(face).all, 2 * avoided_)) {
                 continue;
             }
             part.faces.push_back(face);
-            const bool is_near = is_within(face);
-            part.roles.push_back(is_own[face] != 0 ? FaceRole::own
-                                 : is_near         ? FaceRole::near
-                                                   : FaceRole::surface);
+            part.roles.push_back(owners_[face] == process ? FaceRole::own
+                                 : is_within(face)        ? FaceRole::near
+                                                          : FaceRole::surface);
             if (part.has_keys) {
                 part.keys.push_back(params_.face_keys[face]);
             }
@@ -113,7 +107,7 @@ class Division {
         }
         for (std::size_t i = 0; i < params_.avoid.size(); ++i) {
             KeepOut avoided = params_.avoid[i];
-            if (to_faces[avoided.center.face] <= avoided_) {
+            if (halo_.nearest_corner(avoided.center.face) <= avoided_) {
                 avoided.center.face = local(part, avoided.center.face);
                 part.avoid.push_back(avoided);
                 if (!params_.avoid_classes.empty()) {
@@ -138,10 +132,12 @@ class Division {
     /// Returns the message of a part.
     Result<Bytes> message(std::uint32_t process) {
         Part& part = parts_[process];
-        auto mesh = mesh_.part(part.faces);
-        GEODISK_TRY(mesh);
-        part.mesh = std::move(*mesh);
-        if (params_.radii != nullptr) {
+        if (!is_shared_) {
+            auto mesh = mesh_.part(part.faces);
+            GEODISK_TRY(mesh);
+            part.mesh = std::move(*mesh);
+        }
+        if (params_.radii != nullptr && !is_shared_) {
             part.radii = params_.radii->on_part(part.mesh, part.faces);
         }
         auto bytes = message_of(part);
@@ -170,8 +166,10 @@ class Division {
     const SampleParams& params_;
     std::span<const ListedCandidate> list_;
     std::span<const std::uint32_t> owners_;
+    bool is_shared_;
     std::vector<Part> parts_;
     const Checkpoint* from_;
+    HaloSearch halo_;
     double avoided_ = 0;          ///< The largest distance from a point to avoid.
     std::vector<double> reaches_; ///< See reaches(); empty if radii do not vary.
     /// Faces of the first process whose samples the second one must know.
@@ -204,8 +202,12 @@ Result<std::vector<Bytes>> divide(const WholeSurface& whole, const JobFrame& fra
             GEODISK_TRY(check_fields(whole.params, RequestField::processes));
         }
         Division division(whole, frame, owners, processes);
+        std::vector<std::vector<std::uint32_t>> own(processes);
+        for (std::uint32_t face = 0; face < owners.size(); ++face) {
+            own[owners[face]].push_back(face);
+        }
         for (std::uint32_t process = 0; process < processes; ++process) {
-            division.choose(process);
+            division.choose(process, own[process]);
         }
         division.link();
         std::vector<Bytes> messages;

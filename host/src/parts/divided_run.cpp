@@ -29,7 +29,8 @@ DividedRun::DividedRun(Runner& runner, const WholeJob& job, std::uint32_t parts)
                                                  .cut = cut_,
                                                  .frame = &job.frame,
                                                  .list = job.list,
-                                                 .is_checked = true},
+                                                 .is_checked = true,
+                                                 .is_shared = true},
       exchanges_(LocalExchange::create(parts)), working_(parts) {
     try {
         for (std::size_t part = 0; part < exchanges_.size(); ++part) {
@@ -54,7 +55,7 @@ DividedRun::~DividedRun() {
 void DividedRun::work(std::size_t part) {
     LocalExchange& exchange = *exchanges_[part];
     auto done = guarded([&]() -> Result<SharedSamples> {
-        return sample_parts(exchange, runner_, part == 0 ? &whole_ : nullptr,
+        return sample_parts(exchange, runner_, &whole_,
                             [this, part](const Progress& now) { return note(part, now); });
     });
     if (!done) {

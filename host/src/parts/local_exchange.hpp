@@ -1,7 +1,9 @@
 // Messages among the parts of one process, each a thread of its own.
 #pragma once
 
+#include <array>
 #include <condition_variable>
+#include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <map>
@@ -16,7 +18,8 @@
 
 namespace geodisk {
 
-/// One part of a process that has them all. The parts take turns: one at a time uses the device.
+/// One part of a process that has them all. Two at a time have a turn, so that one has work for the
+/// host while the other one uses the device.
 class LocalExchange : public Exchange {
   public:
     /// Returns an exchange for each of so many parts.
@@ -26,7 +29,10 @@ class LocalExchange : public Exchange {
     std::uint32_t size() const override { return size_; }
     std::uint32_t process_of(std::uint32_t) const override { return 0; }
     bool takes_turns() const override { return true; }
-    std::unique_lock<std::mutex> turn() override { return std::unique_lock(hall_->turns); }
+    std::unique_lock<std::mutex> turn() override {
+        return std::unique_lock(hall_->turns[rank_ % kAtOnce]);
+    }
+    std::unique_lock<std::mutex> device() override { return std::unique_lock(hall_->device); }
     Result<std::vector<Bytes>> swap(std::span<const std::uint32_t> others,
                                     std::span<const Bytes> messages) override;
     Result<std::vector<std::uint64_t>> sums(std::vector<std::uint64_t> values) override;
@@ -36,9 +42,12 @@ class LocalExchange : public Exchange {
     void give_up(const Error& error);
 
   private:
+    static constexpr std::size_t kAtOnce = 2;
+
     /// State that the parts share.
     struct Hall {
-        std::mutex turns;
+        std::array<std::mutex, kAtOnce> turns;
+        std::mutex device;
         std::mutex mutex; ///< Guards all below.
         std::condition_variable changed;
         std::optional<Error> failure;

@@ -5,7 +5,12 @@
 namespace geodisk {
 
 MeshTurn::MeshTurn(Exchange& exchange, Part& part) : turn_(exchange.turn()), part_(part) {
-    if (!part.places.triangles.empty()) {
+    if (part.of_mesh != nullptr) {
+        part.mesh = MeshPieces::part(*part.of_mesh, part.faces);
+        if (part.of_radii != nullptr) {
+            part.radii = part.of_radii->on_part(part.mesh, part.faces);
+        }
+    } else if (!part.places.triangles.empty()) {
         part.mesh = MeshPieces::piece(MeshView{part.places.positions, part.places.triangles, 3},
                                       part.whole);
         if (!part.places.radii.factors.empty()) {
@@ -18,7 +23,7 @@ MeshTurn::MeshTurn(Exchange& exchange, Part& part) : turn_(exchange.turn()), par
 }
 
 MeshTurn::~MeshTurn() {
-    if (turn_ && !part_.places.triangles.empty()) {
+    if (part_.of_mesh != nullptr || (turn_ && !part_.places.triangles.empty())) {
         part_.mesh = {};
         part_.radii.reset();
     }

@@ -11,18 +11,17 @@ namespace geodisk {
 
 Result<NearPart> near_part(const PreparedMesh& mesh, std::span<const std::uint32_t> owners,
                            std::uint32_t part, double reach) {
-    std::vector<std::uint8_t> is_own(mesh.face_count());
-    std::ranges::transform(owners, is_own.begin(), [&](std::uint32_t owner) {
-        return static_cast<std::uint8_t>(owner == part ? 1 : 0);
-    });
-    const std::vector<double> distances = distances_from(mesh, is_own, reach);
-    NearPart near;
-    near.local.assign(mesh.face_count(), NearPart::kNone);
+    std::vector<std::uint32_t> own;
     for (std::uint32_t face = 0; face < mesh.face_count(); ++face) {
-        if (nearest_corner(mesh, distances, face) <= reach) {
-            near.local[face] = static_cast<std::uint32_t>(near.faces.size());
-            near.faces.push_back(face);
+        if (owners[face] == part) {
+            own.push_back(face);
         }
+    }
+    NearPart near;
+    near.faces = HaloSearch(mesh).search(own, reach);
+    near.local.assign(mesh.face_count(), NearPart::kNone);
+    for (std::uint32_t i = 0; i < near.faces.size(); ++i) {
+        near.local[near.faces[i]] = i;
     }
     auto made = mesh.part(near.faces);
     GEODISK_TRY(made);

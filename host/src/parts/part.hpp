@@ -48,11 +48,14 @@ struct FacePlaces {
 /// all that paths from those cross within the same distance. So disks are as on the whole. Faces
 /// and vertices are in the order of the whole.
 struct Part {
-    JobFrame frame;       ///< Frame of the whole.
-    double reach = 0;     ///< No samples farther away than this conflict with those of own faces.
-    PreparedMesh mesh;    ///< See MeshTurn.
-    FacePlaces places;    ///< Source of mesh and radii; empty once held for good.
-    MeshStatistics whole; ///< Statistics of the whole, likewise.
+    JobFrame frame;    ///< Frame of the whole.
+    double reach = 0;  ///< No samples farther away than this conflict with those of own faces.
+    PreparedMesh mesh; ///< See MeshTurn.
+    /// Source of mesh and radii, if it is a surface of this process; it outlives the part.
+    const PreparedMesh* of_mesh = nullptr;
+    const RadiusField* of_radii = nullptr;
+    FacePlaces places;                ///< Source otherwise; empty once held for good.
+    MeshStatistics whole;             ///< Statistics of the whole, likewise.
     std::optional<RadiusField> radii; ///< With the mesh.
     std::vector<std::uint32_t> faces; ///< Number in the whole of each face.
     std::vector<FaceRole> roles;
@@ -73,12 +76,23 @@ struct Part {
     Darts listed;           ///< Those on own and near faces, as of a single stage.
     Darts settled; ///< Samples of the checkpoint that it goes on from, on own and near faces.
 
+    /// Returns the place of a face of the whole, if it belongs to the part.
+    std::uint32_t local(std::uint32_t face) const;
+    /// Returns true if that is its place.
+    bool has(std::uint32_t place, std::uint32_t face) const {
+        return place < faces.size() && faces[place] == face;
+    }
+    /// Returns true if a face of the whole belongs to the part.
+    bool has(std::uint32_t face) const { return has(local(face), face); }
+    /// Returns some faces of the part, given by their places, with their mesh, which this must
+    /// have. It has parameters, but no candidates and samples.
+    std::unique_ptr<Part> cut_out(std::span<const std::uint32_t> some_faces) const;
     /// Returns the parameters of the whole, for the part. They refer to it.
     SampleParams params() const;
     /// Returns the candidates of the whole, on the faces of the part, if they are drawn.
     CandidateDraw draw() const;
-    /// Returns the stages of the whole, if its candidates are listed.
-    Stages list_stages() const;
+    /// Returns the stages of the whole.
+    Stages stages() const;
 };
 
 /// Returns a part without any faces yet, for a job in such a frame. At most so many

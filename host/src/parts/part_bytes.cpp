@@ -4,6 +4,8 @@
 #include <utility>
 
 #include "engine/domain/listed.hpp"
+#include "engine/domain/stages.hpp"
+#include "mesh/mesh_pieces.hpp"
 #include "parts/part.hpp"
 #include "support/guard.hpp"
 #include "support/try.hpp"
@@ -52,21 +54,52 @@ SampleParams Part::params() const {
     return params;
 }
 
+std::uint32_t Part::local(std::uint32_t face) const {
+    return static_cast<std::uint32_t>(std::ranges::lower_bound(faces, face) - faces.begin());
+}
+
+std::unique_ptr<Part> Part::cut_out(std::span<const std::uint32_t> some_faces) const {
+    auto some = std::make_unique<Part>();
+    some->frame = frame;
+    some->reach = reach;
+    some->of_whole = of_whole;
+    some->has_keys = has_keys;
+    some->class_factors = class_factors;
+    for (const std::uint32_t place : some_faces) {
+        some->faces.push_back(faces[place]);
+        if (has_keys) {
+            some->keys.push_back(keys[place]);
+        }
+        if (!mask.empty()) {
+            some->mask.push_back(mask[place]);
+        }
+    }
+    some->mesh = MeshPieces::part(mesh, some_faces);
+    if (radii) {
+        some->radii = radii->on_part(some->mesh, some_faces);
+    }
+    return some;
+}
+
 CandidateDraw Part::draw() const {
     SampleParams drawn = params();
     drawn.darts = of_whole.darts;
     return {mesh, drawn, frame};
 }
 
-Stages Part::list_stages() const {
-    return listed_stages(frame.samples, std::max<std::size_t>(1, listed.size()),
-                         CandidateSource::list);
+Stages Part::stages() const {
+    return is_listed ? listed_stages(frame.samples, std::max<std::size_t>(1, listed.size()),
+                                     CandidateSource::list)
+                     : stages_in(frame, of_whole);
 }
 
 Result<Bytes> message_of(const Part& part) {
-    auto mesh = part.mesh.save();
-    GEODISK_TRY(mesh);
-    std::vector<std::byte> radii;
+    std::vector<std::byte> mesh, radii;
+    if (part.mesh.face_count() > 0) {
+        auto saved = part.mesh.save();
+        GEODISK_TRY(saved);
+        mesh = std::move(*saved);
+    }
     if (part.radii) {
         auto saved = part.radii->save();
         GEODISK_TRY(saved);
@@ -74,7 +107,7 @@ Result<Bytes> message_of(const Part& part) {
     }
     MessageWriter message;
     message.put(to_bytes(part.frame));
-    message.put_all(*mesh);
+    message.put_all(mesh);
     message.put_all(radii);
     for_fields(
         part, [&](const auto& value) { message.put(value); },
@@ -112,9 +145,11 @@ Result<std::unique_ptr<Part>> part_of(std::span<const std::byte> bytes) {
         auto of_whole = frame_from_bytes(frame);
         GEODISK_TRY(of_whole);
         part->frame = *of_whole;
-        auto loaded = PreparedMesh::load(mesh);
-        GEODISK_TRY(loaded);
-        part->mesh = std::move(*loaded);
+        if (!mesh.empty()) {
+            auto loaded = PreparedMesh::load(mesh);
+            GEODISK_TRY(loaded);
+            part->mesh = std::move(*loaded);
+        }
         if (!radii.empty()) {
             auto field = RadiusField::load(radii);
             GEODISK_TRY(field);

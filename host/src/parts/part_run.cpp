@@ -5,110 +5,135 @@
 #include <utility>
 
 #include "engine/domain/listed.hpp"
-#include "parts/halo.hpp"
+#include "parts/surroundings.hpp"
 #include "support/try.hpp"
 
 namespace geodisk {
 namespace {
 
-// Width of the border, in minimum distances: hardly any chain of decisions is longer.
-constexpr double kBorder = 6;
+// A piece of a part is cut out if the part has at least so many times as many faces.
+constexpr std::size_t kMinRatio = 2;
+
+/// Returns some faces of a part; null if that is no gain. Disks around points to avoid may be
+/// larger than any other.
+std::unique_ptr<Part> cut_out(const Part& part, const Surroundings& around) {
+    const bool is_small = around.faces().size() <= part.faces.size() / kMinRatio;
+    return is_small && !around.faces().empty() && around.is_complete() && part.avoid.empty()
+               ? part.cut_out(around.faces())
+               : nullptr;
+}
 
 } // namespace
 
-PartRun::PartRun(const Part& part, Runner& runner, ProgressCallback progress)
-    : part_(part), runner_(runner), progress_(std::move(progress)), order_{part.has_keys},
-      draw_(part.draw()), stages_(part.is_listed ? part.list_stages() : draw_.stages()) {
-    std::vector<std::uint8_t> is_near(part.faces.size());
-    for (std::size_t face = 0; face < is_near.size(); ++face) {
-        is_near[face] = part.roles[face] == FaceRole::near ? 1 : 0;
-    }
-    from_near_ = distances_from(part.mesh, is_near, (kBorder + 2) * part.reach);
-    for (std::uint32_t face = 0; face < is_near.size(); ++face) {
-        if (nearest_corner(part.mesh, from_near_, face) <= kBorder * part.reach) {
-            border_reach_ = std::max(border_reach_, farthest_corner(part.mesh, from_near_, face));
+PartRun::PartRun(Exchange& exchange, Part& part, Runner& runner, ProgressCallback progress)
+    : exchange_(exchange), part_(part), runner_(runner),
+      progress_(std::move(progress)), order_{part.has_keys}, stages_(part.stages()) {
+    std::ranges::copy_if(part.settled, std::back_inserter(settled_own_),
+                         [&](const DrawnCandidate& dart) { return is_own(dart); });
+}
+
+void PartRun::prepare() {
+    is_prepared_ = true;
+    std::vector<std::uint32_t> near;
+    for (std::uint32_t face = 0; face < part_.faces.size(); ++face) {
+        if (part_.roles[face] == FaceRole::near) {
+            near.push_back(face);
         }
     }
-    border_reach_ += part.reach;
-    for (std::size_t i = 0; i < part.existing.size(); ++i) {
-        settle(part.existing[i], part.existing_classes.empty() ? 0 : part.existing_classes[i]);
+    const Surroundings around(part_, near);
+    border_ = cut_out(part_, around);
+    from_near_ = border_ ? around.distances_on(*border_) : around.distances();
+    for (std::size_t i = 0; i < part_.existing.size(); ++i) {
+        settle(part_.existing[i], part_.existing_classes.empty() ? 0 : part_.existing_classes[i]);
     }
-    for (const DrawnCandidate& dart : part.settled) {
+    for (const DrawnCandidate& dart : part_.settled) {
         settle(dart);
-        if (is_own(dart)) {
-            settled_own_.push_back(dart);
-        }
     }
 }
 
 void PartRun::settle(const DrawnCandidate& dart) {
     Sample sample = to_sample(dart.point);
-    sample.face = local(dart);
+    sample.face = part_.local(dart.point.face);
     settle(sample, class_of(dart));
 }
 
 void PartRun::settle(const Sample& sample, std::uint8_t number) {
-    const bool is_near = nearest_corner(part_.mesh, from_near_, sample.face) <= border_reach_;
-    for (Settled* const settled : {&settled_, is_near ? &settled_near_ : nullptr}) {
-        if (settled != nullptr) {
-            settled->samples.push_back(sample);
+    const auto add = [&](Settled& settled, std::uint32_t face) {
+        settled.samples.push_back(sample);
+        settled.samples.back().face = face;
+        if (!part_.class_factors.empty()) {
+            settled.classes.push_back(number);
         }
-        if (settled != nullptr && !part_.class_factors.empty()) {
-            settled->classes.push_back(number);
-        }
+    };
+    add(settled_, sample.face);
+    const std::uint32_t face = part_.faces[sample.face];
+    if (border().has(face)) {
+        add(settled_in_border_, border().local(face));
     }
 }
 
 void PartRun::begin(std::uint32_t first_stage, std::uint32_t stages) {
+    if (!is_prepared_) {
+        prepare();
+    }
     for (const Darts* const darts : {&own_, &near_}) {
         for (const DrawnCandidate& dart : *darts) {
             settle(dart);
         }
     }
     settled_own_.insert(settled_own_.end(), own_.begin(), own_.end());
+    accepted_.clear();
     own_.clear();
     near_.clear();
     drawn_.clear();
+    drawn_near_.clear();
+    drawn_in_border_.clear();
     is_decided_ = false;
-    own_count_ = 0;
     if (part_.is_listed) {
-        drawn_ = part_.listed;
-        count_own();
+        for (const DrawnCandidate& dart : part_.listed) {
+            take({&dart, 1}, part_.local(dart.point.face));
+        }
         return;
     }
+    const CandidateDraw draw = part_.draw();
+    Darts of_face;
     for (std::uint32_t face = 0; face < part_.mesh.face_count(); ++face) {
-        if (part_.roles[face] == FaceRole::surface) {
-            continue;
+        of_face.clear();
+        for (std::uint32_t stage = first_stage;
+             part_.roles[face] != FaceRole::surface && stage < first_stage + stages; ++stage) {
+            draw.draw(face, stage, of_face);
         }
-        const std::size_t first = drawn_.size();
-        for (std::uint32_t stage = first_stage; stage < first_stage + stages; ++stage) {
-            draw_.draw(face, stage, drawn_);
+        for (DrawnCandidate& dart : of_face) {
+            dart.point.face = part_.faces[face];
         }
-        own_count_ += part_.roles[face] == FaceRole::own ? drawn_.size() - first : 0;
-        for (std::size_t i = first; i < drawn_.size(); ++i) {
-            drawn_[i].point.face = part_.faces[face];
-        }
+        take(of_face, face);
     }
-    drawn_.shrink_to_fit(); // A process with many parts holds those of all.
-    std::ranges::sort(drawn_, order_);
+    for (Darts* const darts : {&drawn_, &drawn_near_, &drawn_in_border_}) {
+        darts->shrink_to_fit(); // A process with many parts holds those of all.
+        std::ranges::sort(*darts, order_);
+    }
+}
+
+void PartRun::take(std::span<const DrawnCandidate> darts, std::uint32_t face) {
+    const bool is_own = part_.roles[face] == FaceRole::own;
+    Darts& drawn = is_own ? drawn_ : drawn_near_;
+    drawn.insert(drawn.end(), darts.begin(), darts.end());
+    if (is_own && !darts.empty() && border().has(part_.faces[face])) {
+        drawn_in_border_.insert(drawn_in_border_.end(), darts.begin(), darts.end());
+    }
 }
 
 std::uint64_t PartRun::own_up_to(std::uint32_t stage, std::uint32_t priority) const {
     return static_cast<std::uint64_t>(
         std::ranges::count_if(drawn_, [&](const DrawnCandidate& dart) {
-            return std::pair(dart.stage, dart.priority) <= std::pair(stage, priority) &&
-                   is_own(dart);
+            return std::pair(dart.stage, dart.priority) <= std::pair(stage, priority);
         }));
 }
 
 void PartRun::end_at(std::uint32_t priority) {
-    std::erase_if(drawn_, [&](const DrawnCandidate& dart) { return dart.priority > priority; });
-    count_own();
-}
-
-void PartRun::count_own() {
-    own_count_ = static_cast<std::uint64_t>(
-        std::ranges::count_if(drawn_, [&](const DrawnCandidate& dart) { return is_own(dart); }));
+    for (Darts* const darts : {&drawn_, &drawn_near_, &drawn_in_border_}) {
+        std::erase_if(*darts, [&](const DrawnCandidate& dart) { return dart.priority > priority; });
+    }
 }
 
 Darts PartRun::samples() const {
@@ -117,16 +142,12 @@ Darts PartRun::samples() const {
     return all;
 }
 
-std::uint32_t PartRun::local(const DrawnCandidate& dart) const {
-    return static_cast<std::uint32_t>(std::ranges::lower_bound(part_.faces, dart.point.face) -
-                                      part_.faces.begin());
-}
-
 bool PartRun::is_own(const DrawnCandidate& dart) const {
-    return part_.roles[local(dart)] == FaceRole::own;
+    return part_.roles[part_.local(dart.point.face)] == FaceRole::own;
 }
 
-Result<Darts> PartRun::accepted_of(const Darts& candidates, const Settled& settled) {
+Result<Darts> PartRun::accepted_of(const Part& part, const Darts& candidates,
+                                   const Settled& settled) {
     Darts accepted;
     if (candidates.empty()) {
         return accepted;
@@ -135,18 +156,20 @@ Result<Darts> PartRun::accepted_of(const Darts& candidates, const Settled& settl
     std::vector<std::uint8_t> classes;
     list.reserve(candidates.size());
     for (const DrawnCandidate& dart : candidates) {
-        list.push_back({local(dart), dart.point.weight1, dart.point.weight2});
-        if (!part_.class_factors.empty()) {
+        list.push_back({part.local(dart.point.face), dart.point.weight1, dart.point.weight2});
+        if (!part.class_factors.empty()) {
             classes.push_back(class_of(dart));
         }
     }
-    SampleParams params = part_.params();
+    SampleParams params = part.params();
     params.existing = settled.samples;
     params.existing_classes = settled.classes;
-    const auto domain = listed_domain(part_.mesh, params, part_.frame, list, classes);
+    const auto domain = listed_domain(part.mesh, params, part.frame, list, classes);
     GEODISK_TRY(domain);
+    std::unique_lock<std::mutex> device = exchange_.device();
     const auto set = runner_.sample_and_wait(*domain, progress_);
     GEODISK_TRY(set);
+    device = {};
     report_.starts += set->report.starts;
     report_.add(set->report);
     const auto places = places_of(std::span(set->samples).subspan(set->existing), list);
@@ -157,87 +180,88 @@ Result<Darts> PartRun::accepted_of(const Darts& candidates, const Settled& settl
     return accepted;
 }
 
-bool PartRun::has_to_decide(const Darts* near) const {
-    return own_count_ != 0 && (near == nullptr ? !is_decided_ : *near != near_);
+Darts PartRun::merged(const Darts& some, const Darts& others) const {
+    Darts all;
+    all.reserve(some.size() + others.size());
+    std::ranges::merge(some, others, std::back_inserter(all), order_);
+    return all;
 }
 
-Result<Darts> PartRun::decide(const Darts* near) {
-    if (!has_to_decide(near)) {
-        if (near != nullptr) {
-            near_ = *near;
-        }
+void PartRun::note(Darts accepted) {
+    accepted_ = std::move(accepted);
+    own_.clear();
+    std::ranges::copy_if(accepted_, std::back_inserter(own_),
+                         [&](const DrawnCandidate& dart) { return is_own(dart); });
+}
+
+Darts PartRun::decided(const Darts& near) {
+    near_ = near; // Own samples may have rejected some of them.
+    return own_;
+}
+
+Result<Darts> PartRun::decide_first() {
+    if (is_decided()) {
         return own_;
     }
+    auto accepted = accepted_of(part_, merged(drawn_, drawn_near_), settled_);
+    GEODISK_TRY(accepted);
     is_decided_ = true;
-    Result<Darts> all = Darts();
-    if (near == nullptr) {
-        all = accepted_of(drawn_, settled_);
-        ++whole_runs_;
-        std::erase_if(drawn_, [&](const DrawnCandidate& dart) { return !is_own(dart); });
-        drawn_.shrink_to_fit();
-    } else {
-        auto border = decide_border(*near);
-        GEODISK_TRY(border);
-        all = *border ? Result<Darts>(std::move(**border)) : decide_all(*near);
-    }
-    if (!all) {
-        return all;
-    }
-    own_.clear();
+    ++whole_runs_;
+    drawn_near_ = {};
+    note(std::move(*accepted));
     near_.clear();
-    for (const DrawnCandidate& dart : *all) {
-        (is_own(dart) ? own_ : near_).push_back(dart);
-    }
-    if (near != nullptr) {
-        near_ = *near; // Own samples may reject some.
-    }
+    std::ranges::copy_if(accepted_, std::back_inserter(near_),
+                         [&](const DrawnCandidate& dart) { return !is_own(dart); });
     return own_;
 }
 
 Result<Darts> PartRun::decide_all(const Darts& near) {
-    Darts candidates;
-    candidates.reserve(drawn_.size() + near.size());
-    std::ranges::merge(drawn_, near, std::back_inserter(candidates), order_);
+    auto accepted = accepted_of(part_, merged(drawn_, near), settled_);
+    GEODISK_TRY(accepted);
     ++whole_runs_;
-    return accepted_of(candidates, settled_);
+    note(std::move(*accepted));
+    return decided(near);
 }
 
+// What was decided last stays right where no change comes to it. Of near samples that are too close
+// to each other, or to own ones, one soon changes: then all that followed from it is decided anew.
 Result<std::optional<Darts>> PartRun::decide_border(const Darts& near) {
-    const double width = kBorder * part_.reach;
-    const auto is_within = [&](const DrawnCandidate& dart, double distance) {
-        return nearest_corner(part_.mesh, from_near_, local(dart)) <= distance;
-    };
-    Darts own, kept, candidates;
-    std::ranges::copy_if(drawn_, std::back_inserter(own),
-                         [&](const DrawnCandidate& dart) { return is_within(dart, width); });
-    // Samples beyond the border reject candidates in it, and stay as they are.
-    std::ranges::copy_if(own_, std::back_inserter(kept), [&](const DrawnCandidate& dart) {
-        return !is_within(dart, width) && is_within(dart, border_reach_);
-    });
-    Darts fixed;
-    std::ranges::merge(kept, near, std::back_inserter(fixed), order_);
-    std::ranges::merge(own, fixed, std::back_inserter(candidates), order_);
-    auto accepted = accepted_of(candidates, settled_near_);
-    GEODISK_TRY(accepted);
-    ++border_runs_;
-    std::erase_if(*accepted, [&](const DrawnCandidate& dart) { return !is_own(dart); });
-    Darts before, changed, beyond;
-    std::ranges::copy_if(own_, std::back_inserter(before), [&](const DrawnCandidate& dart) {
-        return is_within(dart, border_reach_);
-    });
-    std::ranges::set_symmetric_difference(before, *accepted, std::back_inserter(changed), order_);
-    const bool is_far = std::ranges::any_of(changed, [&](const DrawnCandidate& dart) {
-        return farthest_corner(part_.mesh, from_near_, local(dart)) > width - part_.reach;
-    });
-    if (is_far) {
+    const Part& border = this->border();
+    Darts changed;
+    std::ranges::set_symmetric_difference(near, near_, std::back_inserter(changed), order_);
+    std::vector<std::uint32_t> faces;
+    for (const DrawnCandidate& dart : changed) {
+        faces.push_back(border.local(dart.point.face));
+    }
+    const Surroundings around(border, faces, from_near_);
+    if (border_ && !around.is_complete()) {
         return std::optional<Darts>();
     }
-    std::ranges::copy_if(own_, std::back_inserter(beyond), [&](const DrawnCandidate& dart) {
-        return !is_within(dart, border_reach_);
-    });
-    Darts all;
-    std::ranges::merge(*accepted, beyond, std::back_inserter(all), order_);
-    return std::optional(std::move(all));
+    Darts candidates, before, beyond;
+    for (const Darts* const darts : {&std::as_const(drawn_in_border_), &near}) {
+        std::ranges::copy_if(*darts, std::back_inserter(candidates),
+                             [&](const DrawnCandidate& dart) { return around.is_within(dart); });
+    }
+    for (const DrawnCandidate& dart : accepted_) {
+        (around.is_reached(dart) ? before : beyond).push_back(dart);
+        if (around.is_reached(dart) && !around.is_within(dart)) {
+            candidates.push_back(dart);
+        }
+    }
+    std::ranges::sort(candidates, order_);
+    const std::unique_ptr<Part> piece = cut_out(border, around);
+    const Part& part = piece ? *piece : border;
+    const auto accepted = accepted_of(part, candidates, around.settled(settled_in_border_, part));
+    GEODISK_TRY(accepted);
+    ++border_runs_;
+    changed.clear();
+    std::ranges::set_symmetric_difference(before, *accepted, std::back_inserter(changed), order_);
+    if (std::ranges::any_of(
+            changed, [&](const DrawnCandidate& dart) { return around.reaches_others(dart); })) {
+        return std::optional<Darts>();
+    }
+    note(merged(*accepted, beyond));
+    return std::optional(decided(near));
 }
 
 } // namespace geodisk

@@ -11,7 +11,6 @@
 #include "engine/domain/listed.hpp"
 #include "parts/cut.hpp"
 #include "parts/decide_stages.hpp"
-#include "parts/mesh_turn.hpp"
 #include "parts/part.hpp"
 #include "parts/part_run.hpp"
 #include "parts/peak_memory.hpp"
@@ -173,8 +172,7 @@ Result<SharedSamples> sample_all(Exchange& exchange, Runner& runner,
     std::optional<PartRun> run;
     const auto begun = guarded([&]() -> Result<Done> {
         GEODISK_TRY(part);
-        const MeshTurn turn(exchange, **part);
-        run.emplace(**part, runner, progress);
+        run.emplace(exchange, **part, runner, progress);
         return Done{};
     });
     GEODISK_TRY(exchange.check_all(error_of(begun)));
@@ -228,7 +226,8 @@ Result<SharedSamples> sample_all(Exchange& exchange, Runner& runner,
 Result<SharedSamples> sample_parts(Exchange& exchange, Runner& runner, const WholeSurface* whole,
                                    const ProgressCallback& progress) {
     Result<std::vector<Bytes>> parts = std::vector<Bytes>();
-    if (whole != nullptr) {
+    const bool is_first = exchange.rank() == 0;
+    if (is_first) {
         parts = parts_of(*whole, exchange.size());
     }
     GEODISK_TRY(exchange.check_all(error_of(parts)));
@@ -237,8 +236,12 @@ Result<SharedSamples> sample_parts(Exchange& exchange, Runner& runner, const Who
     const auto part = part_of(*message);
     const std::uint64_t bytes = message->size();
     *message = {};
-    return sample_all(exchange, runner, part, bytes, whole != nullptr ? &whole->params : nullptr,
-                      whole != nullptr ? whole->checkpoints : nullptr, progress);
+    if (part && whole != nullptr && whole->is_shared) {
+        (*part)->of_mesh = &whole->mesh;
+        (*part)->of_radii = whole->params.radii;
+    }
+    return sample_all(exchange, runner, part, bytes, is_first ? &whole->params : nullptr,
+                      is_first ? whole->checkpoints : nullptr, progress);
 }
 
 Result<SharedSamples> sample_ranges(Exchange& exchange, Runner& runner,

@@ -25,7 +25,7 @@ using Cut = std::function<Result<std::vector<std::uint32_t>>(
 /// Candidates that all processes draw at a time, about; a stage at least.
 inline constexpr double kMaxAtOnce = 0x1p26;
 
-/// A surface to sample, of the first process alone.
+/// A surface to sample.
 struct WholeSurface {
     const PreparedMesh& mesh;
     const SampleParams& params;
@@ -36,11 +36,13 @@ struct WholeSurface {
     /// Candidates, decided in this order, in place of those that faces draw; empty for the latter.
     std::span<const ListedCandidate> list{};
     bool is_checked = false; ///< The caller knows that the job can be divided.
+    /// All parts are of one process, each of which passes it. So none holds its mesh for long.
+    bool is_shared = false;
 };
 
 /// Samples a surface together with the other processes; all call it. `whole` is null on all but the
-/// first one. Errors, the same on all processes: `invalid_argument` for more processes than faces,
-/// and for classes and maximal sets; those of frame_of() and
+/// first one, unless it is shared. Errors, the same on all processes: `invalid_argument` for more
+/// processes than faces, and for classes and maximal sets; those of frame_of() and
 /// Runner::sample_and_wait(). Throws std::bad_alloc.
 GEODISK_API Result<SharedSamples> sample_parts(Exchange& exchange, Runner& runner,
                                                const WholeSurface* whole,

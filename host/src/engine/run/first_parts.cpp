@@ -17,6 +17,8 @@ constexpr double kMostCandidates = 0x1p27;
 // Least side of a part, per side with its margins: with less, most work would be done twice or
 // more.
 constexpr double kLeastSide = 0.4;
+// Mean size of a part, of the largest one's.
+constexpr double kMeanPart = 0.85;
 
 /// Returns the part of a surface, or less, that the device holds; 1 if the mesh is not too large.
 double held_part(const Runner::Impl& runner, const Domain::Impl& of) {
@@ -36,7 +38,9 @@ double held_part(const Runner::Impl& runner, const Domain::Impl& of) {
 } // namespace
 
 bool is_too_large(const Error& error) {
-    return error.status == Status::job_too_large || error.status == Status::out_of_device_memory;
+    // A mesh may leave too little room for disks.
+    return error.status == Status::job_too_large || error.status == Status::out_of_device_memory ||
+           error.status == Status::workspace_too_small;
 }
 
 std::uint32_t first_parts(const Runner::Impl& runner, const Domain::Impl& of,
@@ -47,8 +51,9 @@ std::uint32_t first_parts(const Runner::Impl& runner, const Domain::Impl& of,
     // A part is about a square, with a margin of two reaches on each side.
     const double margins = 4 * reach / std::sqrt(mesh.statistics().area);
     const double part = held_part(runner, of);
-    const double side = std::sqrt(part) - margins;
-    const bool is_worth_it = part < 1 && side > kLeastSide * std::sqrt(part);
+    const double largest = std::sqrt(part);
+    const bool is_worth_it = part < 1 && largest - margins > kLeastSide * largest;
+    const double side = std::sqrt(kMeanPart) * largest - margins;
     const double parts = std::max(2.0, std::ceil(1 / (side * side)));
     return is_worth_it && parts <= mesh.face_count() ? static_cast<std::uint32_t>(parts) : 0;
 }

@@ -132,11 +132,18 @@ class Halo {
         const PreparedMesh mesh =
             MeshPieces::piece(MeshView{places.positions, places.triangles, 3}, known_.statistics);
         std::vector<std::uint8_t> is_own(faces.size());
-        for (std::size_t i = 0; i < faces.size(); ++i) {
-            is_own[i] =
-                std::ranges::binary_search(faces_, faces[i].face, {}, &Member::number) ? 0 : 1;
+        std::vector<std::uint32_t> own;
+        for (std::uint32_t i = 0; i < faces.size(); ++i) {
+            if (!std::ranges::binary_search(faces_, faces[i].face, {}, &Member::number)) {
+                is_own[i] = 1;
+                own.push_back(i);
+            }
         }
-        lengths_ = distances_from(mesh, is_own, reach_); // Of the same vertices.
+        HaloSearch halo(mesh);
+        halo.search(own, reach_);
+        for (std::uint32_t vertex = 0; vertex < mesh.vertex_count(); ++vertex) {
+            lengths_[vertex] = halo.distance(vertex); // Of the same vertices.
+        }
         lengthen_by_chords(mesh, places, is_own);
     }
 
