@@ -15,8 +15,8 @@ namespace geodisk {
 std::vector<double> raised_to_slope(const PreparedMesh& mesh, double unit,
                                     std::vector<double> values);
 
-/// The same where only some faces may have such a gradient. Adds the vertices that are raised,
-/// perhaps more than once.
+/// Raises values likewise, where only some faces may have such a gradient. Appends the vertices
+/// that it raises to `raised`, some perhaps more than once.
 void raise_to_slope(const PreparedMesh& mesh, double unit, std::span<const std::uint32_t> faces,
                     std::vector<double>& values, std::vector<std::uint32_t>& raised);
 

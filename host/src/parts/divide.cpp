@@ -88,7 +88,7 @@ class Division {
         for (std::size_t i = 0; i < params_.existing.size(); ++i) {
             Sample sample = params_.existing[i];
             if (is_within(sample.face)) {
-                sample.face = local(part, sample.face);
+                sample.face = part.local(sample.face);
                 part.existing.push_back(sample);
                 if (!params_.existing_classes.empty()) {
                     part.existing_classes.push_back(params_.existing_classes[i]);
@@ -108,7 +108,7 @@ class Division {
         for (std::size_t i = 0; i < params_.avoid.size(); ++i) {
             KeepOut avoided = params_.avoid[i];
             if (halo_.nearest_corner(avoided.center.face) <= avoided_) {
-                avoided.center.face = local(part, avoided.center.face);
+                avoided.center.face = part.local(avoided.center.face);
                 part.avoid.push_back(avoided);
                 if (!params_.avoid_classes.empty()) {
                     part.avoid_classes.push_back(params_.avoid_classes[i]);
@@ -123,7 +123,7 @@ class Division {
             const auto [owner, other] = pair;
             Neighbour& neighbour = neighbour_of(owner, other);
             for (const std::uint32_t face : faces) {
-                neighbour.faces.push_back(local(parts_[owner], face));
+                neighbour.faces.push_back(parts_[owner].local(face));
             }
             neighbour_of(other, owner); // It sends too, if only nothing.
         }
@@ -136,9 +136,9 @@ class Division {
             auto mesh = mesh_.part(part.faces);
             GEODISK_TRY(mesh);
             part.mesh = std::move(*mesh);
-        }
-        if (params_.radii != nullptr && !is_shared_) {
-            part.radii = params_.radii->on_part(part.mesh, part.faces);
+            if (params_.radii != nullptr) {
+                part.radii = params_.radii->on_part(part.mesh, part.faces);
+            }
         }
         auto bytes = message_of(part);
         part = {}; // Only one is held at a time.
@@ -151,10 +151,6 @@ class Division {
         const auto at = [&](std::uint32_t h) { return reaches_[mesh_.half_edges()[h].origin]; };
         const std::uint32_t h = 3 * face;
         return reaches_.empty() ? 1 : std::max({at(h), at(h + 1), at(h + 2)});
-    }
-    static std::uint32_t local(const Part& part, std::uint32_t face) {
-        return static_cast<std::uint32_t>(std::ranges::lower_bound(part.faces, face) -
-                                          part.faces.begin());
     }
     Neighbour& neighbour_of(std::uint32_t process, std::uint32_t other) {
         auto& all = parts_[process].neighbours;

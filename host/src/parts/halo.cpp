@@ -116,10 +116,4 @@ double HaloSearch::nearest_corner(std::uint32_t face) const {
         {distance(edges[0].origin), distance(edges[1].origin), distance(edges[2].origin)});
 }
 
-double HaloSearch::farthest_corner(std::uint32_t face) const {
-    const auto edges = mesh_.half_edges().subspan(std::size_t{3} * face, 3);
-    return std::max(
-        {distance(edges[0].origin), distance(edges[1].origin), distance(edges[2].origin)});
-}
-
 } // namespace geodisk

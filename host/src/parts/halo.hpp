@@ -26,9 +26,8 @@ class GEODISK_API HaloSearch {
     /// Returns a lower bound on the distance of a vertex from the faces that were searched from
     /// last, at most 5/4 of the reach. Linear in faces, the values are lower bounds everywhere.
     double distance(std::uint32_t vertex) const { return -reach_ * values_[vertex]; }
-    /// Returns the least, or largest, value at a corner of a face.
+    /// Returns the least value at a corner of a face.
     double nearest_corner(std::uint32_t face) const;
-    double farthest_corner(std::uint32_t face) const;
 
   private:
     static constexpr std::uint8_t kNone = 0;  ///< Of a face: none of those below.

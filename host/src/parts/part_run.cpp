@@ -223,8 +223,8 @@ Result<Darts> PartRun::decide_all(const Darts& near) {
     return decided(near);
 }
 
-// What was decided last stays right where no change comes to it. Of near samples that are too close
-// to each other, or to own ones, one soon changes: then all that followed from it is decided anew.
+// Decisions stay right where no change reaches them. Two near samples that are too close to each
+// other never both stay: once one of them changes, the candidates around it are decided anew.
 Result<std::optional<Darts>> PartRun::decide_border(const Darts& near) {
     const Part& border = this->border();
     Darts changed;

@@ -149,10 +149,8 @@ Result<Done> settle(Exchange& exchange, Part& part, const Checkpoints* checkpoin
         const auto heard = exchange.broadcast(told);
         GEODISK_TRY(heard);
         for (const DrawnCandidate& dart : darts_of(*heard)) {
-            const auto at = std::ranges::lower_bound(part.faces, dart.point.face);
-            if (at != part.faces.end() && *at == dart.point.face &&
-                part.roles[static_cast<std::size_t>(at - part.faces.begin())] !=
-                    FaceRole::surface) {
+            if (part.has(dart.point.face) &&
+                part.roles[part.local(dart.point.face)] != FaceRole::surface) {
                 part.settled.push_back(dart);
             }
         }

@@ -21,7 +21,8 @@ struct NearestSamples::Impl {
     RunReport report;
     double error;
 
-    /// As NearestSamples::create(), within a run of a runner. `whole` gets the progress.
+    /// Does what NearestSamples::create() does, within a run of a runner. `whole` gets the
+    /// progress.
     static Task<Result<NearestSamples>> find(Runner::Impl& runner, const PreparedMesh& mesh,
                                              std::span<const Sample> samples,
                                              std::uint64_t max_records, WholeProgress whole = {});

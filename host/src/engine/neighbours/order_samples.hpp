@@ -16,8 +16,8 @@ inline std::uint32_t chosen_of(std::span<const Sample> samples, const FarthestPa
     return params.count == 0 ? static_cast<std::uint32_t>(samples.size()) : params.count;
 }
 
-/// As farthest_order(), for a mesh that check_farthest_order() finds no fault with. Mesh and
-/// samples must outlive it.
+/// Orders samples as farthest_order() does, on a mesh that check_farthest_order() finds no fault
+/// with. Mesh and samples must outlive it.
 Task<Result<FarthestOrder>> order_samples(Runner::Impl& runner, const PreparedMesh& mesh,
                                           std::span<const Sample> samples, FarthestParams params);
 

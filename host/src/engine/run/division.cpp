@@ -12,23 +12,17 @@ namespace {
 
 constexpr std::uint32_t kMaxAttempts = 3;
 
-/// Returns how far conflicts of a job reach.
-double reach_of(const WholeJob& job) {
-    double reach = job.params.min_distance;
-    for (const KeepOut& avoided : job.params.avoid) {
-        reach = std::max(reach, avoided.radius);
-    }
-    return reach;
-}
-
 } // namespace
 
 Result<std::unique_ptr<Division>> Division::begin(const Runner::Impl& runner, const Domain& domain,
                                                   const Error& error) {
     const Domain::Impl& of = Domain::Impl::of(domain);
-    const std::uint32_t parts = of.whole && is_too_large(error)
-                                    ? first_parts(runner, of, *of.whole->mesh, reach_of(*of.whole))
-                                    : 0;
+    std::uint32_t parts = 0;
+    if (of.whole && is_too_large(error)) {
+        const SampleParams& params = of.whole->params;
+        parts =
+            first_parts(runner, of, *of.whole->mesh, reach_with(params.min_distance, params.avoid));
+    }
     if (parts == 0) {
         return std::unique_ptr<Division>();
     }

@@ -43,6 +43,14 @@ bool is_too_large(const Error& error) {
            error.status == Status::workspace_too_small;
 }
 
+double reach_with(double of_samples, std::span<const KeepOut> avoid) {
+    double reach = of_samples;
+    for (const KeepOut& avoided : avoid) {
+        reach = std::max(reach, avoided.radius);
+    }
+    return reach;
+}
+
 std::uint32_t first_parts(const Runner::Impl& runner, const Domain::Impl& of,
                           const PreparedMesh& mesh, double reach) {
     if (of.stages.expected_at_once(1) > kMostCandidates) {

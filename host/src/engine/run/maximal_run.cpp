@@ -12,6 +12,7 @@
 #include "engine/maximal/gaps.hpp"
 #include "engine/maximal/lit_faces.hpp"
 #include "engine/run/division.hpp"
+#include "engine/run/first_parts.hpp"
 #include "engine/run/mesh_parts.hpp"
 #include "engine/run/run.hpp"
 #include "support/try.hpp"
@@ -111,10 +112,8 @@ Task<Result<Done>> MaximalRun::light(const LightPoints& points) {
 Task<Result<Done>> MaximalRun::light_in_parts(const LightPoints& points) {
     for (std::uint32_t part = 0; part < parts_.count(); ++part) {
         LightPoints own = points_on(parts_, part, points);
-        double reach = own.samples.empty() ? 0 : job_.params.min_distance;
-        for (const KeepOut& avoided : own.avoid) {
-            reach = std::max(reach, avoided.radius);
-        }
+        const double reach =
+            reach_with(own.samples.empty() ? 0 : job_.params.min_distance, own.avoid);
         if (reach == 0) {
             continue;
         }
@@ -156,11 +155,8 @@ Task<Result<Done>> MaximalRun::light_on(const PreparedMesh& mesh, SampleParams p
         DiskRecords lit;
         const auto set = co_await run_job(runner_, *domain, &lit);
         if (!set) {
-            double reach = job_.params.min_distance;
-            for (const KeepOut& avoided : params.avoid) {
-                reach = std::max(reach, avoided.radius);
-            }
-            parts_.note_failed(runner_, *domain, reach);
+            parts_.note_failed(runner_, *domain,
+                               reach_with(job_.params.min_distance, params.avoid));
             co_return set.error();
         }
         set_.report.add(set->report);
