@@ -200,7 +200,8 @@ TEST_CASE("samples follow an edit of a mesh with walls") {
 TEST_CASE("samples of other walls, masks and radii than their files give now are not updated") {
     const TemporaryFolder folder;
     folder.write("a.obj", rooms(true));
-    std::string some, more, ones, factors;
+    std::string some, more, ones, factors, moved = rooms(true);
+    moved.replace(moved.find("v 3 3 0"), 7, "v 3 3 1e-7");
     for (int v = 0; v < 81; ++v) {
         some += v % 9 < 5 ? "1\n" : "0\n";
         more += v % 9 < 8 ? "1\n" : "0\n";
@@ -224,6 +225,10 @@ TEST_CASE("samples of other walls, masks and radii than their files give now are
         folder.write("f.txt", then);
         std::filesystem::remove(folder / "b.csv");
         check_fails(folder, 3, "was made with other walls, another mask or other radii", update);
+        folder.write("f.txt", first);
+        folder.write("a.obj", moved);
+        check_fails(folder, 3, "or on another mesh", update);
+        folder.write("a.obj", rooms(true));
     }
 }
 

@@ -9,6 +9,7 @@ import time
 import pytest
 
 from launching import ENVIRONMENT, PROGRAM, alone, children_of, launch, run, wait_for
+from surfaces import torus, write_ply
 
 MESH = "builtin:torus-knot"
 
@@ -39,6 +40,14 @@ def test_same_file_with_radii_and_constraints(tmp_path):
                [3], "darts.csv")
     check_same(tmp_path, [MESH, "--count", "150", "--order", "progressive", "--exact"], [2],
                "levels.csv")
+
+
+def test_same_file_where_each_process_reads_a_range(tmp_path):
+    vertices, faces = torus(30, 12)
+    mesh = tmp_path / "torus.ply"
+    write_ply(mesh, vertices, faces, of_vertices={"heat": [2 + x for x, _, _ in vertices]})
+    for arguments in [["--density", "heat"], ["--mask", "x>0"]]:
+        check_same(tmp_path, [str(mesh), *arguments, "--count", "100"], [2])
 
 
 def test_report_tells_of_processes(tmp_path):

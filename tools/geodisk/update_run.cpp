@@ -173,10 +173,10 @@ void check_job(const SampleFile& file, const SampleJob& job, const MeshInput& be
             fail(key, is, should);
         }
     }
-    const std::string* const fields = file.header.find(kFieldDigest);
-    if (fields != nullptr && trimmed(*fields) != field_digest(before)) {
-        fail_input(job.update, "was made with other walls, another mask or other radii than the "
-                               "same options give on " +
+    const std::string* const surface = file.header.find(kSurfaceDigest);
+    if (surface != nullptr && trimmed(*surface) != surface_digest_text(before)) {
+        fail_input(job.update, "was made with other walls, another mask or other radii, or "
+                               "on another mesh, than the same options give on " +
                                    job.from + " now; give the files that they name as they were");
     }
     const SampleParams plain;

@@ -65,7 +65,8 @@ bool is_unreadable(const Path& path) {
 MeshInput outline_of(const SharedSurface& surface, const SampleJob& job, double load_seconds) {
     const RangedStatistics& statistics = surface.statistics();
     MeshInput mesh{{}, surface.outline(), std::nullopt, {}, 1, {}, load_seconds, 0};
-    mesh.known = {statistics.effective_area, statistics.borders, statistics.masked_faces};
+    mesh.known = {statistics.effective_area, statistics.borders, statistics.masked_faces,
+                  statistics.digest};
     if (const RadiusField* const radii = surface.radii()) {
         mesh.radii = *radii;
         mesh.distance_part = job.density.is_density() ? radii->min_factor() : 1;

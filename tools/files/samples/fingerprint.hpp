@@ -29,9 +29,9 @@ std::uint64_t digest_number(std::span<const SampleRow> rows);
 std::string digest_text(std::uint64_t number);
 std::string digest_of(std::span<const SampleRow> rows);
 
-/// Key of the header entry with the digest of what options read from files: the walls of the mesh,
-/// its mask and its radii.
-inline constexpr std::string_view kFieldDigest = "field_digest";
+/// Key of the header entry with the digest of the surface, where it has walls, a mask or radii that
+/// vary: files of them may change.
+inline constexpr std::string_view kSurfaceDigest = "surface_digest";
 
 /// Throws UserError(bad_input) for a header with a digest that is none.
 void check_digest(const Path& path, const SampleHeader& header);

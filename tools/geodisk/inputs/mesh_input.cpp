@@ -1,12 +1,12 @@
 #include "geodisk/inputs/mesh_input.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <memory>
 #include <utility>
 #include <vector>
 
+#include <geodisk/checkpoint.hpp>
 #include <geodisk/detail/fnv1a.hpp>
 
 #include "files/meshes/mesh_file.hpp"
@@ -191,28 +191,15 @@ bool MeshInput::has_walls() const {
     return std::ranges::any_of(additions, [](const auto& entry) { return entry.first == "walls"; });
 }
 
-std::string field_digest(const MeshInput& mesh) {
-    if (mesh.known || (!mesh.has_walls() && mesh.face_mask.empty() && !mesh.radii)) {
+std::string surface_digest_text(const MeshInput& mesh) {
+    const bool has_mask =
+        mesh.known ? mesh.known->triangles_for_samples.has_value() : !mesh.face_mask.empty();
+    if (!mesh.has_walls() && !has_mask && !mesh.radii) {
         return "";
     }
-    detail::Fnv1a hash;
-    const auto add = [&hash](const auto& values) {
-        hash.add(values.size());
-        for (const auto value : values) {
-            hash.add(value);
-        }
-    };
-    add(mesh.has_walls() ? std::span<const std::uint32_t>(mesh.file.triangles)
-                         : std::span<const std::uint32_t>());
-    add(mesh.face_mask);
-    std::vector<std::uint32_t> radii;
-    if (mesh.radii) {
-        for (const float factor : mesh.radii->factors()) {
-            radii.push_back(std::bit_cast<std::uint32_t>(factor));
-        }
-    }
-    add(radii);
-    return detail::hexadecimal(hash.value());
+    return detail::hexadecimal(
+        mesh.known ? mesh.known->digest
+                   : surface_digest(mesh.sampled(), mesh.with_fields(SampleParams())));
 }
 
 MeshInput load_silently(const MeshOptions& options, ProgressLine& progress,

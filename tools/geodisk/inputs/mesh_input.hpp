@@ -60,6 +60,7 @@ struct MeshInput {
     struct Known {
         double area, borders; ///< As effective_area() and distance_for_count() take them.
         std::optional<std::uint64_t> triangles_for_samples; ///< With a mask.
+        std::uint64_t digest;                               ///< surface_digest().
     };
     std::optional<Known> known = std::nullopt;
     std::optional<SplitSurface> split = std::nullopt; ///< Set if images show more than corners.
@@ -147,9 +148,9 @@ struct MeshInput {
     void place(SampleRow& row) const;
 };
 
-/// Returns a digest of the walls, the mask and the radii, since files that options name may change;
-/// "" without any of them.
-std::string field_digest(const MeshInput& mesh);
+/// Returns surface_digest() of sampled() as it is written, by which changed files of walls, masks
+/// and radii are noticed; "" without any of them.
+std::string surface_digest_text(const MeshInput& mesh);
 
 /// Reads and prepares a mesh. Throws UserError as read_mesh(), lifted_positions(), load_radii() and
 /// load_mask(), or bad_input when the mesh is rejected. The error for samples in its place ends

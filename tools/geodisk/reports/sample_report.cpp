@@ -275,8 +275,8 @@ SampleHeader SampleReport::header() const {
                          {"device", done.device.name},
                          {"driver", driver_text(done.device)}}};
     header.entries.insert(header.entries.begin() + 3, additions.begin(), additions.end());
-    if (std::string digest = field_digest(mesh_); !digest.empty()) {
-        header.entries.emplace_back(kFieldDigest, std::move(digest));
+    if (std::string digest = surface_digest_text(mesh_); !digest.empty()) {
+        header.entries.emplace_back(kSurfaceDigest, std::move(digest));
     }
     for (const auto& [key, path] : {std::pair{"from", job_.from}, {"update", job_.update}}) {
         if (!path.empty()) {
