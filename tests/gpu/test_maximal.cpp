@@ -85,7 +85,9 @@ void check_narrow(const PreparedMesh& mesh, SampleParams params, const SampleSet
     narrow.plan.disks_by = DisksBy::groups;
     narrow.sampler.tuning.reads = Reads::storage;
     narrow.device_bytes = 4 << 20;
-    CHECK(points_of(sample(mesh, params, narrow)) == points_of(set));
+    const SampleSet found = sample(mesh, params, narrow);
+    CHECK(points_of(found) == points_of(set));
+    CHECK(found.report.candidates == set.report.candidates);
 }
 
 std::string refusal(const PreparedMesh& mesh, SampleParams params) {
@@ -141,6 +143,7 @@ TEST_SUITE("maximal") {
             const SampleSet divided = sample(terrain, params, little);
             CHECK(points_of(divided) == points_of(whole));
             CHECK(divided.existing == whole.existing);
+            CHECK(divided.report.candidates == whole.report.candidates);
             CHECK(divided.report.maximal.certified);
             CHECK(divided.report.maximal.rounds == whole.report.maximal.rounds);
             CHECK(divided.report.maximal.cells == whole.report.maximal.cells);

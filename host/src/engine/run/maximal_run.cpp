@@ -153,12 +153,13 @@ Task<Result<Done>> MaximalRun::light_on(const PreparedMesh& mesh, SampleParams p
                                                      static_cast<std::uint32_t>(expected));
         GEODISK_CO_TRY(domain);
         DiskRecords lit;
-        const auto set = co_await run_job(runner_, *domain, &lit);
+        auto set = co_await run_job(runner_, *domain, &lit);
         if (!set) {
             parts_.note_failed(runner_, *domain,
                                reach_with(job_.params.min_distance, params.avoid));
             co_return set.error();
         }
+        set->report.candidates = 0; // None is drawn, and how many runs it takes depends on memory.
         set_.report.add(set->report);
         if (lit.wanted > lit.lights.size()) {
             records_per_disk_ = std::max(lit.wanted / settled, records_per_disk_) * kSpareRecords;
