@@ -116,11 +116,11 @@ std::string refusal(const PreparedMesh& mesh, const SampleParams& params, std::u
 /// Less memory than a run on 125,000 triangles takes.
 constexpr std::uint64_t kLittleMemory = 24u << 20;
 
-Runner small_runner() {
+Runner small_runner(std::uint64_t device_bytes = kLittleMemory) {
     static const auto kSampler =
         std::make_shared<const Sampler>(expect(Sampler::create(shared_context().device())));
     RunnerOptions options;
-    options.device_bytes = kLittleMemory;
+    options.device_bytes = device_bytes;
     return expect(Runner::create(kSampler, shared_context().queue(), options));
 }
 
@@ -131,16 +131,17 @@ const TestMesh& large_shape() {
 }
 
 /// Checks that a runner with little memory divides a job, and gives the set of the whole.
-void check_divided(const PreparedMesh& mesh, const SampleParams& params) {
+void check_divided(const PreparedMesh& mesh, const SampleParams& params,
+                   std::uint64_t device_bytes = kLittleMemory) {
     const SampleSet whole = sample(mesh, params);
     CHECK(whole.report.starts == 1);
-    const SampleSet divided = expect(small_runner().sample_and_wait(mesh, params));
+    const SampleSet divided = expect(small_runner(device_bytes).sample_and_wait(mesh, params));
     CHECK(points_of(divided) == points_of(whole));
     CHECK(divided.classes == whole.classes);
     CHECK(divided.existing == whole.existing);
     CHECK(divided.report.candidates == whole.report.candidates);
     CHECK(divided.report.starts > 1);
-    CHECK(divided.report.device_bytes <= kLittleMemory);
+    CHECK(divided.report.device_bytes <= device_bytes);
 }
 
 } // namespace
@@ -357,6 +358,11 @@ TEST_SUITE("parts") {
         Runner runner = expect(Runner::create(shared_context().device(), shared_context().queue()));
         CHECK(divided.report.starts > 1);
         CHECK(points_of(divided) == points_of(expect(runner.sample_and_wait(framed))));
+    }
+
+    TEST_CASE("a runner divides a mesh that fits, but not together with its candidates") {
+        const PreparedMesh ball = prepared(builtin("icosphere", 4));
+        check_divided(ball, params_for(ball, 10000), 2u << 20);
     }
 
     TEST_CASE("a runner divides lists of candidates: on features, and at vertices") {
