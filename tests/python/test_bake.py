@@ -1,5 +1,6 @@
 """Maps of the nearest sample, against other means."""
 
+import dataclasses
 import os
 import pickle
 import struct
@@ -232,6 +233,10 @@ def test_maps_are_saved_as_the_program_writes_them(tmp_path, pipe):
     ):
         with pytest.raises(geodisk.InvalidArgument, match=message):
             found.save(tmp_path / name, depth=depth)
+    cut = dataclasses.replace(found, distance=found.distance[:1])
+    with pytest.raises(geodisk.InvalidArgument, match=r"distance has the shape \(1, 64\)"):
+        cut.save(tmp_path / "cut.npy")
+    assert not (tmp_path / "cut.npy").exists()
 
 
 def test_what_cannot_be_baked(pipe, tmp_path):

@@ -16,6 +16,7 @@ def test_cells_of_a_set():
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     area = np.linalg.norm(normals, axis=1).sum() / 2
     assert len(cells) == len(samples) and np.isclose(cells.area.sum(), area, rtol=1e-9)
+    assert cells == cells and cells != geodisk.cells(KNOT, samples) and cells in {cells}
     assert cells.unreached == 0 and 0 < cells.area_error < cells.area.min() / 20
     assert cells.edges.shape[1] == 2 and (cells.edges[:, 0] < cells.edges[:, 1]).all()
     assert cells.mesh_euler == 0 and "triangles" in repr(cells)

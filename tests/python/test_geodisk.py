@@ -150,6 +150,8 @@ def test_options():
     assert same(geodisk.sample(*soup, min_distance=0.4, weld=True), every)
     assert same(geodisk.sample(*soup, min_distance=0.4), every)
     assert geodisk.Mesh(*soup).info["joined_edges"] == 3 * len(FACES)
+    walled = geodisk.Mesh(*soup, walls=np.zeros(len(FACES), bool))
+    assert walled.info["joined_edges"] == 3 * len(FACES)
     kept = geodisk.Mesh(*soup, keep_seams=True)
     assert kept.info["joined_edges"] == 0 and kept.info["components"] == len(FACES)
     with pytest.raises(geodisk.InvalidArgument, match="contradict"):

@@ -1,10 +1,13 @@
 """The structs of the package have the fields that the headers of C give them."""
 
 import ctypes
+import gc
 import os
 import re
 import subprocess
+import weakref
 
+import numpy as np
 import pytest
 
 from geodisk import _library as c
@@ -60,3 +63,17 @@ def test_each_function_has_its_types():
     headers = c.ask("geodisk_python_headers").decode()
     text = _structs._COMMENT.sub("", headers)
     assert len(_structs._FUNCTION.findall(text)) == text.count("GEODISK_C_API ") > 100
+
+
+def test_structs_keep_what_they_point_to():
+    points, inner = np.arange(6.0), _structs.SurfaceParams(seed=7)
+    address, kept = points.ctypes.data, [weakref.ref(points), weakref.ref(inner)]
+    params = _structs.CellParams(samples=points, sample_count=6, face_mask=None)
+    request = _structs.Request(params=inner)
+    assert params.samples == address and request.params == ctypes.addressof(inner)
+    del points, inner
+    gc.collect()
+    assert all(one() is not None for one in kept)
+    del params, request
+    gc.collect()
+    assert all(one() is None for one in kept)

@@ -33,7 +33,8 @@ def interruptible(work: Callable[[c_int32], T]) -> T:
 
     threading.Thread(target=run, daemon=True, name="geodisk").start()
     try:
-        done.wait()
+        while not done.wait(0.1):  # Windows hears of signals in between.
+            pass
     except BaseException:
         stop.value = 1
         done.wait(_TIME_TO_STOP)

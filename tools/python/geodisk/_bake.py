@@ -63,6 +63,11 @@ class SampleMap:
         """
         path = path_of(path)
         height, width = self.sample.shape
+        for name in ["distance", "face"]:
+            if getattr(self, name).shape != self.sample.shape:
+                raise e.invalid(
+                    f"{name} has the shape {getattr(self, name).shape}, and sample {self.sample.shape}"
+                )
         arrays = {
             "map_samples": np.ascontiguousarray(self.sample, np.int32),
             "map_distances": np.ascontiguousarray(self.distance, np.float32),
@@ -139,7 +144,7 @@ def bake(
     padding = integer(padding, "padding", 16384)
     source, on, path = _texture_of(mesh, flag(allow_outside, "allow_outside"))
     points = points_of(on, samples, "samples", is_needed=True)
-    params = s.CellParams(samples=points.ctypes.data, sample_count=len(points))
+    params = s.CellParams(samples=points, sample_count=len(points))
     nearest = search("nearest", "geodisk_nearest_create", on, params, name_of(None), False)
     arrays = {"source": source.handle, "nearest": nearest}
     name = os.fsencode(path).decode("utf-8", "replace")

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import ctypes
-
 import numpy as np
 from numpy.typing import ArrayLike
 
@@ -73,7 +71,7 @@ def sample_box(
         }
     )
     params = s.BoxParams(
-        extents=sides.ctypes.data,
+        extents=sides,
         dimension=len(sides),
         is_periodic=int(periodic),
         min_distance=0.0 if distance is None else distance,
@@ -83,7 +81,7 @@ def sample_box(
         stop_count=stop_count,
     )
     request = s.BoxRequest(
-        params=ctypes.addressof(params), count=0.0 if count is None else count, is_exact=int(exact)
+        params=params, count=0.0 if count is None else count, is_exact=int(exact)
     )
     with Runs(device, progress) as runs:
         made = runs.serve_box(request)

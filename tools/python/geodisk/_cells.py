@@ -20,7 +20,7 @@ from ._source import view_of
 from ._values import flag, integer
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Cells:
     """The geodesic Voronoi cells of samples: what is nearer to each than to all others.
 
@@ -117,11 +117,11 @@ def cells(
     points = points_of(on._handle, samples, "samples", is_needed=True)
     mask = None if face_mask is None else mask_of(on._surface, face_mask)
     params = s.CellParams(
-        samples=points.ctypes.data,
+        samples=points,
         sample_count=len(points),
         areas_only=int(not flag(dual, "dual")),
         max_records=integer(max_records, "max_records", 2**64 - 1, 1),
-        face_mask=None if mask is None else mask.ctypes.data,
+        face_mask=mask,
     )
     handle = search("cells", "geodisk_find_cells", on._handle, params, name_of(device), progress)
     told = s.CellArrays()

@@ -25,7 +25,7 @@ from ._searching import searched
 from ._values import integer
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class FarthestOrder:
     """Samples in farthest-point order: ``samples[order.indices]``.
 
@@ -157,7 +157,7 @@ def order_on(
     indices, distances = np.empty(size, np.uint32), np.empty(size, np.float32)
     info = s.FarthestInfo()
     params = s.FarthestParams(
-        samples=points.ctypes.data,
+        samples=points,
         sample_count=len(points),
         count=size,
         start=start,

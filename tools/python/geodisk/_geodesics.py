@@ -166,8 +166,7 @@ def geodesic_distances(
     each, return_nearest = flag(each, "each"), flag(return_nearest, "return_nearest")
     if each and return_nearest:
         raise e.invalid("each and return_nearest exclude each other: each source has a row")
-    query = _Query(mesh, sources)
-    params, count = query.params, query.count
+    params = _query(mesh, sources)
     params.each = int(each)
     if within is not None:
         params.within = number(within, "within")
@@ -176,9 +175,9 @@ def geodesic_distances(
     width = mesh._surface.vertex_count()
     if targets is not None:
         points = points_of(mesh._handle, targets, "targets")
-        params.targets, params.target_count = query.address(points), len(points)
+        params.targets, params.target_count = points, len(points)
         width = len(points)
-    distances = np.empty((count, width) if each else width, np.float64)
+    distances = np.empty((params.source_count, width) if each else width, np.float64)
     nearest = np.empty(width, np.uint32)
     listened(
         progress,
@@ -255,14 +254,14 @@ def disk_radii(
     area = number(area, "area")
     if not 0 < area < np.inf:
         raise e.invalid(f"area is {area}, not positive and finite")
-    query = _Query(mesh, sources)
-    radii = np.empty(query.count, np.float64)
+    params = _query(mesh, sources)
+    radii = np.empty(params.source_count, np.float64)
     listened(
         progress,
         lambda hear: c.call(
             "geodisk_disk_radii",
             mesh._handle.value,
-            byref(query.params),
+            byref(params),
             area,
             hear,
             None,
@@ -324,11 +323,11 @@ def geodesic_path(
     if start is None or end is None:
         raise e.invalid("give start and end: the two ends of the path")
     params = s.PathParams()
-    kept = [_set_end(params, mesh, start, "start", "from"), _set_end(params, mesh, end, "end", "to")]
+    _set_end(params, mesh, start, "start", "from")
+    _set_end(params, mesh, end, "end", "to")
     path = interruptible(
         lambda stop: c.Handle("path", "geodisk_geodesic_path", mesh._handle.value, byref(params))
     )
-    del kept  # Which the library has read.
     count = c_size_t()
     address = c.ask("geodisk_path_points", path.value, byref(count))
     data = string_at(address, count.value * sizeof(s.PathPoint))
@@ -341,25 +340,13 @@ def geodesic_path(
     return GeodesicPath(place, c.ask("geodisk_path_length", path.value), faces_of, weights)
 
 
-class _Query:
-    """Sources of distances as the library takes them, with the arrays that it reads."""
-
-    def __init__(self, mesh: Mesh, sources: Any) -> None:
-        self._kept: list[NDArray[Any]] = []
-        self.params = s.DistanceParams()
-        if isinstance(sources, (int, np.integer)) and not isinstance(sources, bool):
-            sources = [integer(sources, "sources", 2**32 - 1)]
-        count = set_sources(self.params, mesh, sources, self.address)
-        assert count is not None
-        self.count = count
-        if mesh._surface.joined is not None:
-            joined = np.ascontiguousarray(mesh._surface.joined, np.uint32)
-            self.params.joined = self.address(joined)
-
-    def address(self, array: NDArray[Any]) -> int:
-        """Keeps an array, and returns where it is."""
-        self._kept.append(array)
-        return int(array.ctypes.data)
+def _query(mesh: Mesh, sources: Any) -> s.DistanceParams:
+    """Returns sources of distances as the library takes them."""
+    params = s.DistanceParams()
+    if isinstance(sources, (int, np.integer)) and not isinstance(sources, bool):
+        sources = [integer(sources, "sources", 2**32 - 1)]
+    set_sources(params, mesh, sources)
+    return params
 
 
 def _mesh_and_after(
@@ -382,14 +369,14 @@ def _mesh_and_after(
     return mesh, after
 
 
-def _set_end(params: Any, mesh: Mesh, end: Any, name: str, field: str) -> Any:
-    """Sets an end of a path. Returns what it refers to."""
+def _set_end(params: Any, mesh: Mesh, end: Any, name: str, field: str) -> None:
+    """Sets an end of a path."""
     if isinstance(end, (int, np.integer)) and not isinstance(end, bool):
         vertex, joined = integer(end, name, 2**32 - 1), mesh._surface.joined
         if joined is not None and vertex < len(joined):
             vertex = int(joined[vertex])
         setattr(params, f"{field}_vertex", vertex)
-        return None
+        return
     if isinstance(end, Sample):
         end = (end.face_index, end.barycentric)
     if isinstance(end, tuple) and len(end) == 2 and np.ndim(end[0]) == 0 and np.ndim(end[1]) == 1:
@@ -400,5 +387,4 @@ def _set_end(params: Any, mesh: Mesh, end: Any, name: str, field: str) -> Any:
         raise TypeError(
             f"{name} is neither a vertex, coordinates, one sample, nor a pair of face and weights"
         )
-    setattr(params, field, point.ctypes.data)
-    return point
+    setattr(params, field, point)

@@ -86,6 +86,11 @@ class Handle:
         made.value = c_void_p(value)
         return made
 
+    @property
+    def _as_parameter_(self) -> c_void_p:
+        """What ctypes passes for this object."""
+        return self.value
+
     def abandon(self) -> None:
         """Never releases the object."""
         self.value = c_void_p()
@@ -107,10 +112,7 @@ def run(
         options=json.dumps(options).encode(), stop=None if stop is None else addressof(stop)
     )
     for name, one in arrays.items():
-        if isinstance(one, (Handle, bytes)):
-            setattr(task, name, one.value if isinstance(one, Handle) else one)
-        elif one is not None:
-            setattr(task, name, one.ctypes.data)
+        setattr(task, name, one)
     made: list[bytes] = []
     take = s.TAKE_FN(lambda data, size: made.append(ctypes.string_at(data, size)))
     call("geodisk_run_command", command.encode(), byref(task), take)

@@ -135,6 +135,7 @@ class Mesh:
         _record: Record = NOTHING,
     ) -> None:
         source: Source | None = None
+        joined_edges = 0
         told: Sequence[e.MeshWarning] = ()
         left_out: list[e.MeshWarning] = []
         weld, keep_seams = weld_of(weld), flag(keep_seams, "keep_seams")
@@ -180,7 +181,8 @@ class Mesh:
                 points = array_of(points, "vertices")
             given = faces_of(faces)
             if walls is not None and edge_lengths is None and not isinstance(given, Polygons):
-                surface = joined_surface(points, given, weld, keep_seams)  # Before it is cut.
+                # Before it is cut.
+                surface, joined_edges = joined_surface(points, given, weld, keep_seams)
             elif isinstance(given, Polygons):
                 if edge_lengths is not None:
                     raise e.invalid("with edge lengths, all faces must be triangles")
@@ -198,7 +200,7 @@ class Mesh:
         _record.check(surface)
         self._source = source.handle if source else None
         check_record(self, _record)
-        self._prepare(surface, source.joined_edges if source else 0)
+        self._prepare(surface, source.joined_edges if source else joined_edges)
         oddities = oddities_of(self._handle, source.handle if source else None)
         if walls is not None:
             oddities = _told_of_walls(oddities)
@@ -297,15 +299,19 @@ def surface_from(source: Source, vertices: Any, weld: bool | float, keep_seams: 
     )
 
 
-def joined_surface(vertices: Any, faces: Any, weld: bool | float, keep_seams: bool) -> Surface:
-    """Returns a surface of triangles whose vertices are joined; other faces stay as they are."""
+def joined_surface(
+    vertices: Any, faces: Any, weld: bool | float, keep_seams: bool
+) -> tuple[Surface, int]:
+    """Returns a surface of triangles whose vertices are joined, and how many edges of it are."""
     plain = Surface(vertices, faces, weld=weld, keep_seams=keep_seams, is_joined=True)
     places, rows = plain.coordinates(), from_rows(plain.indices())
-    joined = interruptible(lambda stop: split(places, rows, weld, keep_seams, stop)).joined
+    source = interruptible(lambda stop: split(places, rows, weld, keep_seams, stop))
+    joined = source.joined
     if joined is None:
-        return plain
+        return plain, 0
     corners = plain.indices()
-    return dataclasses.replace(plain, faces=joined[corners], corners=corners, joined=joined)
+    surface = dataclasses.replace(plain, faces=joined[corners], corners=corners, joined=joined)
+    return surface, source.joined_edges
 
 
 def posed(surface: Surface, positions: Any, record: Record) -> Mesh:
@@ -335,7 +341,7 @@ def created(surface: Surface) -> c.Handle:
     """Returns the library's mesh."""
     corners = surface.indices()
     params = s.MeshParams(
-        indices=corners.ctypes.data,
+        indices=corners,
         index_type=s.UINT16 if corners.dtype == np.uint16 else s.UINT32,
         face_count=len(corners),
     )
@@ -345,14 +351,14 @@ def created(surface: Surface) -> c.Handle:
     params.keep_seams = surface.keep_seams or surface.copied is not None
     if surface.edge_lengths is None:
         coordinates = surface.coordinates()
-        params.positions = coordinates.ctypes.data
+        params.positions = coordinates
         params.position_type = s.FLOAT32 if coordinates.dtype == np.float32 else s.FLOAT64
         params.dimension = coordinates.shape[1]
         params.vertex_count = len(coordinates)
         params.position_stride = coordinates.strides[0]
     else:
         lengths = surface.lengths()
-        params.edge_lengths = lengths.ctypes.data
+        params.edge_lengths = lengths
         params.vertex_count = surface.vertex_count()
     return c.Handle("mesh", "geodisk_mesh_create", ctypes.byref(params))
 

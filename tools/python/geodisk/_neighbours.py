@@ -27,7 +27,7 @@ from ._values import choice, integer
 SourcesLike = Union[ArrayLike, ExistingLike]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Neighbours:
     """The neighbours of each source, one source after the other (CSR).
 
@@ -147,38 +147,33 @@ def neighbours(
         nearest=integer(nearest, "nearest", 2**32 - 1),
         max_pairs=integer(max_pairs, "max_pairs", 2**64 - 1, 1),
     )
-    kept: list[NDArray[Any]] = []  # What the library reads.
-
-    def address(array: NDArray[Any]) -> int:
-        kept.append(array)
-        return int(array.ctypes.data)
-
-    count = set_sources(params, mesh, sources, address)
-    _set_within(params, within, count, address)
+    count = set_sources(params, mesh, sources)
+    _set_within(params, within, count)
     if isinstance(among, str):
         params.kind = s.AMONG[choice(among, "among", s.AMONG)]
     else:
         points = points_of(mesh._handle, among, "among")
         params.kind = s.AMONG_POINTS
-        params.points, params.point_count = address(points), len(points)
-    if mesh._surface.joined is not None:
-        params.joined = address(np.ascontiguousarray(mesh._surface.joined, np.uint32))
+        params.points, params.point_count = points, len(points)
     found = search(
         "neighbours", "geodisk_find_neighbours", mesh._handle, params, name_of(device), progress
     )
     return _arrays_of(found)
 
 
-def set_sources(
-    params: Any, mesh: Mesh, sources: Any, address: Any
-) -> int | None:
-    """Sets sources of a search, at their `address`. Returns their number, None for all vertices."""
+def set_sources(params: Any, mesh: Mesh, sources: Any) -> int | None:
+    """Sets what a search begins from, and which vertices are joined.
+
+    Returns the number of sources, None for all vertices.
+    """
+    if mesh._surface.joined is not None:
+        params.joined = np.ascontiguousarray(mesh._surface.joined, np.uint32)
     if sources is None:
         return None
     is_pair = isinstance(sources, tuple) and len(sources) == 2 and np.ndim(sources[1]) == 2
     if isinstance(sources, Samples) or is_pair or are_points(sources):
         points = points_of(mesh._handle, sources, "sources")
-        params.sources, params.source_count = address(points), len(points)
+        params.sources, params.source_count = points, len(points)
         return len(points)
     mask = array_of(sources, "sources")
     if mask.dtype == bool:
@@ -193,12 +188,12 @@ def set_sources(
         raise e.invalid(f"sources have the shape {chosen.shape}, not (n,) with n of at least 1")
     if chosen.size == mesh._surface.vertex_count() > 2 and int(chosen.max()) <= 1:
         raise e.invalid("sources is a mask of zeros and ones; give np.flatnonzero(sources)")
-    params.source_vertices, params.source_count = address(chosen), len(chosen)
+    params.source_vertices, params.source_count = chosen, len(chosen)
     return len(chosen)
 
 
 def _set_within(
-    params: s.NeighbourParams, within: float | ArrayLike | None, count: int | None, address: Any
+    params: s.NeighbourParams, within: float | ArrayLike | None, count: int | None
 ) -> None:
     if within is None:
         if params.nearest == 0:
@@ -220,7 +215,7 @@ def _set_within(
         raise e.invalid("within is an array, so give the sources that it belongs to")
     if distances.shape != (count,):
         raise e.invalid(f"within has the shape {distances.shape}, but there are {count} sources")
-    params.radii = address(np.ascontiguousarray(distances))
+    params.radii = np.ascontiguousarray(distances)
 
 
 def _arrays_of(handle: c.Handle) -> Neighbours:

@@ -132,11 +132,11 @@ def split(
     positions = np.ascontiguousarray(vertices, np.float64)
     polygons.check(len(positions))
     params = s.SourceParams(
-        positions=positions.ctypes.data,
+        positions=positions,
         dimension=positions.shape[1],
         vertex_count=len(positions),
-        corners=polygons.corners.ctypes.data,
-        face_ends=polygons.ends.ctypes.data,
+        corners=polygons.corners,
+        face_ends=polygons.ends,
         face_count=len(polygons.ends),
     )
     return _read(params, stop, weld, keep_seams)

@@ -11,6 +11,7 @@ from ctypes import (
     CFUNCTYPE,
     POINTER,
     Structure,
+    addressof,
     c_char,
     c_char_p,
     c_double,
@@ -25,6 +26,8 @@ from ctypes import (
     sizeof,
 )
 from typing import Any, Iterator
+
+import numpy as np
 
 FLOAT64, FLOAT32, UINT32, UINT16 = range(4)
 FACE, BARYCENTRIC, POSITION, NORMAL, RADIUS, PART, CLASS, FEATURE, LEVEL, COVER, ROW = range(11)
@@ -59,12 +62,28 @@ found: dict[str, Any] = {}
 
 
 class Struct(Structure):
-    """A struct, which knows its size if it begins with that."""
+    """A struct, which knows its size if it begins with that, and keeps what its fields point to.
+
+    A pointer may be set to an array, another struct or an object of the library. They live as long as
+    this struct, which the thread of a call has, even after Ctrl-C has ended the wait for it.
+    """
 
     def __init__(self, **fields: Any) -> None:
-        super().__init__(**fields)
+        super().__init__()
+        for name, value in fields.items():
+            setattr(self, name, value)
         if hasattr(self, "struct_size"):
             self.struct_size = sizeof(type(self))
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        address: Any = getattr(value, "_as_parameter_", None)
+        if isinstance(value, np.ndarray):
+            address = value.ctypes.data
+        elif isinstance(value, Structure):
+            address = addressof(value)
+        if address is not None:
+            self.__dict__.setdefault("_kept", {})[name] = value
+        super().__setattr__(name, value if address is None else address)
 
 
 def __getattr__(name: str) -> Any:

@@ -247,7 +247,6 @@ class _Side:
         self.avoid: AvoidLike | None = None
         if job.avoid is not None:
             self.avoid = (avoided["face"], avoided["weights"]), avoid_radii
-        self._kept_alive = (radii, keys, mask, kept, avoided, avoid_radii)
         distance = samples.min_distance / (1.0 if radii is None else radii.distance_part)
         if radii is not None and before is not None and before.part != radii.distance_part:
             raise e.invalid(
@@ -265,13 +264,13 @@ class _Side:
             min_distance=distance,
             seed=samples.seed,
             pool_ratio=float(job.pool_ratio),
-            radii=None if radii is None else radii.handle.value,
-            face_keys=None if keys is None else keys.ctypes.data,
-            face_mask=None if mask is None else mask.ctypes.data,
-            existing=kept.ctypes.data,
+            radii=None if radii is None else radii.handle,
+            face_keys=keys,
+            face_mask=mask,
+            existing=kept,
             existing_count=len(kept),
-            avoid=avoided.ctypes.data,
-            avoid_radii=avoid_radii.ctypes.data,
+            avoid=avoided,
+            avoid_radii=avoid_radii,
             avoid_count=len(avoided),
         )
 

@@ -32,18 +32,18 @@ def cut(surface: Surface, walls: ArrayLike) -> Surface:
     given = array_of(walls, "walls")
     triangles, vertices = surface.indices(), surface.vertex_count()
     params = s.Walls(
-        indices=triangles.ctypes.data,
+        indices=triangles,
         index_type=s.UINT16 if triangles.dtype == np.uint16 else s.UINT32,
         face_count=len(triangles),
         vertex_count=vertices,
     )
     if given.dtype == bool:
         mask = surface.mask(given, "walls")
-        params.faces = mask.ctypes.data
+        params.faces = mask
         told = f"{int(mask.sum())} faces {mask_digest(mask)}"
     else:
         edges = _edges_of(surface, given)
-        params.edges, params.edge_count = edges.ctypes.data, len(edges)
+        params.edges, params.edge_count = edges, len(edges)
         told = f"{len(edges)} edges {checksum(np.unique(np.sort(edges, axis=1), axis=0))}"
     made = np.empty((len(triangles), 3), np.uint32)
     copied, count = np.empty(3 * len(triangles), np.uint32), c_size_t()

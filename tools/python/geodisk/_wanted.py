@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
-from ctypes import addressof, byref, c_double, c_int32, c_uint32
+from ctypes import byref, c_double, c_int32, c_uint32
 from types import SimpleNamespace
 from typing import Any, Callable, Mapping
 
@@ -91,30 +91,28 @@ class Wanted:
         self._params = params = s.SurfaceParams(
             min_distance=0.0 if distance is None else distance / part,
             seed=seed,
-            radii=None if radii is None else radii.handle.value,
-            face_keys=None if keys is None else keys.ctypes.data,
-            face_mask=None if mask is None else mask.ctypes.data,
+            radii=None if radii is None else radii.handle,
+            face_keys=keys,
+            face_mask=mask,
             metric=s.METRICS[a.metric],
-            existing=kept.ctypes.data,
+            existing=kept,
             existing_count=len(kept),
-            avoid=places.points.ctypes.data,
-            avoid_radii=places.radii.ctypes.data,
+            avoid=places.points,
+            avoid_radii=places.radii,
             avoid_count=len(places.points),
             **params_numbers,
         )
         own_classes = None
         if kinds is not None and kinds.count > 1:
             own_classes = kinds.existing_of(a.existing, len(kept))
-            params.class_factors = kinds.factors.ctypes.data
+            params.class_factors = kinds.factors
             params.class_count = kinds.count
-            params.existing_classes = own_classes.ctypes.data
-            if places.shares is not None:
-                params.class_shares = places.shares.ctypes.data
-            if places.avoid_classes is not None:
-                params.avoid_classes = places.avoid_classes.ctypes.data
+            params.existing_classes = own_classes
+            params.class_shares = places.shares
+            params.avoid_classes = places.avoid_classes
         #: As the library takes it.
         self.request = s.Request(
-            params=addressof(params),
+            params=params,
             count=0.0 if a.count is None else a.count,
             order=s.ORDERS[a.order],
             features=degrees,
@@ -126,11 +124,10 @@ class Wanted:
             if own_classes is None or kinds is None:
                 raise e.invalid("class_counts is for classes, two or more")
             self._class_counts = kinds.counts_of(a.class_counts)
-            self.request.class_counts = self._class_counts.ctypes.data
+            self.request.class_counts = self._class_counts
         if in_levels is not None:
             self.request.levels, self.request.level_factor = in_levels.count, in_levels.factor
 
-        self._kept_alive = radii, keys, kept, places, own_classes
         self._distance, self._part, self._seed, self._mask = distance, part, seed, mask
         self._existing, self._avoids, self._classes = len(kept), len(places.points) > 0, kinds
         self._asked, self._degrees = a, degrees
