@@ -23,7 +23,8 @@ constexpr double kMeanPart = 0.85;
 // Maximum of a part, where the whole is too large for other reasons.
 constexpr double kLargestPart = 0.5;
 
-/// Returns the part of a surface, or less, that the device holds.
+/// Returns the part of a surface, or less, that the device holds; 1 if it holds the mesh, and the
+/// caller does not limit its memory.
 double held_part(const Runner::Impl& runner, const Domain::Impl& of) {
     const auto bound = static_cast<double>(runner.engine().report.limits.max_storage_buffer_range);
     const auto allowed = static_cast<double>(runner.options.device_bytes);
@@ -34,6 +35,9 @@ double held_part(const Runner::Impl& runner, const Domain::Impl& of) {
     const auto faces = static_cast<double>(of.upload_size(BufferRole::faces));
     const auto fans = static_cast<double>(of.upload_size(BufferRole::fans));
     const double candidates = kCandidateBytes * of.stages.expected_at_once(1);
+    if (allowed == 0 && held(std::max(faces, fans), faces + fans) == 1) {
+        return 1;
+    }
     return std::min(held(std::max({faces, fans, candidates}), faces + fans + candidates),
                     kLargestPart);
 }
@@ -63,7 +67,7 @@ std::uint32_t first_parts(const Runner::Impl& runner, const Domain::Impl& of,
     const double margins = 4 * reach / std::sqrt(mesh.statistics().area);
     const double part = held_part(runner, of);
     const double largest = std::sqrt(part);
-    const bool is_worth_it = largest - margins > kLeastSide * largest;
+    const bool is_worth_it = part < 1 && largest - margins > kLeastSide * largest;
     const double side = std::sqrt(kMeanPart) * largest - margins;
     const double parts = std::max(2.0, std::ceil(1 / (side * side)));
     return is_worth_it && parts <= mesh.face_count() ? static_cast<std::uint32_t>(parts) : 0;
