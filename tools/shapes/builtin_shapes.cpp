@@ -73,7 +73,10 @@ MeshFile make_builtin(std::string_view name, std::optional<int> resolution) {
                        std::to_string(shape.min_resolution) + " to " +
                        std::to_string(shape.max_resolution) + ", not " + std::to_string(value));
         }
-        return shape.make(value);
+        MeshFile mesh = shape.make(value);
+        mesh.positions.shrink_to_fit();
+        mesh.triangles.shrink_to_fit();
+        return mesh;
     }
     fail_unknown(name);
 }

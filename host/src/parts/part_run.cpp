@@ -6,6 +6,7 @@
 
 #include "engine/domain/listed.hpp"
 #include "parts/surroundings.hpp"
+#include "support/free_memory.hpp"
 #include "support/try.hpp"
 
 namespace geodisk {
@@ -43,6 +44,12 @@ void PartRun::prepare() {
     const Surroundings around(part_, near);
     border_ = cut_out(part_, around);
     from_near_ = border_ ? around.distances_on(*border_) : around.distances();
+    if (border_ && part_.of_mesh != nullptr) { // MeshTurn makes its mesh again.
+        border_->of_mesh = part_.of_mesh;
+        border_->of_radii = part_.of_radii;
+        border_->mesh = {};
+        border_->radii.reset();
+    }
     for (std::size_t i = 0; i < part_.existing.size(); ++i) {
         settle(part_.existing[i], part_.existing_classes.empty() ? 0 : part_.existing_classes[i]);
     }
@@ -207,7 +214,7 @@ Result<Darts> PartRun::decide_first() {
     GEODISK_TRY(accepted);
     is_decided_ = true;
     ++whole_runs_;
-    drawn_near_ = {};
+    free_memory(drawn_near_);
     note(std::move(*accepted));
     near_.clear();
     std::ranges::copy_if(accepted_, std::back_inserter(near_),

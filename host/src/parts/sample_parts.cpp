@@ -14,6 +14,7 @@
 #include "parts/part.hpp"
 #include "parts/part_run.hpp"
 #include "parts/peak_memory.hpp"
+#include "support/free_memory.hpp"
 #include "support/guard.hpp"
 #include "support/try.hpp"
 
@@ -233,7 +234,7 @@ Result<SharedSamples> sample_parts(Exchange& exchange, Runner& runner, const Who
     GEODISK_TRY(message);
     const auto part = part_of(*message);
     const std::uint64_t bytes = message->size();
-    *message = {};
+    free_memory(*message);
     if (part && whole != nullptr && whole->is_shared) {
         (*part)->of_mesh = &whole->mesh;
         (*part)->of_radii = whole->params.radii;

@@ -213,9 +213,12 @@ void number_places(const std::string& path, MeshFile& mesh) {
         vertex = number;
     }
     mesh.names.vertex_lines = std::move(lines);
+    positions.shrink_to_fit();
     mesh.positions = std::move(positions);
-    mesh.joined = {};
-    mesh.file_triangles = {};
+    for (std::vector<std::uint32_t>* const numbers_before : {&mesh.joined, &mesh.file_triangles}) {
+        numbers_before->clear();
+        numbers_before->shrink_to_fit();
+    }
 }
 
 MeshFile to_triangles(const MeshSources& sources, PolygonMesh&& polygons,

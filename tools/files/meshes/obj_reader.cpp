@@ -109,7 +109,8 @@ class ObjParts {
     /// Puts them into the mesh, if the file divides its faces at all.
     void give(PolygonMesh& mesh) {
         if (names_.materials.empty() && names_.groups.empty()) {
-            mesh.part_of_face = {};
+            mesh.part_of_face.clear();
+            mesh.part_of_face.shrink_to_fit();
             return;
         }
         mesh.parts = std::move(parts_);

@@ -284,7 +284,8 @@ MeshInput load_silently(const MeshOptions& options, ProgressLine& progress,
     mesh.class_shares = std::move(loaded_shares.shares);
     if (mesh.file.materials) {
         mesh.textures.emplace(mesh.file);
-        mesh.file.materials->images = {}; // Which are decoded now.
+        mesh.file.materials->images.clear(); // They are decoded now.
+        mesh.file.materials->images.shrink_to_fit();
     } else if (!options.texture.empty()) {
         mesh.textures.emplace(mesh.file, options.texture);
     }

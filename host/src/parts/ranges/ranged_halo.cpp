@@ -16,6 +16,7 @@
 #include "parts/ranges/homes.hpp"
 #include "parts/ranges/nearest_place.hpp"
 #include "parts/ranges/vertex_numbers.hpp"
+#include "support/free_memory.hpp"
 
 namespace geodisk {
 namespace {
@@ -324,7 +325,7 @@ class Halo {
                     by_rings[rings - 1].insert(by_rings[rings - 1].end(), corners, corners + 3);
                 }
             }
-            by_rings[rings] = {};
+            free_memory(by_rings[rings]);
         }
     }
 

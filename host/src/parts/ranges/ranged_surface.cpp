@@ -12,6 +12,7 @@
 #include "parts/ranges/ranged_reach.hpp"
 #include "parts/ranges/talk.hpp"
 #include "parts/reach.hpp"
+#include "support/free_memory.hpp"
 #include "support/try.hpp"
 
 namespace geodisk {
@@ -107,9 +108,9 @@ Result<RangedSurface> RangedSurface::create(Exchange& exchange, MeshRange range)
             RangeFaces faces = faces_of(talk, range);
             const RangeFindings findings = examine(talk, range, faces);
             surface.fields_ = RangedFields::create(talk, range, faces, findings.statistics);
-            range.values = {};
-            range.vertex_mask = {};
-            range.face_mask = {};
+            free_memory(range.values);
+            free_memory(range.vertex_mask);
+            free_memory(range.face_mask);
             RangedStatistics& statistics = surface.statistics_;
             statistics.mesh = findings.statistics;
             statistics.turned_edges = findings.turned_edges;
@@ -121,7 +122,7 @@ Result<RangedSurface> RangedSurface::create(Exchange& exchange, MeshRange range)
                 divide_by_curve(talk, range, std::move(faces), findings, statistics.effective_area);
             surface.faces_ = own_faces_of(talk, range, owners);
         }
-        range.triangles = {};
+        free_memory(range.triangles);
         surface.vertices_ = range.vertices;
         surface.face_blocks_ = range.faces;
         surface.positions_ = std::move(range.positions);
