@@ -1,6 +1,7 @@
 #include "parts/mesh_turn.hpp"
 
 #include "mesh/mesh_pieces.hpp"
+#include "support/free_memory.hpp"
 
 namespace geodisk {
 
@@ -26,6 +27,9 @@ MeshTurn::~MeshTurn() {
     if (part_.of_mesh != nullptr || (turn_ && !part_.places.triangles.empty())) {
         part_.mesh = {};
         part_.radii.reset();
+    }
+    if (turn_) { // Other parts have other threads.
+        trim_memory();
     }
 }
 
