@@ -13,6 +13,7 @@
 #include "mesh/connectivity.hpp"
 #include "mesh/face_frames.hpp"
 #include "mesh/mesh_pieces.hpp"
+#include "mesh/ranks.hpp"
 #include "mesh/vertex_fans.hpp"
 #include "support/blocks.hpp"
 #include "support/guard.hpp"
@@ -41,56 +42,8 @@ Result<Done> check_faces(std::span<const std::uint32_t> faces, std::uint32_t cou
     return Done{};
 }
 
-/// Some of the numbers below a count, ascending, and the place of each among them.
-class Places {
-  public:
-    static constexpr std::uint32_t kNone = ~0u;
-
-    /// The numbers may come in any order, and more than once.
-    Places(std::vector<std::uint32_t> numbers, std::size_t count) : numbers_(std::move(numbers)) {
-        constexpr std::size_t kMany = 16; // A table is filled faster than so many are sorted.
-        if (numbers_.size() < count / kMany) {
-            std::sort(numbers_.begin(), numbers_.end());
-            numbers_.erase(std::unique(numbers_.begin(), numbers_.end()), numbers_.end());
-            return;
-        }
-        table_.assign(count, kNone);
-        for (const std::uint32_t number : numbers_) {
-            table_[number] = 0;
-        }
-        numbers_.clear();
-        for (std::uint32_t number = 0; number < count; ++number) {
-            if (table_[number] != kNone) {
-                table_[number] = static_cast<std::uint32_t>(numbers_.size());
-                numbers_.push_back(number);
-            }
-        }
-    }
-
-    const std::vector<std::uint32_t>& numbers() const { return numbers_; }
-    /// Returns the place of a number, or kNone.
-    std::uint32_t of(std::uint32_t number) const {
-        if (!table_.empty()) {
-            return table_[number];
-        }
-        const auto at = std::lower_bound(numbers_.begin(), numbers_.end(), number);
-        return at != numbers_.end() && *at == number
-                   ? static_cast<std::uint32_t>(at - numbers_.begin())
-                   : kNone;
-    }
-
-  private:
-    std::vector<std::uint32_t> numbers_, table_;
-};
-
-std::vector<std::uint32_t> origins_of(std::span<const HalfEdge> half_edges) {
-    std::vector<std::uint32_t> origins(half_edges.size());
-    std::ranges::transform(half_edges, origins.begin(), &HalfEdge::origin);
-    return origins;
-}
-
 /// Returns HalfEdge::around of a half-edge in the part with these faces, where it is `own`.
-std::uint32_t around_in_part(std::span<const HalfEdge> whole, const Places& faces, std::uint32_t h,
+std::uint32_t around_in_part(std::span<const HalfEdge> whole, const Ranks& faces, std::uint32_t h,
                              std::uint32_t own) {
     bool is_same_way = true;
     for (std::uint32_t g = h;;) {
@@ -100,7 +53,7 @@ std::uint32_t around_in_part(std::span<const HalfEdge> whole, const Places& face
         if (g == h) {
             return lone_half_edge(own);
         }
-        if (face != Places::kNone) {
+        if (face != Ranks::kNone) {
             return (3 * face + g % 3) << 1 | (is_same_way ? 1u : 0u);
         }
     }
@@ -203,7 +156,7 @@ std::vector<float> corners_of(std::span<const float> values, std::span<const std
 
 PreparedMesh MeshPieces::part(const PreparedMesh& whole, std::span<const std::uint32_t> faces) {
     PreparedMesh part;
-    const Places in_part({faces.begin(), faces.end()}, whole.face_count());
+    const Ranks in_part(whole.face_count(), faces);
     auto& edges = part.half_edges_;
     edges.resize(3 * faces.size());
     const auto for_edges = [&](const auto& work) {
@@ -214,21 +167,22 @@ PreparedMesh MeshPieces::part(const PreparedMesh& whole, std::span<const std::ui
         });
     };
     for_edges([&](std::uint32_t h, std::uint32_t there) { edges[h] = whole.half_edges_[there]; });
-    const Places vertices(origins_of(edges), whole.vertex_count());
+    const Ranks vertices(whole.vertex_count(), edges, &HalfEdge::origin);
     for_edges([&](std::uint32_t h, std::uint32_t there) {
         edges[h].origin = vertices.of(edges[h].origin);
         edges[h].around = around_in_part(whole.half_edges_, in_part, there, h);
     });
-    part.fans_.resize(vertices.numbers().size());
+    const std::vector<std::uint32_t> vertices_there = vertices.numbers();
+    part.fans_.resize(vertices_there.size());
     part.corners_.reserve(edges.size());
     PartFans fans(edges);
     for (std::uint32_t v = 0; v < part.fans_.size(); ++v) {
-        const VertexFan& of_whole = whole.fans_[vertices.numbers()[v]];
+        const VertexFan& of_whole = whole.fans_[vertices_there[v]];
         const auto first = static_cast<std::uint32_t>(part.corners_.size());
         for (std::uint32_t i = 0; i < of_whole.corner_count; ++i) {
             const std::uint32_t there = whole.corners_[of_whole.first_corner + i];
             const std::uint32_t face = in_part.of(there / 3);
-            if (face != Places::kNone) {
+            if (face != Ranks::kNone) {
                 part.corners_.push_back(3 * face + there % 3);
             }
         }

@@ -8,6 +8,7 @@ namespace geodisk {
 MeshTurn::MeshTurn(Exchange& exchange, Part& part) : turn_(exchange.turn()), part_(part) {
     if (part.of_mesh != nullptr) {
         part.mesh = MeshPieces::part(*part.of_mesh, part.faces);
+        part.ranks = Ranks(part.of_mesh->face_count(), part.faces);
         if (part.of_radii != nullptr) {
             part.radii = part.of_radii->on_part(part.mesh, part.faces);
         }
@@ -26,6 +27,7 @@ MeshTurn::MeshTurn(Exchange& exchange, Part& part) : turn_(exchange.turn()), par
 MeshTurn::~MeshTurn() {
     if (part_.of_mesh != nullptr || (turn_ && !part_.places.triangles.empty())) {
         part_.mesh = {};
+        part_.ranks = {};
         part_.radii.reset();
     }
     if (turn_) { // Other parts have other threads.

@@ -19,10 +19,7 @@ Result<NearPart> near_part(const PreparedMesh& mesh, std::span<const std::uint32
     }
     NearPart near;
     near.faces = HaloSearch(mesh).search(own, reach);
-    near.local.assign(mesh.face_count(), NearPart::kNone);
-    for (std::uint32_t i = 0; i < near.faces.size(); ++i) {
-        near.local[near.faces[i]] = i;
-    }
+    near.local = Ranks(mesh.face_count(), near.faces);
     auto made = mesh.part(near.faces);
     GEODISK_TRY(made);
     near.mesh = std::make_unique<PreparedMesh>(std::move(*made));

@@ -9,14 +9,14 @@
 #include <geodisk/mesh.hpp>
 #include <geodisk/status.hpp>
 
+#include "mesh/ranks.hpp"
+
 namespace geodisk {
 
 struct NearPart {
-    static constexpr std::uint32_t kNone = ~0u;
-
     std::unique_ptr<PreparedMesh> mesh;
     std::vector<std::uint32_t> faces; ///< Of the whole. Ascending.
-    std::vector<std::uint32_t> local; ///< For each face of the whole that of the part, or kNone.
+    Ranks local;                      ///< Numbers that faces of the whole have here.
 
     /// Returns the half-edge of the whole that is this one of the part.
     std::uint32_t half_edge(std::uint32_t of_part) const {

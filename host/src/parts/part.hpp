@@ -16,6 +16,7 @@
 
 #include "engine/domain/drawn.hpp"
 #include "mesh/radius_pieces.hpp"
+#include "mesh/ranks.hpp"
 #include "parts/checkpoint.hpp"
 
 namespace geodisk {
@@ -58,6 +59,7 @@ struct Part {
     MeshStatistics whole;             ///< Statistics of the whole, likewise.
     std::optional<RadiusField> radii; ///< With the mesh.
     std::vector<std::uint32_t> faces; ///< Number in the whole of each face.
+    Ranks ranks;                      ///< Of these numbers, with a mesh made of `of_mesh`.
     std::vector<FaceRole> roles;
     std::vector<std::uint32_t> keys; ///< Key of each face, or empty: its number in the whole.
     bool has_keys = false;           ///< The caller has given keys.

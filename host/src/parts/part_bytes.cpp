@@ -55,7 +55,9 @@ SampleParams Part::params() const {
 }
 
 std::uint32_t Part::local(std::uint32_t face) const {
-    return static_cast<std::uint32_t>(std::ranges::lower_bound(faces, face) - faces.begin());
+    return ranks.size() > 0
+               ? ranks.of(face)
+               : static_cast<std::uint32_t>(std::ranges::lower_bound(faces, face) - faces.begin());
 }
 
 std::unique_ptr<Part> Part::cut_out(std::span<const std::uint32_t> some_faces) const {

@@ -96,7 +96,7 @@ Task<Result<std::size_t>> LitCells::some_disks(std::span<const std::uint32_t> sa
         disks.push_back({samples_[sample], radii_[sample] * frame_.unit});
         reach = std::max(reach, disks.back().radius);
         std::uint32_t& face = disks.back().center.face;
-        face = near != nullptr ? near->local[face] : face;
+        face = near != nullptr ? near->local.of(face) : face;
     }
     SampleParams params = params_;
     params.avoid = disks;

@@ -42,8 +42,7 @@ class PartMaker {
     void take_sources(std::uint32_t owner, SearchPart& part) const;
     void take_vertices(std::span<const std::uint32_t> faces, SearchPart& part) const;
     /// Takes those of `points` that lie in the faces; `local` has the number of each face.
-    void take_points(std::span<const Sample> points, std::span<const std::uint32_t> local,
-                     SearchPart& part) const;
+    void take_points(std::span<const Sample> points, const Ranks& local, SearchPart& part) const;
 
     const PreparedMesh& mesh_;
     const NeighbourQuery& query_;
@@ -79,14 +78,15 @@ void PartMaker::take_vertices(std::span<const std::uint32_t> faces, SearchPart& 
     }
 }
 
-void PartMaker::take_points(std::span<const Sample> points, std::span<const std::uint32_t> local,
+void PartMaker::take_points(std::span<const Sample> points, const Ranks& local,
                             SearchPart& part) const {
     part.targets.clear();
     for (std::uint32_t i = 0; i < points.size(); ++i) {
-        if (local[points[i].face] != NearPart::kNone) {
+        const std::uint32_t face = local.of(points[i].face);
+        if (face != Ranks::kNone) {
             part.targets.push_back(i);
             part.points.push_back(points[i]);
-            part.points.back().face = local[points[i].face];
+            part.points.back().face = face;
         }
     }
 }
@@ -101,10 +101,9 @@ Result<std::unique_ptr<SearchPart>> PartMaker::part(std::uint32_t owner) const {
         query_.radii.empty() ? query_.within : *std::ranges::max_element(made->radii);
     auto near = near_part(mesh_, owners_, owner, largest * (1 + halo_margin(frame_)));
     GEODISK_TRY(near);
-    const std::vector<std::uint32_t>& local = near->local;
     made->mesh = std::move(near->mesh);
     for (Sample& source : made->sources) {
-        source.face = local[source.face];
+        source.face = near->local.of(source.face);
     }
     if (query_.kind == NeighbourKind::vertices || !bounds_.empty()) {
         take_vertices(near->faces, *made);
@@ -112,7 +111,7 @@ Result<std::unique_ptr<SearchPart>> PartMaker::part(std::uint32_t owner) const {
     made->query = query_;
     if (query_.kind != NeighbourKind::vertices) {
         const bool among_sources = query_.kind == NeighbourKind::sources;
-        take_points(among_sources ? query_.sources : query_.points, local, *made);
+        take_points(among_sources ? query_.sources : query_.points, near->local, *made);
         made->query.kind = NeighbourKind::points; // Of all, a source itself too.
         made->query.points = made->points;
         made->query.nearest += among_sources && query_.nearest != 0 ? 1 : 0;

@@ -120,10 +120,10 @@ Task<Result<Done>> MaximalRun::light_in_parts(const LightPoints& points) {
         const auto near = parts_.near(part, reach);
         GEODISK_CO_TRY(near);
         for (Sample& sample : own.samples) {
-            sample.face = near->local[sample.face];
+            sample.face = near->local.of(sample.face);
         }
         for (KeepOut& avoided : own.avoid) {
-            avoided.center.face = near->local[avoided.center.face];
+            avoided.center.face = near->local.of(avoided.center.face);
         }
         SampleParams params = job_.params;
         std::optional<RadiusField> radii;
