@@ -2,6 +2,8 @@
 #include <cmath>
 #include <cstdint>
 #include <memory>
+#include <optional>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -24,7 +26,9 @@
 #include "geodisk/options/run_options.hpp"
 #include "geodisk/outputs/outputs.hpp"
 #include "geodisk/outputs/scene_frame.hpp"
-#include "geodisk/reports/cell_report.hpp"
+#include "geodisk/reports/json.hpp"
+#include "geodisk/reports/mesh_report.hpp"
+#include "geodisk/reports/run_report.hpp"
 #include "program/command.hpp"
 #include "program/exact_text.hpp"
 #include "program/failure.hpp"
@@ -55,30 +59,26 @@ void check_files(const CellOptions& options) {
     std::vector<NamedFile> read{{"the samples read", options.samples}};
     options.mesh.add_files(read, "the mesh");
     options.mask.add_files(read);
-    std::vector<NamedFile> further;
     if (!options.dual.empty()) {
         dual_format(options.dual);
-        further.push_back({"the dual graph", options.dual});
     }
-    if (!options.labels.empty()) {
-        if (!options.labels.ends_with(".label.gii")) {
-            fail_usage(options.labels + ": labels of vertices are written as *.label.gii");
-        }
-        further.push_back({"the labels", options.labels});
+    if (!options.labels.empty() && !options.labels.ends_with(".label.gii")) {
+        fail_usage(options.labels + ": labels of vertices are written as *.label.gii");
     }
     if (!options.split.empty()) {
         cell_format(options.split, "meshes of cells");
-        further.push_back({"the mesh of cells", options.split});
     }
     if (!options.outlines.empty()) {
         cell_format(options.outlines, "outlines of cells");
-        further.push_back({"the outlines", options.outlines});
     }
+    const std::vector<NamedFile> further{{"the dual graph", options.dual},
+                                         {"the labels", options.labels},
+                                         {"the mesh of cells", options.split},
+                                         {"the outlines", options.outlines}};
     check_outputs(options.out, "the samples", read, nullptr, further);
-    for (const std::string& path :
-         {options.dual, options.labels, options.split, options.outlines}) {
-        if (!path.empty()) {
-            check_writable(path);
+    for (const NamedFile& file : further) {
+        if (!file.path.empty()) {
+            check_writable(file.path);
         }
     }
     const std::vector<std::string> columns{kAreaColumn};
@@ -151,6 +151,119 @@ void write_labels(AtomicFile& file, const std::string& mesh, std::size_t samples
                        {{"version", "geodisk " GEODISK_VERSION_STRING}, {"mesh", mesh}});
 }
 
+/// Report of cells that are found, for write_outputs().
+struct CellReport {
+    const CellOptions& options;
+    const MeshInput& mesh;
+    const std::vector<MeshWarning>& warnings; ///< Warnings about mesh and samples.
+    const CellResult& result;
+    std::optional<SceneFrame> scene;
+
+    std::string json(double write_seconds) const;
+    std::string summary(double write_seconds) const;
+};
+
+/// Returns a path, or null without one.
+Json path_json(const std::string& path) {
+    return path.empty() ? Json(nullptr) : Json(path);
+}
+
+double manifold_part(const DualReport& dual) {
+    return dual.triangles == 0
+               ? 1
+               : static_cast<double>(dual.manifold) / static_cast<double>(dual.triangles);
+}
+
+Json angles_json(const CellReport& report) {
+    const TriangleAngles& angles = report.result.angles;
+    if (report.result.points.empty() || report.result.cells.triangles.empty()) {
+        return nullptr;
+    }
+    return {{"least", angles.least},
+            {"largest", angles.largest},
+            {"part_30_to_120", angles.part_inside}};
+}
+
+Json dual_json(const CellReport& report) {
+    if (report.options.dual.empty()) {
+        return nullptr;
+    }
+    const DualReport& dual = report.result.cells.dual;
+    return {{"file", report.options.dual},
+            {"vertices", dual.vertices},
+            {"edges", dual.edges},
+            {"triangles", dual.triangles},
+            {"manifold_triangles", dual.manifold},
+            {"euler", dual.euler},
+            {"mesh_euler", dual.mesh_euler},
+            {"angles", angles_json(report)}};
+}
+
+std::string dual_lines(const CellReport& report) {
+    const DualReport& dual = report.result.cells.dual;
+    std::ostringstream out;
+    out << "dual          " << counted(dual.triangles, "triangle", "triangles") << ", "
+        << rounded(100 * manifold_part(dual), 4) << "% manifold; Euler characteristic "
+        << dual.euler << ", of the mesh " << dual.mesh_euler << '\n';
+    if (!angles_json(report).is_null()) {
+        const TriangleAngles& angles = report.result.angles;
+        out << "angles        " << rounded(angles.least, 3) << " to " << rounded(angles.largest, 3)
+            << " degrees; " << rounded(100 * angles.part_inside, 4)
+            << "% of the triangles within 30 to 120\n";
+    }
+    out << "dual file     " << one_line(report.options.dual) << '\n';
+    return out.str();
+}
+
+std::string CellReport::json(double write_seconds) const {
+    const SurfaceCells& cells = result.cells;
+    const auto [least, largest] = std::ranges::minmax(cells.areas);
+    Json document{{"version", GEODISK_VERSION_STRING},
+                  {"mesh", mesh_json(mesh)},
+                  {"warnings", warnings_json(warnings)},
+                  {"samples", cells.areas.size()},
+                  {"areas",
+                   {{"least", least},
+                    {"largest", largest},
+                    {"error", cells.area_error},
+                    {"unreached", cells.unreached}}},
+                  {"error", cells.distance_error},
+                  {"dual", dual_json(*this)},
+                  {"labels", path_json(options.labels)},
+                  {"split", path_json(options.split)},
+                  {"outlines", path_json(options.outlines)},
+                  {"disks", cells.report.disks},
+                  {"windows", cells.report.windows},
+                  {"scene", scene_json(scene)},
+                  {"output", options.out.output}};
+    return search_json(std::move(document), mesh, result.done, write_seconds);
+}
+
+std::string CellReport::summary(double write_seconds) const {
+    const SurfaceCells& cells = result.cells;
+    const auto [least, largest] = std::ranges::minmax(cells.areas);
+    std::ostringstream out;
+    out << mesh_lines("mesh", mesh) << "cells         " << grouped(cells.areas.size())
+        << ", with areas from " << rounded(least, 4) << " to " << rounded(largest, 4)
+        << ", exact to " << rounded(cells.area_error, 2) << '\n';
+    if (cells.unreached > 0) {
+        out << "no sample     in parts of the mesh with an area of " << rounded(cells.unreached, 4)
+            << '\n';
+    }
+    if (!options.dual.empty()) {
+        out << dual_lines(*this);
+    }
+    const auto add_file = [&](const char* title, const std::string& path) {
+        out << (path.empty() ? "" : title + one_line(path) + '\n');
+    };
+    add_file("labels file   ", options.labels);
+    add_file("split mesh    ", options.split);
+    add_file("outlines      ", options.outlines);
+    out << search_text(mesh, result.done, write_seconds, options.out.output, "finding cells")
+        << scene_line(scene);
+    return out.str();
+}
+
 void run_cells_command(CellOptions options) {
     options.mesh.fields = options.out.record.fields();
     const RunnerOptions runner = options.run.runner();
@@ -197,38 +310,23 @@ void run_cells_command(CellOptions options) {
     const std::vector<SampleField> attributes = sample_fields(mesh.file, file.rows);
     std::vector<SampleField> fields{area_field(result.cells)};
     fields.insert(fields.end(), attributes.begin(), attributes.end());
-    std::vector<FurtherFile> further;
-    if (!options.dual.empty()) {
-        further.push_back({{"the dual graph", options.dual}, [&](AtomicFile& dual) {
-                               write_dual(dual, dual_format(options.dual),
-                                          dual_mesh(result, mesh, attributes));
-                           }});
-    }
-    if (!options.labels.empty()) {
-        further.push_back({{"the labels", options.labels}, [&](AtomicFile& labels) {
-                               write_labels(labels, options.mesh.mesh, file.rows.size(),
-                                            at_vertices);
-                           }});
-    }
-    if (!options.split.empty()) {
-        further.push_back({{"the mesh of cells", options.split}, [&](AtomicFile& split) {
-                               write_cell_mesh(split, cell_format(options.split, ""), cuts);
-                           }});
-    }
-    if (!options.outlines.empty()) {
-        further.push_back({{"the outlines", options.outlines}, [&](AtomicFile& outlines) {
-                               write_cell_outlines(outlines, cell_format(options.outlines, ""),
-                                                   cuts);
-                           }});
-    }
-    const CellReport report{mesh,
-                            warnings,
-                            result,
-                            options.out.output,
-                            options.dual,
-                            options.labels,
-                            options.split,
-                            options.outlines,
+    const std::vector<FurtherFile> further{
+        {options.dual,
+         [&](AtomicFile& dual) {
+             write_dual(dual, dual_format(options.dual), dual_mesh(result, mesh, attributes));
+         }},
+        {options.labels,
+         [&](AtomicFile& labels) {
+             write_labels(labels, options.mesh.mesh, file.rows.size(), at_vertices);
+         }},
+        {options.split,
+         [&](AtomicFile& split) { write_cell_mesh(split, cell_format(options.split, ""), cuts); }},
+        {options.outlines,
+         [&](AtomicFile& outlines) {
+             write_cell_outlines(outlines, cell_format(options.outlines, ""), cuts);
+         }},
+    };
+    const CellReport report{options, mesh, warnings, result,
                             scene_frame(options.out, options.mesh, mesh)};
     write_outputs(
         options.out, "the samples", progress, report,

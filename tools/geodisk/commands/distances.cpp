@@ -121,13 +121,11 @@ void check_files(const DistanceCommand& options) {
     std::vector<NamedFile> read;
     options.mesh.add_files(read, "the mesh");
     options.source.add_files(read);
-    std::vector<NamedFile> further;
     if (!options.picture.empty()) {
         check_picture_path(options.picture);
-        further.push_back({"the picture", options.picture});
     }
-    check_outputs(
-        options.out, "the distances", read, [](const Path&) {}, further);
+    check_outputs(options.out, "the distances", read, [](const Path&) {},
+                  {{"the picture", options.picture}});
 }
 
 NumberedPoints sources_on(const DistanceCommand& options, const std::vector<VertexRange>& vertices,
@@ -263,20 +261,17 @@ void run_distances(const DistanceCommand& options) {
     warnings.insert(warnings.begin(), mesh.warnings.begin(), mesh.warnings.end());
     const double seconds =
         seconds_of([&] { table = measure(options, within, std::move(sources), mesh, progress); });
-    std::vector<FurtherFile> further;
+    picture::Pixels pixels;
     if (!options.picture.empty()) {
-        further.push_back(
-            {{"the picture", options.picture},
-             [pixels =
-                  draw_distances(options, mesh, table, largest_in(table), progress).picture.pixels](
-                 AtomicFile& file) { picture::write_png(file, pixels); }});
+        pixels = draw_distances(options, mesh, table, largest_in(table), progress).picture.pixels;
     }
     fold_copies(mesh.file, mesh.prepared.vertex_count(), table);
     const auto reached = static_cast<std::size_t>(
         std::ranges::count_if(table.distances, [](double d) { return std::isfinite(d); }));
     const DistanceReport report{options,           mesh,   warnings, table, reached,
                                 largest_in(table), seconds};
-    write_outputs(options.out, "the distances", progress, report, write, further);
+    write_outputs(options.out, "the distances", progress, report, write,
+                  {{options.picture, [&](AtomicFile& file) { picture::write_png(file, pixels); }}});
 }
 
 } // namespace

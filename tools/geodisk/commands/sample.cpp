@@ -96,8 +96,7 @@ void sample_to_files(const SampleOptions& options, const UnnamedOutputs& unnamed
                      SurfaceSampler* sampler) {
     check_output_or_dry_run(options.out);
     SampleJob job = parse_job(options);
-    const NamedFile picture{"the picture", job.picture};
-    check_outputs(job.out, "the samples", files_read(job), nullptr, {picture});
+    check_outputs(job.out, "the samples", files_read(job), nullptr, {{"the picture", job.picture}});
     if (!job.picture.empty()) {
         check_picture_path(job.picture);
     }
@@ -117,14 +116,10 @@ void sample_to_files(const SampleOptions& options, const UnnamedOutputs& unnamed
         publish(job.out, dry_sample_json(job, mesh, dry), dry_sample_text(job, mesh, dry));
         return;
     }
-    std::vector<FurtherFile> further;
     SampleResult result = sample_mesh(job, mesh, device, progress);
     print_warnings(result.warnings);
     if (!job.picture.empty()) {
         draw_samples(job, mesh, result, device, progress);
-        further.push_back({picture, [&](AtomicFile& file) {
-                               picture::write_png(file, result.picture->picture.pixels);
-                           }});
     }
     progress.clear();
     print_precision_note(job.out, result.rows, mesh.dimension());
@@ -132,10 +127,13 @@ void sample_to_files(const SampleOptions& options, const UnnamedOutputs& unnamed
     const auto write = [&](AtomicFile& file) {
         write_sample_file(file, job, mesh, result, report);
     };
+    const auto write_picture = [&](AtomicFile& file) {
+        picture::write_png(file, result.picture->picture.pixels);
+    };
     const auto name_files = [&](const std::vector<AtomicFile*>& files) {
         unnamed.name(files, job.out.output, job.picture);
     };
-    write_outputs(job.out, "the samples", progress, report, write, further,
+    write_outputs(job.out, "the samples", progress, report, write, {{job.picture, write_picture}},
                   unnamed.name ? NameFiles(name_files) : nullptr);
 }
 

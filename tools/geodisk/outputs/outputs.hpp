@@ -18,7 +18,7 @@ namespace geodisk::tools {
 
 /// A file that a command writes besides its output.
 struct FurtherFile {
-    NamedFile name;
+    std::string path; ///< "" for none.
     std::function<void(AtomicFile&)> write;
 };
 
@@ -58,7 +58,9 @@ void write_outputs(const OutputOptions& options, std::string_view what, Progress
     const double seconds = seconds_of([&] {
         write_file(options.output, write);
         for (const FurtherFile& other : further) {
-            write_file(other.name.path, other.write);
+            if (!other.path.empty()) {
+                write_file(other.path, other.write);
+            }
         }
     });
     progress.clear();
