@@ -7,6 +7,7 @@
 
 #include "files/samples/sample_columns.hpp"
 #include "geodisk/opened_device.hpp"
+#include "geodisk/reports/json.hpp"
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
 #include "program/interrupt.hpp"
@@ -24,6 +25,11 @@ ProgressCallback by_area(ProgressCallback shown) {
         weighed.decided = static_cast<std::uint32_t>(part * state.candidates);
         return shown(weighed);
     };
+}
+
+/// Returns a distance, or null for one that no path has.
+Json distance_json(double distance) {
+    return std::isfinite(distance) ? Json(distance) : Json(nullptr);
 }
 
 } // namespace
@@ -77,6 +83,41 @@ FarthestRun order_farthest(const MeshInput& mesh, std::span<const SampleRow> row
     run.seconds = watch.seconds();
     check_validation(device.context());
     return run;
+}
+
+HeaderEntries farthest_entries(const FarthestRun& run) {
+    HeaderEntries entries{{"order", "farthest"}};
+    if (run.order.indices.size() < run.samples) {
+        entries.emplace_back("kept_of", std::to_string(run.samples));
+    }
+    return entries;
+}
+
+Json farthest_json(const FarthestRun& run) {
+    const auto& distances = run.order.distances;
+    return {{"samples", run.samples},
+            {"kept", run.order.indices.size()},
+            {"min_cover", distances.empty() ? Json(nullptr) : distance_json(distances.back())},
+            {"left_out_within", distance_json(run.order.cover)},
+            {"error", run.order.error},
+            {"searches", run.order.searches},
+            {"disks", run.order.report.disks},
+            {"windows", run.order.report.windows}};
+}
+
+std::string farthest_line(const FarthestRun& run) {
+    const std::size_t kept = run.order.indices.size();
+    std::string text = "order         farthest first, " +
+                       counted(run.order.searches, "search", "searches") + ", " +
+                       seconds_text(run.seconds) + '\n';
+    if (kept < run.samples) {
+        const double cover{run.order.cover};
+        text += "kept          the first " + grouped(kept) + " of them" +
+                (std::isfinite(cover) ? "; the others are within " + rounded(cover, 6) + " of these"
+                                      : "; no path leads from these to some of the others") +
+                '\n';
+    }
+    return text;
 }
 
 } // namespace geodisk::tools

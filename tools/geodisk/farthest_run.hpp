@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
 #include <geodisk/farthest.hpp>
@@ -11,6 +12,7 @@
 #include "geodisk/device_run.hpp"
 #include "geodisk/inputs/mesh_input.hpp"
 #include "geodisk/outputs/progress.hpp"
+#include "geodisk/reports/json_type.hpp"
 
 namespace geodisk::tools {
 
@@ -37,5 +39,12 @@ struct FarthestRun {
 /// DeviceLost among them.
 FarthestRun order_farthest(const MeshInput& mesh, std::span<const SampleRow> rows,
                            const FarthestParams& params, RunDevice& device, ProgressLine& progress);
+
+/// Entries of the header of a sample file.
+HeaderEntries farthest_entries(const FarthestRun& run);
+/// Returns the facts for programs.
+Json farthest_json(const FarthestRun& run);
+/// A line of the summary.
+std::string farthest_line(const FarthestRun& run);
 
 } // namespace geodisk::tools

@@ -11,7 +11,6 @@
 #include "geodisk/options/sample_options.hpp"
 #include "geodisk/options/up_option.hpp"
 #include "geodisk/outputs/outputs.hpp"
-#include "geodisk/page_content.hpp"
 #include "geodisk/reports/page_report.hpp"
 #include "geodisk/reports/sample_report.hpp"
 #include "geodisk/sample_run.hpp"

@@ -29,7 +29,6 @@
 #include "geodisk/outputs/progress.hpp"
 #include "geodisk/outputs/scene_frame.hpp"
 #include "geodisk/records.hpp"
-#include "geodisk/reports/farthest_report.hpp"
 #include "geodisk/reports/json.hpp"
 #include "geodisk/reports/mesh_report.hpp"
 #include "geometry/mesh.hpp"

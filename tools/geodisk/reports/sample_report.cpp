@@ -13,7 +13,7 @@
 #include "files/samples/fingerprint.hpp"
 #include "files/samples/job_frame_text.hpp"
 #include "files/samples/sample_columns.hpp"
-#include "geodisk/reports/farthest_report.hpp"
+#include "geodisk/farthest_run.hpp"
 #include "geodisk/reports/json.hpp"
 #include "geodisk/reports/mesh_report.hpp"
 #include "program/exact_text.hpp"
