@@ -17,7 +17,6 @@
 #include "files/samples/sample_format.hpp"
 #include "files/samples/told_samples.hpp"
 #include "geodisk/inputs/manifest.hpp"
-#include "geodisk/options/sample_command.hpp"
 #include "geodisk/outputs/outputs.hpp"
 #include "geodisk/sample_run.hpp"
 #include "program/failure.hpp"

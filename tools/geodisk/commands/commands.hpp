@@ -15,7 +15,6 @@ class SurfaceSampler;
 struct OutputOptions;
 struct RenderOptions;
 struct SampleOptions;
-struct SpectrumOptions;
 
 /// Samples a mesh on a Vulkan device and writes the samples to a file.
 void add_sample_command(Command app);
@@ -64,9 +63,6 @@ void add_analyze_command(Command app);
 /// Computes the power spectrum of samples on a mesh or in a box of two dimensions, without a
 /// device.
 void add_spectrum_command(Command app);
-
-/// Runs `spectrum` on samples in boxes.
-void spectrum_of_boxes(const SpectrumOptions& options);
 
 /// Draws samples on a mesh or in a box on a Vulkan device and writes the picture to a file.
 void add_render_command(Command app);

@@ -1,11 +1,12 @@
 #include "geodisk/options/batch_options.hpp"
 
 #include <optional>
+#include <vector>
 
 #include "files/meshes/mesh_file.hpp"
 #include "files/samples/sample_format.hpp"
-#include "geodisk/options/sample_command.hpp"
 #include "program/command.hpp"
+#include "program/command_text.hpp"
 #include "program/exact_text.hpp"
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
@@ -14,6 +15,14 @@
 
 namespace geodisk::tools {
 namespace {
+
+/// Adds the options that choose samples and what their file has of them, all but its name.
+void add_manifest_options(Command command, SampleOptions& options) {
+    add_subject_options(command, options);
+    add_text_options(command, options.out);
+    add_columns_options(command, options.out);
+    add_scene_options(command, options.out);
+}
 
 void add_line_options(Command command, LineOptions& line) {
     add_mesh_argument(command, line.sample.mesh, "Mesh to sample");
@@ -187,6 +196,16 @@ LineOptions parse_line(const SampleOptions& common, const std::vector<std::strin
     take_given(sample.constraints.class_avoid, own.constraints.class_avoid);
     take_given(sample.classes, own.classes);
     return line;
+}
+
+std::string sample_command(const SampleOptions& options) {
+    SampleOptions given = options, usual;
+    std::vector<std::string> words{"sample", options.mesh.mesh, "-o", options.out.output};
+    const std::vector<std::string> more =
+        words_of([&](Command command) { add_manifest_options(command, given); },
+                 [&](Command command) { add_manifest_options(command, usual); });
+    words.insert(words.end(), more.begin(), more.end());
+    return command_text("geodisk", words);
 }
 
 } // namespace geodisk::tools

@@ -52,4 +52,8 @@ struct LineOptions {
 LineOptions parse_line(const SampleOptions& common, const std::vector<std::string>& words,
                        const Path& folder);
 
+/// The command, as a line for a shell, that gives the same samples in the same file. Options that
+/// change neither are not in it, so equal commands give equal files.
+std::string sample_command(const SampleOptions& options);
+
 } // namespace geodisk::tools
