@@ -212,11 +212,6 @@ void RunDevice::begin_open(Ahead ahead) {
     }
 }
 
-void RunDevice::close() {
-    opened_->device->is_lost = true; // It refuses all further work.
-    opened_.reset();
-}
-
 double RunDevice::compile(const Domain& domain, ProgressLine& progress) {
     open(progress);
     progress.begin_stage("compiling the shaders");
@@ -288,7 +283,8 @@ DeviceRun RunDevice::begin_search(ProgressLine& progress) {
 
 void RunDevice::check(const Error& error) {
     if (error.status == Status::device_lost) {
-        close();
+        opened_->device->is_lost = true; // It refuses all further work.
+        opened_.reset();
     }
     check_run(error, options_.device_bytes != 0);
 }

@@ -144,8 +144,6 @@ class RunDevice {
     std::shared_ptr<OpenDevice> open_shared(ProgressLine& progress);
     /// Waits for begin_open().
     Begun finish_open(ProgressLine& progress);
-    /// After the device was lost.
-    void close();
     SampleSet sample(const RequestStep& step, ProgressLine& progress);
 
     DeviceOptions device_;

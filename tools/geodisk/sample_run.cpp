@@ -14,7 +14,7 @@
 #include "files/meshes/part_columns.hpp"
 #include "files/output/block_writer.hpp"
 #include "files/samples/sample_columns.hpp"
-#include "geodisk/checks/spacing.hpp"
+#include "geodisk/checks/near_pairs.hpp"
 #include "geodisk/inputs/existing_input.hpp"
 #include "geodisk/outputs/outputs.hpp"
 #include "geodisk/records.hpp"

@@ -15,8 +15,6 @@ class Table {
     /// As many cells as columns.
     void add(std::vector<std::string> cells) { rows_.push_back(std::move(cells)); }
 
-    const std::vector<std::vector<std::string>>& rows() const { return rows_; }
-
     /// Aligned lines: the first columns to the left, all others to the right; '-' for an empty
     /// cell. The name of a column may have several lines.
     std::string text(std::size_t left_columns = 1) const;

@@ -62,12 +62,18 @@ std::vector<NotedPair> merged_pairs(const PairSearch& search, std::vector<NotedP
 /// Does what note_pairs() does.
 using NotePairs = std::function<std::vector<NotedPair>(const PairSearch&, ProgressLine&)>;
 
-/// As in spacing.hpp, by `note`.
+/// Computes the geodesic distances of all pairs that are not farther apart than a cut somewhat
+/// beyond the distance that they must keep, which is positive. Rows with `existing` other than 0
+/// existed before; if it is empty, none did. Every row's face must be one of the mesh. Throws
+/// UserError when interrupted.
 ExistingSpacing check_spacing(const MeshInput& mesh, std::span<const SampleRow> rows,
                               const PairDistances& distances,
                               std::span<const std::uint32_t> existing, ProgressLine& progress,
-                              const NotePairs& note);
+                              const NotePairs& note = note_pairs);
+
+/// Returns the closest pair of all, by distance, however far apart; none if no path joins any two
+/// samples. Conditions and errors are those of check_spacing().
 std::optional<ClosePair> find_closest(const MeshInput& mesh, std::span<const SampleRow> rows,
-                                      ProgressLine& progress, const NotePairs& note);
+                                      ProgressLine& progress, const NotePairs& note = note_pairs);
 
 } // namespace geodisk::tools

@@ -10,8 +10,8 @@
 
 #include "files/samples/fingerprint.hpp"
 #include "files/samples/sample_columns.hpp"
+#include "geodisk/checks/near_pairs.hpp"
 #include "geodisk/checks/sample_classes.hpp"
-#include "geodisk/checks/spacing.hpp"
 #include "geodisk/outputs/outputs.hpp"
 #include "program/exact_text.hpp"
 #include "program/failure.hpp"

@@ -89,29 +89,11 @@ struct PairDistances {
     }
 };
 
-/// Computes the geodesic distances of all pairs that are not farther apart than a cut somewhat
-/// beyond the sum of their radii, which are positive, one to a row.
-///
-/// Every row's face must be one of the mesh. Throws UserError when interrupted.
-SpacingResult check_spacing(const MeshInput& mesh, std::span<const SampleRow> rows,
-                            std::span<const double> radii, ProgressLine& progress);
-
 /// Pairs of samples of which some existed before.
 struct ExistingSpacing {
     SpacingResult others;         ///< Pairs with a new sample.
     SpacingResult among_existing; ///< Pairs of existing samples, whose distance is the user's.
 };
-
-/// Checks rows of which those with `existing` other than 0 existed before. If it is empty, none
-/// did.
-ExistingSpacing check_spacing(const MeshInput& mesh, std::span<const SampleRow> rows,
-                              const PairDistances& distances,
-                              std::span<const std::uint32_t> existing, ProgressLine& progress);
-
-/// The closest pair of all, by distance, however far apart; none if no path joins any two samples.
-/// Conditions and errors are those of check_spacing().
-std::optional<ClosePair> find_closest(const MeshInput& mesh, std::span<const SampleRow> rows,
-                                      ProgressLine& progress);
 
 /// Computes the distances of all pairs that are not much farther apart than the minimum distance
 /// of the box. Rows must lie in it. Throws UserError when interrupted.

@@ -46,17 +46,6 @@ ExistingSpacing check_spacing(const MeshInput& mesh, std::span<const SampleRow> 
     return result;
 }
 
-ExistingSpacing check_spacing(const MeshInput& mesh, std::span<const SampleRow> rows,
-                              const PairDistances& distances,
-                              std::span<const std::uint32_t> existing, ProgressLine& progress) {
-    return check_spacing(mesh, rows, distances, existing, progress, note_pairs);
-}
-
-SpacingResult check_spacing(const MeshInput& mesh, std::span<const SampleRow> rows,
-                            std::span<const double> radii, ProgressLine& progress) {
-    return check_spacing(mesh, rows, PairDistances{radii}, {}, progress).others;
-}
-
 std::optional<ClosePair> find_closest(const MeshInput& mesh, std::span<const SampleRow> rows,
                                       ProgressLine& progress, const NotePairs& note) {
     constexpr double kCutFactor = 1.25; // Of the distance expected.
@@ -83,11 +72,6 @@ std::optional<ClosePair> find_closest(const MeshInput& mesh, std::span<const Sam
         distance *= 2;
     }
     return closest;
-}
-
-std::optional<ClosePair> find_closest(const MeshInput& mesh, std::span<const SampleRow> rows,
-                                      ProgressLine& progress) {
-    return find_closest(mesh, rows, progress, note_pairs);
 }
 
 } // namespace geodisk::tools

@@ -87,7 +87,9 @@ void add_box_command(Command app) {
                 listed_formats(is_for_viewers, "*.") +
                 " with 0 for coordinates that the box lacks"));
     add_box_options(command, *options);
-    add_run_options(command, options->run);
+    add_seed_option(command, options->run);
+    add_device_options(command, options->run.device);
+    add_limit_options(command, options->run);
     add_output_options(command, options->out);
     add_verbose_option(command, options->run.device);
     command.has_footer(help_footer(kBoxExamples));

@@ -17,7 +17,6 @@
 #include "geodisk/checks/sample_checks.hpp"
 #include "geodisk/checks/sample_classes.hpp"
 #include "geodisk/checks/sample_input.hpp"
-#include "geodisk/checks/spacing.hpp"
 #include "geodisk/checks/wanted_spacing.hpp"
 #include "geodisk/commands/commands.hpp"
 #include "geodisk/commands/help_text.hpp"

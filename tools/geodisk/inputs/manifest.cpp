@@ -8,7 +8,11 @@
 #include "program/failure.hpp"
 
 namespace geodisk::tools {
+namespace {
 
+/// Returns the words of `line`, between blanks and tabs. Those in single or double quotes belong
+/// together, also within a word; a # where a word may begin ends the line. Throws UserError(usage)
+/// for a quote without end.
 std::vector<std::string> split_words(const std::string& line) {
     constexpr std::string_view kBlanks = " \t";
     std::vector<std::string> words;
@@ -34,6 +38,8 @@ std::vector<std::string> split_words(const std::string& line) {
     }
     return words;
 }
+
+} // namespace
 
 std::vector<ManifestLine> read_manifest(const Path& path) {
     const std::string text = read_text(path);

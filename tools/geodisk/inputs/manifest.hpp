@@ -14,13 +14,8 @@ struct ManifestLine {
     std::vector<std::string> words;
 };
 
-/// The words of `line`, between blanks and tabs. Those in single or double quotes belong together,
-/// also within a word; a # where a word may begin ends the line. Throws UserError(usage) for a
-/// quote without end.
-std::vector<std::string> split_words(const std::string& line);
-
 /// The lines that have words. Throws UserError: `bad_input` for a file that cannot be read, `usage`
-/// naming the line for what split_words() refuses.
+/// naming the line for a quote without end.
 std::vector<ManifestLine> read_manifest(const Path& path);
 
 /// "PATH: line NUMBER".

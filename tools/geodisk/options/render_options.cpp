@@ -21,6 +21,17 @@ std::uint32_t parse_side(const std::string& text, std::string_view side) {
 
 } // namespace
 
+std::optional<picture::Up> UpOption::parsed() const {
+    return axis.empty() ? std::nullopt : std::optional(picture::parse_up("--up", axis));
+}
+
+void add_up_option(Command command, UpOption& option) {
+    command
+        .add_option("--up", option.axis, "AXIS",
+                    "Axis that points up: x, y or z (default: guess from the mesh)")
+        .offers({"x", "y", "z"});
+}
+
 void add_render_options(Command command, RenderOptions& options) {
     add_mesh_argument(command, options.mesh,
                       "Mesh that the samples were made on; or, without SAMPLES,\n"

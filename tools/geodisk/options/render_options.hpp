@@ -1,16 +1,28 @@
 // The options of `geodisk render`, and the picture that they ask for.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "geodisk/options/distance_options.hpp"
 #include "geodisk/options/mesh_options.hpp"
 #include "geodisk/options/run_options.hpp"
-#include "geodisk/options/up_option.hpp"
 #include "picture/picture.hpp"
+#include "picture/view.hpp"
 
 namespace geodisk::tools {
+
+/// Axis that points up in pictures, as given on the command line.
+struct UpOption {
+    std::string axis; ///< "" where a picture chooses.
+
+    /// Throws UserError(usage) naming the option.
+    std::optional<picture::Up> parsed() const;
+};
+
+/// Adds --up.
+void add_up_option(Command command, UpOption& option);
 
 /// As given on the command line.
 struct RenderOptions {

@@ -173,10 +173,4 @@ void add_limit_options(Command command, RunOptions& options) {
                        "(default 120; CPU 600)");
 }
 
-void add_run_options(Command command, RunOptions& options) {
-    add_seed_option(command, options);
-    add_device_options(command, options.device);
-    add_limit_options(command, options);
-}
-
 } // namespace geodisk::tools

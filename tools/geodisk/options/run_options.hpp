@@ -104,7 +104,4 @@ void add_seed_option(Command command, RunOptions& options);
 /// Adds --memory and --stall-timeout.
 void add_limit_options(Command command, RunOptions& options);
 
-/// Adds all of them.
-void add_run_options(Command command, RunOptions& options);
-
 } // namespace geodisk::tools
