@@ -34,6 +34,9 @@ void append_tokens(std::string_view line, std::vector<std::string_view>& tokens)
 /// Replaces `tokens` with the parts of `line` between blanks and tabs.
 void split_tokens(std::string_view line, std::vector<std::string_view>& tokens);
 
+/// Returns the parts of `text` between commas, empty ones as well; none of "".
+std::vector<std::string> parts_of(std::string_view text);
+
 /// `text` without blanks and tabs at both ends.
 std::string_view trimmed(std::string_view text);
 

@@ -16,6 +16,7 @@
 #include "files/meshes/polygon_mesh.hpp"
 #include "files/name_text.hpp"
 #include "files/samples/sample_columns.hpp"
+#include "program/exact_text.hpp"
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
 #include "program/suggestion.hpp"
@@ -468,9 +469,10 @@ std::size_t WantedFields::place_of(std::string_view name) const {
 WantedFields parse_fields(const std::string& text) {
     WantedFields wanted;
     wanted.all = text == kAll;
-    for (std::size_t begin = 0; !text.empty() && !wanted.all && begin <= text.size();) {
-        const std::size_t end = std::min(text.find(',', begin), text.size());
-        std::string name = text.substr(begin, end - begin);
+    if (wanted.all) {
+        return wanted;
+    }
+    for (std::string& name : parts_of(text)) {
         if (name.empty() || name == kAll) {
             fail_usage("--attributes: " + in_quotes(text) +
                        " is neither all nor a list of names with commas between");
@@ -479,7 +481,6 @@ WantedFields parse_fields(const std::string& text) {
             fail_usage("--attributes: " + name + " is given twice");
         }
         wanted.names.push_back(std::move(name));
-        begin = end + 1;
     }
     return wanted;
 }

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "geometry/mesh_parts.hpp"
+#include "program/exact_text.hpp"
 #include "program/failure.hpp"
 #include "program/human_text.hpp"
 #include "program/suggestion.hpp"
@@ -64,9 +65,7 @@ std::vector<std::string> part_column_names() {
 
 std::vector<std::string> parse_part_columns(const std::string& text) {
     std::vector<std::string> names;
-    for (std::size_t begin = 0; !text.empty() && begin <= text.size();) {
-        const std::size_t end = std::min(text.find(',', begin), text.size());
-        const std::string name = text.substr(begin, end - begin);
+    for (const std::string& name : parts_of(text)) {
         if (find_column(name) == nullptr) {
             fail_usage("--columns: " + in_quotes(name) + " is none of " +
                        listed(part_column_names()));
@@ -75,7 +74,6 @@ std::vector<std::string> parse_part_columns(const std::string& text) {
             fail_usage("--columns: " + name + " is given twice");
         }
         names.push_back(name);
-        begin = end + 1;
     }
     return names;
 }

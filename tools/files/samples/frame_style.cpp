@@ -1,7 +1,6 @@
 #include "files/samples/frame_style.hpp"
 
 #include <optional>
-#include <sstream>
 
 #include "program/exact_text.hpp"
 #include "program/failure.hpp"
@@ -35,8 +34,7 @@ FrameStyle parse_frame_style(const std::string& option, const std::string& text)
     }
     std::optional<Up> model;
     std::optional<double> part;
-    std::istringstream words(text + ','); // Or getline would leave out an empty word at the end.
-    for (std::string word; std::getline(words, word, ',');) {
+    for (const std::string& word : parts_of(text)) {
         if (const auto axis = find_up(word)) {
             set_once(option, text, model, *axis, "the axis of the model");
         } else if (const auto found = find_part(word)) {

@@ -92,16 +92,13 @@ std::vector<VertexRange> SourceOptions::ranges() const {
         return vertices_in(file);
     }
     std::vector<VertexRange> found;
-    const std::string_view list = vertices;
-    for (std::size_t begin = 0; begin <= list.size() && !list.empty();) {
-        const std::size_t end = std::min(list.find(',', begin), list.size());
-        const std::string_view item = trimmed(list.substr(begin, end - begin));
+    for (const std::string& part : parts_of(vertices)) {
+        const std::string_view item = trimmed(part);
         const auto range = parsed_range(item);
         if (!range) {
             fail_usage("--vertices: " + no_range_text(item));
         }
         found.push_back(*range);
-        begin = end + 1;
     }
     return found;
 }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 #include <vector>
 
 #include "program/arguments.hpp"
@@ -13,16 +12,6 @@
 
 namespace geodisk::tools {
 namespace {
-
-/// The parts between commas, empty ones as well; none of "".
-std::vector<std::string> parts_of(const std::string& text) {
-    std::vector<std::string> parts;
-    std::istringstream stream(text.empty() ? text : text + ',');
-    for (std::string part; std::getline(stream, part, ',');) {
-        parts.push_back(part);
-    }
-    return parts;
-}
 
 std::vector<double> parse_sides(const BoxOptions& options) {
     const std::vector<std::string> extents = parts_of(options.extents);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 #include "program/arguments.hpp"
 #include "program/command.hpp"
@@ -66,8 +65,7 @@ bool has_class_counts(const std::string& count) {
 
 std::vector<std::uint32_t> parse_class_counts(const std::string& count) {
     std::vector<std::uint32_t> counts;
-    std::istringstream words(count + ' '); // So that a comma at the end has an empty word after it.
-    for (std::string word; std::getline(words, word, ',');) {
+    for (std::string word : parts_of(count)) {
         word.erase(std::remove(word.begin(), word.end(), ' '), word.end());
         counts.push_back(parse_candidates("--count", word));
     }
