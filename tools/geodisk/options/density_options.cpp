@@ -20,12 +20,14 @@ using Kind = DensitySource::Kind;
 constexpr std::array<std::pair<std::string_view, Kind>, 3> kPrefixes{
     {{"attribute:", Kind::attribute}, {"file:", Kind::file}, {"map:", Kind::map}}};
 
-DensitySource old_source(const std::string& option, Kind kind, const std::string& name) {
-    DensitySource source;
-    source.option = option;
-    source.kind = kind;
-    source.name = name;
-    return source;
+/// Returns what `option`, one of given(), says, as --density and --radius-factor take it.
+std::string source_text(const std::string& option, const std::string& value) {
+    constexpr std::string_view kBefore = "--density-"; // Then a kind.
+    if (!option.starts_with(kBefore)) {
+        return value;
+    }
+    const std::string kind = option.substr(kBefore.size());
+    return value.empty() ? kind : kind + ':' + value;
 }
 
 } // namespace
@@ -104,18 +106,7 @@ std::optional<DensitySource> DensityOptions::source() const {
         return std::nullopt;
     }
     const auto& [name, value] = sources.front();
-    DensitySource source;
-    if (name == "--density" || name == "--radius-factor") {
-        source = parse_source(name, value);
-    } else if (!attribute.empty()) {
-        source = old_source(name, Kind::attribute, attribute);
-    } else if (!file.empty()) {
-        source = old_source(name, Kind::file, file);
-    } else if (!map.empty()) {
-        source = old_source(name, Kind::map, map);
-    } else {
-        source = old_source(name, Kind::curvature, "");
-    }
+    DensitySource source = parse_source(name, source_text(name, value));
     source.is_density = is_density();
     if (!least.empty()) {
         if (source.is_density) {
