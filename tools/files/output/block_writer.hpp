@@ -21,6 +21,16 @@ using AppendRows = std::function<void(std::string& bytes, std::size_t begin, std
 /// signal.
 void write_rows(AtomicFile& file, std::size_t count, const AppendRows& append);
 
+/// Does this with `append(bytes, row)`, which appends one row.
+template <class Append>
+void write_each(AtomicFile& file, std::size_t count, const Append& append) {
+    write_rows(file, count, [&](std::string& bytes, std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            append(bytes, i);
+        }
+    });
+}
+
 /// Calls `work(i)` for each row below `count`, on several threads.
 template <class Work>
 void for_rows(std::size_t count, const Work& work) {

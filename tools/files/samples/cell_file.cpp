@@ -51,16 +51,6 @@ void append_point(std::string& text, const CutCells& cells, std::size_t vertex) 
     text += '\n';
 }
 
-/// Writes rows of text or bytes, one at a time.
-template <class Append>
-void write_each(AtomicFile& file, std::size_t count, const Append& append) {
-    write_rows(file, count, [&](std::string& bytes, std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-            append(bytes, i);
-        }
-    });
-}
-
 void write_obj_mesh(AtomicFile& file, const CutCells& cells) {
     write_each(file, point_count(cells), [&](std::string& text, std::size_t i) {
         text += 'v';

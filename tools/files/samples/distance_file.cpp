@@ -27,19 +27,16 @@ void write_distances(AtomicFile& file, const SampleTarget& target, const Distanc
         return;
     }
     file.write("vertex,distance,source\n");
-    write_rows(
-        file, table.distances.size(), [&](std::string& bytes, std::size_t begin, std::size_t end) {
-            for (std::size_t i = begin; i < end; ++i) {
-                if (std::isfinite(table.distances[i])) {
-                    append_number(bytes, i % vertices);
-                    bytes += ',';
-                    append_number(bytes, table.distances[i]);
-                    bytes += ',';
-                    append_number(bytes, has_rows ? table.sources[i / vertices] : table.nearest[i]);
-                    bytes += '\n';
-                }
-            }
-        });
+    write_each(file, table.distances.size(), [&](std::string& bytes, std::size_t i) {
+        if (std::isfinite(table.distances[i])) {
+            append_number(bytes, i % vertices);
+            bytes += ',';
+            append_number(bytes, table.distances[i]);
+            bytes += ',';
+            append_number(bytes, has_rows ? table.sources[i / vertices] : table.nearest[i]);
+            bytes += '\n';
+        }
+    });
 }
 
 } // namespace geodisk::tools

@@ -49,11 +49,9 @@ void write_obj_dual(AtomicFile& file, const DualMesh& mesh) {
     const SampleField* const colour = find_field(mesh, kColourField);
     const SampleField* const uv = find_field(mesh, kUvField);
     const auto write_lines = [&](std::size_t count, const auto& append) {
-        write_rows(file, count, [&](std::string& bytes, std::size_t begin, std::size_t end) {
-            for (std::size_t i = begin; i < end; ++i) {
-                append(bytes, i);
-                bytes += '\n';
-            }
+        write_each(file, count, [&](std::string& bytes, std::size_t i) {
+            append(bytes, i);
+            bytes += '\n';
         });
     };
     write_lines(samples, [&](std::string& bytes, std::size_t i) {
@@ -92,22 +90,17 @@ void write_ply_dual(AtomicFile& file, const DualMesh& mesh) {
                '\n' + ply_properties(layout) + "element face " +
                std::to_string(mesh.triangles.size()) +
                "\nproperty list uchar int vertex_indices\nend_header\n");
-    write_rows(file, samples, [&](std::string& bytes, std::size_t begin, std::size_t end) {
+    write_each(file, samples, [&](std::string& bytes, std::size_t i) {
         SampleRow row;
-        for (std::size_t i = begin; i < end; ++i) {
-            std::copy_n(&mesh.points[3 * i], 3, row.position);
-            append_binary_row(bytes, row, i, layout);
+        std::copy_n(&mesh.points[3 * i], 3, row.position);
+        append_binary_row(bytes, row, i, layout);
+    });
+    write_each(file, mesh.triangles.size(), [&](std::string& bytes, std::size_t i) {
+        bytes += '\3';
+        for (const std::uint32_t corner : mesh.triangles[i]) {
+            append_little_endian(bytes, corner);
         }
     });
-    write_rows(file, mesh.triangles.size(),
-               [&](std::string& bytes, std::size_t begin, std::size_t end) {
-                   for (std::size_t i = begin; i < end; ++i) {
-                       bytes += '\3';
-                       for (const std::uint32_t corner : mesh.triangles[i]) {
-                           append_little_endian(bytes, corner);
-                       }
-                   }
-               });
 }
 
 constexpr const char *kPoints = "points", *kEdges = "edges", *kTriangles = "triangles";

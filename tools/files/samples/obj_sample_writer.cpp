@@ -20,21 +20,15 @@ void append_triple(std::string& text, std::string_view name, const Number* tripl
 void write_obj(AtomicFile& file, const SampleHeader& header, std::span<const SampleRow> rows,
                const SampleTarget& target, const SampleLayout& layout) {
     file.write(entry_lines(header, target, "# "));
-    // Writes what `append(text, i)` appends for each row.
-    const auto write_each = [&](const auto& append) {
-        write_rows(file, rows.size(), [&](std::string& text, std::size_t begin, std::size_t end) {
-            for (std::size_t i = begin; i < end; ++i) {
-                append(text, i);
-            }
-        });
-    };
-    write_each(
-        [&](std::string& text, std::size_t i) { append_triple(text, "v", rows[i].position); });
+    write_each(file, rows.size(), [&](std::string& text, std::size_t i) {
+        append_triple(text, "v", rows[i].position);
+    });
     if (layout.has_normals()) {
-        write_each(
-            [&](std::string& text, std::size_t i) { append_triple(text, "vn", rows[i].normal); });
+        write_each(file, rows.size(), [&](std::string& text, std::size_t i) {
+            append_triple(text, "vn", rows[i].normal);
+        });
     }
-    write_each([](std::string& text, std::size_t i) {
+    write_each(file, rows.size(), [](std::string& text, std::size_t i) {
         text += "p ";
         append_number(text, i + 1);
         text += '\n';

@@ -50,13 +50,11 @@ void write_pcd(AtomicFile& file, const SampleHeader& header, std::span<const Sam
     file.write("VERSION 0.7\nFIELDS" + fields + "\nSIZE" + sizes + "\nTYPE" + types + "\nCOUNT" +
                counts + "\nWIDTH " + count + "\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS " +
                count + "\nDATA " + (target.is_text ? "ascii" : "binary") + '\n');
-    write_rows(file, rows.size(), [&](std::string& bytes, std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-            if (target.is_text) {
-                append_text_row(bytes, rows[i], i, layout, ' ');
-            } else {
-                append_binary_row(bytes, rows[i], i, layout);
-            }
+    write_each(file, rows.size(), [&](std::string& bytes, std::size_t i) {
+        if (target.is_text) {
+            append_text_row(bytes, rows[i], i, layout, ' ');
+        } else {
+            append_binary_row(bytes, rows[i], i, layout);
         }
     });
 }

@@ -96,11 +96,8 @@ void write_by_row(AtomicFile& file, const SampleHeader& header, std::span<const 
                   const SampleTarget& target, const SampleLayout& layout) {
     const RowFormat format(target, layout);
     file.write(format.head(header, rows.size()));
-    write_rows(file, rows.size(), [&](std::string& bytes, std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-            format.append(bytes, rows[i], i);
-        }
-    });
+    write_each(file, rows.size(),
+               [&](std::string& bytes, std::size_t i) { format.append(bytes, rows[i], i); });
 }
 
 } // namespace geodisk::tools

@@ -119,30 +119,28 @@ void write_star(AtomicFile& file, const SampleHeader& header, std::span<const Sa
 
     const double pixel = target.pixel_size.value_or(1);
     const std::string middle = ' ' + name + ' ' + name + " 1";
-    write_rows(file, rows.size(), [&](std::string& bytes, std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-            for (std::size_t axis = 0; axis < 3; ++axis) {
-                bytes += axis > 0 ? " " : "";
-                append_number(bytes, rows[i].position[axis] / pixel);
-            }
-            bytes += middle;
-            if (has_angles) {
-                ParticleAngles angles = particle_angles(rows[i].normal);
-                if (frames != nullptr) {
-                    const double* const q = &frames->values[4 * i];
-                    angles = particle_angles({q[0], q[1], q[2], q[3]});
-                }
-                for (const double angle : {angles.rot, angles.tilt, angles.psi}) {
-                    bytes += ' ';
-                    append_number(bytes, angle);
-                }
-            }
-            visit_columns(rows[i], i, further, [&](std::string_view, auto value) {
-                bytes += ' ';
-                append_number(bytes, value);
-            });
-            bytes += '\n';
+    write_each(file, rows.size(), [&](std::string& bytes, std::size_t i) {
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            bytes += axis > 0 ? " " : "";
+            append_number(bytes, rows[i].position[axis] / pixel);
         }
+        bytes += middle;
+        if (has_angles) {
+            ParticleAngles angles = particle_angles(rows[i].normal);
+            if (frames != nullptr) {
+                const double* const q = &frames->values[4 * i];
+                angles = particle_angles({q[0], q[1], q[2], q[3]});
+            }
+            for (const double angle : {angles.rot, angles.tilt, angles.psi}) {
+                bytes += ' ';
+                append_number(bytes, angle);
+            }
+        }
+        visit_columns(rows[i], i, further, [&](std::string_view, auto value) {
+            bytes += ' ';
+            append_number(bytes, value);
+        });
+        bytes += '\n';
     });
     file.write("\n");
 }

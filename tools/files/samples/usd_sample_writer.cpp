@@ -70,11 +70,9 @@ class Properties {
     void add(const std::string& declaration, std::size_t components, const Value& value,
              bool is_primvar = false) {
         file_.write(std::string(kIndent) + declaration + " = [");
-        write_rows(file_, rows_, [&](std::string& text, std::size_t begin, std::size_t end) {
-            for (std::size_t i = begin; i < end; ++i) {
-                text += i > 0 ? ", " : "";
-                append_value(text, components, [&](std::size_t k) { return value(i, k); });
-            }
+        write_each(file_, rows_, [&](std::string& text, std::size_t i) {
+            text += i > 0 ? ", " : "";
+            append_value(text, components, [&](std::size_t k) { return value(i, k); });
         });
         const std::string size = has_type(components)
                                      ? ""
