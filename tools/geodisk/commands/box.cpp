@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "files/samples/sample_format.hpp"
-#include "geodisk/box_run.hpp"
 #include "geodisk/commands/commands.hpp"
 #include "geodisk/commands/help_text.hpp"
 #include "geodisk/device_run.hpp"
@@ -47,11 +46,12 @@ void run_box(const BoxOptions& options) {
     ProgressLine progress(job.out.quiet);
     RunDevice device(job.run.device, job.runner);
     if (job.out.is_dry_run) {
-        const DryRun dry = dry_run_on_device(device, box_request(job), job.box.seed, progress);
+        const DryRun dry = dry_run_on_device(device, job.request(), job.box.seed, progress);
         publish(job.out, dry_box_json(job, dry), dry_box_text(job, dry));
         return;
     }
-    const auto [found, done] = sample_box(job, device, progress);
+    const auto [found, done] = device.run(job.request(), progress);
+    job.box.min_distance = done.min_distance;
     const std::vector<SampleRow> rows = to_rows(found.set.points, dimension);
     job.method.check_count(rows.size(), job.box.min_distance, done.run.candidates);
     for (const MeshWarning& warning : set_warnings({.samples = rows.size(),

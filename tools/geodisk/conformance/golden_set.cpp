@@ -11,8 +11,8 @@
 
 #include "files/samples/fingerprint.hpp"
 #include "files/text_file.hpp"
-#include "geodisk/box_run.hpp"
 #include "geodisk/inputs/mesh_input.hpp"
+#include "geodisk/options/box_options.hpp"
 #include "geodisk/sample_run.hpp"
 #include "program/command.hpp"
 #include "program/exact_text.hpp"
@@ -133,8 +133,8 @@ FoundSet find_on_surfaces(const SampleJob& job, std::span<const std::string> nam
     return found(fingerprint_of(rows), rows.size(), done);
 }
 
-FoundSet find_in_box(BoxJob job, RunDevice& device, ProgressLine& progress) {
-    const auto [result, done] = sample_box(job, device, progress);
+FoundSet find_in_box(const BoxJob& job, RunDevice& device, ProgressLine& progress) {
+    const auto [result, done] = device.run(job.request(), progress);
     const std::vector<double>& points = result.set.points;
     return found(fingerprint_of(points), points.size() / job.box.extents.size(), done);
 }

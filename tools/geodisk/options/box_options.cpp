@@ -68,6 +68,10 @@ void add_box_options(Command command, BoxOptions& options) {
     add_method_options(command, options.method, "the box");
 }
 
+RequestRun BoxJob::request() const {
+    return take(RequestRun::create(BoxRequest{box, wanted_count.samples, wanted_count.is_exact}));
+}
+
 BoxJob parse_job(const BoxOptions& options) {
     check_one_distance(options.method,
                        {{"--min-distance", options.min_distance}, {"--count", options.count}});

@@ -4,6 +4,7 @@
 #include <string>
 
 #include <geodisk/box.hpp>
+#include <geodisk/request.hpp>
 #include <geodisk/runner.hpp>
 
 #include "geodisk/options/method_options.hpp"
@@ -32,6 +33,9 @@ struct BoxJob {
     Method method;
     WantedCount wanted_count;
     RunnerOptions runner;
+
+    /// Returns the runs that the job takes; it must outlive them. Throws UserError.
+    RequestRun request() const;
 };
 
 /// Throws UserError(usage) for values out of range and options that contradict each other.
