@@ -83,8 +83,8 @@ double parse_units(const std::string& option, const std::string& text) {
             return metres;
         }
     }
-    const std::optional<double> value = parse_real(trimmed(text));
-    if (!value || !(*value > 0) || !std::isfinite(*value)) {
+    const std::optional<double> value = parse_positive(trimmed(text));
+    if (!value) {
         fail(option, text, "is neither mm, cm, m, km, in or ft, nor a positive number of metres");
     }
     return *value;

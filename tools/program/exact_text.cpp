@@ -1,6 +1,7 @@
 #include "program/exact_text.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <system_error>
 #include <utility>
@@ -99,6 +100,11 @@ std::optional<double> parse_real(std::string_view text) {
         return windows_value(text);
     }
     return error == std::errc::result_out_of_range ? out_of_range_value(text) : value;
+}
+
+std::optional<double> parse_positive(std::string_view text) {
+    const std::optional<double> value = parse_real(text);
+    return value && *value > 0 && std::isfinite(*value) ? value : std::nullopt;
 }
 
 } // namespace geodisk::tools

@@ -44,6 +44,9 @@ std::string_view trimmed(std::string_view text);
 /// anything else. A number too big for a double is infinite, one too small is zero.
 std::optional<double> parse_real(std::string_view text);
 
+/// All of `text` as such a number if it is positive and finite.
+std::optional<double> parse_positive(std::string_view text);
+
 /// All of `text` as a decimal integer; nothing if it is anything else or does not fit.
 template <std::integral Integer>
 std::optional<Integer> parse_integer(std::string_view text) {

@@ -1,7 +1,6 @@
 #include "geodisk/checks/level_checks.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <string_view>
@@ -29,9 +28,8 @@ std::vector<double> distances_in(const std::string& path, const std::string& tex
     split_tokens(text, words);
     std::vector<double> distances;
     for (const std::string_view word : words) {
-        const std::optional<double> distance = parse_real(word);
-        if (!distance || !(*distance > 0) || !std::isfinite(*distance) ||
-            (!distances.empty() && !(*distance < distances.back()))) {
+        const std::optional<double> distance = parse_positive(word);
+        if (!distance || (!distances.empty() && !(*distance < distances.back()))) {
             fail_input(path, "its header has the distances of levels " + in_quotes(text) +
                                  ", not positive numbers that fall");
         }

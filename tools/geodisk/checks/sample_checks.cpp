@@ -70,8 +70,8 @@ double header_distance(const SampleFile& samples) {
     if (value == nullptr) {
         fail_usage(samples.path + ": its header has no minimum distance; give --min-distance");
     }
-    const std::optional<double> distance = parse_real(trimmed(*value));
-    if (!distance || !(*distance > 0) || !std::isfinite(*distance)) {
+    const std::optional<double> distance = parse_positive(trimmed(*value));
+    if (!distance) {
         fail_input(samples.path, "its header has the minimum distance " + in_quotes(*value) +
                                      ", not a positive number; give --min-distance");
     }

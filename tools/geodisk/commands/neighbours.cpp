@@ -69,8 +69,8 @@ Length parse_area(const std::string& within) {
     std::string_view number = std::string_view(within).substr(kArea.size());
     const bool is_percent = number.ends_with('%');
     number.remove_suffix(is_percent ? 1 : 0);
-    const auto value = parse_real(number);
-    if (!value || !(*value > 0) || !std::isfinite(*value)) {
+    const auto value = parse_positive(number);
+    if (!value) {
         fail_usage("--within: " + in_quotes(within) +
                    " is no positive, finite area; give area:1% of the mesh, or square mesh units");
     }

@@ -1,6 +1,5 @@
 #include "geodisk/inputs/box_input.hpp"
 
-#include <cmath>
 #include <optional>
 #include <string_view>
 #include <vector>
@@ -20,8 +19,8 @@ std::vector<double> parse_sides(std::string_view text) {
     std::vector<double> sides;
     for (bool more = true; more;) {
         const std::size_t end = text.find(" x ");
-        const std::optional<double> side = parse_real(trimmed(text.substr(0, end)));
-        if (!side || !(*side > 0) || !std::isfinite(*side)) {
+        const std::optional<double> side = parse_positive(trimmed(text.substr(0, end)));
+        if (!side) {
             return {};
         }
         sides.push_back(*side);

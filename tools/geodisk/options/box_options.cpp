@@ -35,8 +35,8 @@ std::vector<double> parse_sides(const BoxOptions& options) {
     }
     std::vector<double> sides(dimension, 1.0);
     for (std::size_t axis = 0; axis < extents.size(); ++axis) {
-        const auto side = parse_real(trimmed(extents[axis]));
-        if (!side || !(*side > 0) || !std::isfinite(*side)) {
+        const auto side = parse_positive(trimmed(extents[axis]));
+        if (!side) {
             fail_usage("--extents: " + in_quotes(extents[axis]) +
                        " is not a positive, finite length");
         }

@@ -106,8 +106,8 @@ std::string maximal_line(const SampleJob& job, const MeshInput& mesh, const Samp
         return head + "certified: no further sample fits\n";
     }
     return head + "certified: every point" +
-           (mesh.face_mask.empty() ? "" : " that may have a sample") + " is within " +
-           rounded(report.largest_gap * mesh.distance_part, 6) + " of a sample" +
+           (mesh.face_mask.empty() ? "" : " that may have a sample") + " is within " + gap +
+           " of a sample" +
            (result.avoided > 0 || result.avoided_length > 0 ? " or avoided\n" : "\n");
 }
 
