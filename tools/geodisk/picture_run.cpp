@@ -8,7 +8,6 @@
 #include "files/input_file.hpp"
 #include "geodisk/opened_device.hpp"
 #include "geodisk/outputs/outputs.hpp"
-#include "geodisk/reports/picture_subject.hpp"
 #include "picture/png.hpp"
 #include "picture/surface_content.hpp"
 #include "program/failure.hpp"

@@ -13,6 +13,7 @@
 #include "geodisk/inputs/mesh_input.hpp"
 #include "geodisk/options/render_options.hpp"
 #include "geodisk/outputs/progress.hpp"
+#include "geodisk/reports/json.hpp"
 #include "picture/picture.hpp"
 #include "picture/scene.hpp"
 #include "program/path.hpp"
@@ -31,7 +32,12 @@ struct DrawnPicture {
 /// Opens a device that can draw.
 using OpenContext = std::function<Context()>;
 
-struct PictureSubject;
+/// Subject of a picture, and the words of a report for it.
+struct PictureSubject {
+    std::string samples_file;
+    std::string lines; ///< For people, but for the samples.
+    Json json;         ///< For programs.
+};
 
 /// Throws UserError(usage) for what is no *.png, UserError(bad_output) for what cannot be written.
 void check_picture_path(const Path& path);

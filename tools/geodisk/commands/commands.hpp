@@ -12,8 +12,6 @@ class AtomicFile;
 class Command;
 class SurfaceSampler;
 
-struct OutputOptions;
-struct RenderOptions;
 struct SampleOptions;
 
 /// Samples a mesh on a Vulkan device and writes the samples to a file.
@@ -52,11 +50,6 @@ void choose_command(Command app, std::vector<std::string>& arguments);
 /// are too close or off the mesh.
 void add_verify_command(Command app);
 
-/// Runs `verify` on samples in a box, which their header describes. `min_distance` is that of the
-/// command line, or "".
-void verify_box(const std::string& samples, const std::string& min_distance,
-                const OutputOptions& out);
-
 /// Tells how samples on a mesh are spread, without a device.
 void add_analyze_command(Command app);
 
@@ -66,9 +59,6 @@ void add_spectrum_command(Command app);
 
 /// Draws samples on a mesh or in a box on a Vulkan device and writes the picture to a file.
 void add_render_command(Command app);
-
-/// Runs `render` on samples in a box of two or three dimensions.
-void render_box(const RenderOptions& options);
 
 /// Samples a mesh on a Vulkan device and writes a page that shows the samples and tells of them.
 void add_report_command(Command app);
@@ -106,15 +96,5 @@ void add_completion_command(Command app);
 
 /// Writes the manual pages of the program and its commands to a folder. Hidden.
 void add_manual_command(Command app);
-
-/// Kernels that `info --kernels` is about.
-struct KernelsOptions {
-    std::string device;
-    std::string reads; ///< "" for what suits the device.
-};
-
-/// Runs `info --kernels`: prints what the device's driver reports about the kernels that it has
-/// compiled. Throws UserError(no_device) if it reports nothing.
-void print_kernels(const KernelsOptions& options, const OutputOptions& out);
 
 } // namespace geodisk::tools
