@@ -1,9 +1,13 @@
 """What is near each vertex or point, along the surface."""
 
+import ctypes
+
 import numpy as np
 import pytest
 
 import geodisk
+from geodisk import _library, _structs
+from geodisk._searching import listened
 from meshes import FACES, VERTICES
 
 KNOT = geodisk.Mesh("builtin:torus-knot:8")
@@ -87,6 +91,27 @@ def test_files_have_seams_as_well(tmp_path):
     near = geodisk.neighbours(path, within=0.1)
     assert near.sources.tolist() == [0, 1, 2, 3, 4, 5]
     assert near[3][0].tolist() == [0, 3]
+
+
+def test_what_the_last_call_of_a_callback_raises_is_not_lost():
+    last = _structs.Progress(decided=3, candidates=3)
+
+    def search(hear):
+        hear(None, ctypes.pointer(last))
+        return "found"  # Nothing was left to stop.
+
+    assert listened(lambda *_: None, search) == "found"
+    with pytest.raises(ZeroDivisionError):
+        listened(lambda *_: 1 / 0, search)
+
+
+def test_what_handing_over_a_result_raises_is_not_lost(monkeypatch):
+    def string_at(*_):
+        raise MemoryError
+
+    monkeypatch.setattr(ctypes, "string_at", string_at)
+    with pytest.raises(MemoryError):
+        _library.run("frame_style", text="y")
 
 
 def test_progress_and_cancelling():

@@ -114,8 +114,17 @@ def run(
     for name, one in arrays.items():
         setattr(task, name, one)
     made: list[bytes] = []
-    take = s.TAKE_FN(lambda data, size: made.append(ctypes.string_at(data, size)))
-    call("geodisk_run_command", command.encode(), byref(task), take)
+    failure: list[BaseException] = []
+
+    def take(data: int, size: int) -> None:
+        try:
+            made.append(ctypes.string_at(data, size))
+        except BaseException as raised:  # ctypes would drop it.
+            failure.append(raised)
+
+    call("geodisk_run_command", command.encode(), byref(task), s.TAKE_FN(take))
+    if failure:
+        raise failure[0]
     return made
 
 

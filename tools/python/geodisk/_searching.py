@@ -23,8 +23,8 @@ def listened(progress: bool | ProgressCallback, call: Callable[[Any], T]) -> T:
 
     def work(stop: ctypes.c_int32) -> T:
         def hear(_: Any, told: Any) -> int:
-            if report is None or stop.value:
-                return int(stop.value)
+            if report is None or stop.value or failure:
+                return int(stop.value or bool(failure))
             try:
                 state = told.contents
                 return int(stops(report(state.decided / max(1, state.candidates), state.accepted)))
@@ -35,14 +35,16 @@ def listened(progress: bool | ProgressCallback, call: Callable[[Any], T]) -> T:
         return call(s.PROGRESS_FN(hear))
 
     try:
-        return interruptible(work)
+        found = interruptible(work)
     except e.Cancelled:
-        if failure:
-            raise failure[0] from None
-        raise e.Cancelled(STOPPED, "cancelled") from None
+        if not failure:
+            raise e.Cancelled(STOPPED, "cancelled") from None
     finally:
         if isinstance(report, Bar):
             report.close()
+    if failure:  # Also of the last call, which stops nothing.
+        raise failure[0]
+    return found
 
 
 def searched(
