@@ -120,6 +120,13 @@ def test_the_advice_of_an_object_that_gives_no_array_is_shown(kind):
         geodisk.sample([[0, 0, 0], [1, 0]], FACES, min_distance=0.3)
 
 
+def test_an_object_that_runs_out_of_memory_says_so():
+    tensor = Tensor(MemoryError("of this GPU"))
+    for arguments in ((tensor, FACES, 0.3), (VERTICES, tensor, 0.3), (VERTICES, FACES, tensor)):
+        with pytest.raises(MemoryError, match="of this GPU"):
+            geodisk.sample(*arguments[:2], min_distance=arguments[2])
+
+
 def test_what_a_generator_of_meshes_raises_is_not_hidden():
     def meshes():
         yield MESH

@@ -174,6 +174,26 @@ def test_what_is_no_file_of_samples_says_so(tmp_path, name, data, text):
     assert path == str(tmp_path / name) and text in cause
 
 
+@pytest.mark.parametrize(
+    "error, kind",
+    [
+        (MemoryError(), MemoryError),
+        (OSError(5, "Input/output error"), OSError),
+        (OSError(22, "Invalid argument"), geodisk.InvalidArgument),  # An offset before the file.
+        (OSError("not a gzipped file"), geodisk.InvalidArgument),
+    ],
+)
+def test_only_what_is_wrong_with_a_file_is_said_of_it(error, kind, tmp_path, monkeypatch):
+    def load(*_, **__):
+        raise error
+
+    SETS["mesh"].save(tmp_path / "a.npz")
+    monkeypatch.setattr(np, "load", load)
+    with pytest.raises(kind) as caught:
+        geodisk.read(tmp_path / "a.npz")
+    assert (caught.value is error) == (kind is not geodisk.InvalidArgument)
+
+
 def test_what_cannot_be_opened_or_written(tmp_path):
     samples = SETS["mesh"]
     with pytest.raises(FileNotFoundError, match="nowhere.npz"):

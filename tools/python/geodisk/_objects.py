@@ -146,6 +146,8 @@ def faces_of(faces: Any) -> NDArray[Any] | Polygons:
         array = np.asarray(on_host(faces))
     except ValueError:  # Rows of different lengths.
         return from_lists(faces)
+    except MemoryError:
+        raise
     except Exception as error:  # Of the object.
         raise unreadable("faces", error) from error
     if array.dtype == object and array.ndim == 1 and array.size > 0:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import json
 import math
 import os
@@ -67,7 +68,12 @@ def read(path: str | os.PathLike[str]) -> Samples:
     with open(path, "rb") as file:
         try:
             return reader(file)
+        except MemoryError:
+            raise
         except Exception as error:  # Broken archives make numpy raise nearly anything.
+            # Errors of the system are not about what the file holds, but for a wrong offset in an archive.
+            if isinstance(error, OSError) and error.errno not in (None, errno.EINVAL):
+                raise
             raise e.invalid(f"{path}: {error or type(error).__name__}") from error
 
 

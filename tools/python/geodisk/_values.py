@@ -43,6 +43,8 @@ def number(value: Any, name: str) -> float:
         return float(value)
     except OverflowError:
         raise e.invalid(f"{name} is above 1e308, which is too large") from None
+    except MemoryError:
+        raise
     except Exception as error:  # Of any object.
         why = f": {error}" if str(error) else ""
         raise TypeError(f"{name} is {reprlib.repr(value)}, not a number{why}") from error
