@@ -93,6 +93,29 @@ def test_what_is_wrong_is_refused():
         geodisk.sample(MESHES[0], count=10**9, exact=True)
 
 
+def test_errors_of_the_system_keep_their_number_and_file():
+    with pytest.raises(FileNotFoundError, match="mesh 1: No such file") as caught:
+        geodisk.sample_many([TETRAHEDRON, "nowhere.obj"], min_distance=1)
+    assert (caught.value.errno, caught.value.filename) == (2, "nowhere.obj")
+
+
+def test_all_warnings_name_the_mesh():
+    square = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]
+    turned = (square, [[0, 1, 2], [0, 3, 2]])  # One triangle faces the other way.
+    with pytest.warns(geodisk.GeodiskWarning) as heard:
+        geodisk.sample_many(
+            [TETRAHEDRON, turned],
+            min_distance=0.2,
+            density=[np.full(4, 7), None],
+            face_mask=[None, [0, 1]],
+        )
+    assert sorted((one.message.kind, str(one.message)[:8]) for one in heard) == [
+        ("constant_density", "mesh 0: "),
+        ("inconsistent_orientation", "mesh 1: "),
+        ("mask_of_all", "mesh 1: "),
+    ]
+
+
 def test_points_to_avoid():
     points = (([0], [[0.25, 0.5, 0.25]]), 0.9)
     a, b = geodisk.sample_many([MESHES[0]] * 2, min_distance=0.3, avoid=[points, None])

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import reprlib
 from collections.abc import Sequence
-from typing import Any, Mapping
+from typing import Any, Callable, Mapping, TypeVar
 
 import numpy as np
 
@@ -14,6 +14,8 @@ from ._running import Runs
 from ._samples import Samples
 from ._values import listed
 from ._wanted import Wanted, record_of, wanted_of
+
+T = TypeVar("T")
 
 #: Parameters of :func:`sample_many` that have a number for each mesh.
 _NUMBERS = ("min_distance", "radius", "count", "seed")
@@ -36,7 +38,8 @@ def sample_each(given: Mapping[str, Any]) -> list[Samples]:
     own |= {name: _each_array(given[name], name, n) for name in _ARRAYS}
 
     def wanted_at(i: int) -> Wanted:
-        return wanted_of(*_parts_of(several[i]), record, {**given, **{name: x[i] for name, x in own.items()}})
+        alone = {**given, **{name: x[i] for name, x in own.items()}}
+        return wanted_of(*_parts_of(several[i]), record, alone, _prefix(i))
 
     wanted = [_named(i, wanted_at) for i in range(n)]
     if not wanted:
@@ -44,23 +47,32 @@ def sample_each(given: Mapping[str, Any]) -> list[Samples]:
     with Runs(given["device"], given["progress"]) as runs:
         requests = [(one.mesh._handle, one.request) for one in wanted]
         made = runs.serve(requests) if n > 1 else _named(0, lambda _: runs.serve(requests))
-    results = []
-    for i, one in enumerate(wanted):
-        samples = _named(i, lambda i: wanted[i].samples_of(made[i]))
-        one.warn(samples, f"mesh {i}: ")
-        results.append(recorded(samples, one.mesh, record))
-    return results
+
+    def result_at(i: int) -> Samples:
+        samples = wanted[i].samples_of(made[i])
+        wanted[i].warn(samples)
+        return recorded(samples, wanted[i].mesh, record)
+
+    return [_named(i, result_at) for i in range(n)]
 
 
-def _named(index: int, make: Any) -> Any:
+def _prefix(index: int) -> str:
+    return f"mesh {index}: "
+
+
+def _named(index: int, make: Callable[[int], T]) -> T:
     """Returns `make(index)`; errors name the mesh."""
     try:
         return make(index)
     except e.Error as error:
-        message = f"mesh {index}: {error}"
-        raise type(error)(message, error.status, error.element) from error
-    except (TypeError, OSError) as error:
-        raise type(error)(f"mesh {index}: {error}") from error
+        raise type(error)(f"{_prefix(index)}{error}", error.status, error.element) from error
+    except OSError as error:
+        if error.errno is None:
+            raise type(error)(f"{_prefix(index)}{error}") from error
+        reason = f"{_prefix(index)}{error.strerror}"
+        raise type(error)(error.errno, reason, error.filename) from error
+    except TypeError as error:
+        raise type(error)(f"{_prefix(index)}{error}") from error
 
 
 def _parts_of(given: Any) -> tuple[Any, Any]:

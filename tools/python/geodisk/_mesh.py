@@ -133,6 +133,7 @@ class Mesh:
         mesh_format: str | None = None,
         allow_outside: bool = False,
         _record: Record = NOTHING,
+        _prefix: str = "",
     ) -> None:
         source: Source | None = None
         joined_edges = 0
@@ -205,7 +206,7 @@ class Mesh:
         if walls is not None:
             oddities = _told_of_walls(oddities)
         self.warnings = (*told, *left_out, *oddities)
-        warn(self.warnings)
+        warn(self.warnings, _prefix)
 
     def _prepare(self, surface: Surface, joined_edges: int = 0) -> None:
         self._surface = surface
@@ -379,6 +380,7 @@ def mesh_of(
     attributes: str | Sequence[str] = (),
     record: Record = NOTHING,
     allow_outside: bool = False,
+    prefix: str = "",
 ) -> Mesh:
     """Returns the mesh that the arguments of a function name, read for `record`."""
     if not isinstance(vertices, Mesh):
@@ -393,6 +395,7 @@ def mesh_of(
             attributes=attributes,
             allow_outside=allow_outside,
             _record=record,
+            _prefix=prefix,
         )
     is_joined = weld_of(weld) is not False or flag(keep_seams, "keep_seams")
     if faces is not None or edge_lengths is not None or is_joined:

@@ -70,16 +70,11 @@ def _listed(kind: type[W], *arguments: Any, **options: Any) -> tuple[W, ...]:
     )
 
 
-def warn_of_whole_mask(mask: NDArray[np.uint8] | None, prefix: str = "") -> None:
-    """Warns of a mask that takes every triangle."""
-    if mask is not None and mask.size and mask.all():
-        warn([GeodiskWarning(f"{prefix}face_mask leaves out no triangle", "mask_of_all", 1)])
-
-
-def warn(found: Sequence[GeodiskWarning]) -> None:
-    """Shows warnings at the line that called this package."""
+def warn(found: Sequence[GeodiskWarning], prefix: str = "") -> None:
+    """Shows warnings, after a prefix, at the line that called this package."""
     for one in found:
-        warnings.warn(one, stacklevel=_level())
+        shown = type(one)(f"{prefix}{one}", one.kind, one.count) if prefix else one
+        warnings.warn(shown, stacklevel=_level())
 
 
 def _level() -> int:

@@ -34,8 +34,9 @@ def one_of(density: ArrayLike | None, radius_factor: ArrayLike | None) -> str | 
 
 
 def radii_of(
-    mesh: Mesh, density: ArrayLike | None, radius_factor: ArrayLike | None
+    mesh: Mesh, density: ArrayLike | None, radius_factor: ArrayLike | None, prefix: str = ""
 ) -> Radii | None:
+    """Returns the radii that a density or factors give, if any; warnings begin with `prefix`."""
     name = one_of(density, radius_factor)
     if name is None:
         return None
@@ -45,7 +46,7 @@ def radii_of(
     radii = radii_on(mesh._handle, name, values)
     if name == "density" and len(values) and (values == values[0]).all():
         text = f"the density is {values[0]:g} everywhere, so it leaves out nothing"
-        warn([e.GeodiskWarning(text, "constant_density", 1)])
+        warn([e.GeodiskWarning(text, "constant_density", 1)], prefix)
     return radii
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses
 from ctypes import byref, c_double, c_int32, c_uint32
 from types import SimpleNamespace
-from typing import Any, Callable, Mapping
+from typing import Any, Callable, Iterator, Mapping
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,7 +21,7 @@ from ._features import degrees_of
 from ._job import FOLLOWED, MASK_DIGEST, Job, JobFrame, joins_of, options, told_text, values
 from ._levels import levels_of
 from ._mesh import Mesh, attributes_with, keys_of, mask_of, mesh_of
-from ._oddities import oddities_of_set, warn, warn_of_whole_mask
+from ._oddities import oddities_of_set, warn
 from ._radii import one_of, radii_of
 from ._record import Record, recorded
 from ._results import report_of, samples_of
@@ -33,9 +33,14 @@ from ._values import check_exact, check_pool, choice, distance_of, flag, integer
 
 
 class Wanted:
-    """Samples of one mesh that are asked for. Parameters are those of :func:`sample`."""
+    """Samples of one mesh that are asked for. Parameters are those of :func:`sample`.
 
-    def __init__(self, read_mesh: Callable[[], Mesh], given: Mapping[str, Any]) -> None:
+    Warnings begin with `prefix`.
+    """
+
+    def __init__(
+        self, read_mesh: Callable[[], Mesh], given: Mapping[str, Any], prefix: str = ""
+    ) -> None:
         a = SimpleNamespace(**given)
         min_distance = a.min_distance
         params_numbers = _numbers_in(s.SurfaceParams, given)
@@ -73,7 +78,7 @@ class Wanted:
         if a.metric != "geodesic" and mesh._surface.walls:
             named = f"metric='{a.metric}' and walls"
             raise e.invalid(f"{named} exclude each other: walls are for paths along the surface")
-        radii = radii_of(mesh, a.density, a.radius_factor)
+        radii = radii_of(mesh, a.density, a.radius_factor, prefix)
         keys = None if a.face_keys is None else keys_of(mesh, a.face_keys)
         mask = None if a.face_mask is None else mask_of(mesh._surface, a.face_mask)
         kept = existing_of(mesh._handle, a.existing)
@@ -130,7 +135,7 @@ class Wanted:
 
         self._distance, self._part, self._seed, self._mask = distance, part, seed, mask
         self._existing, self._avoids, self._classes = len(kept), len(places.points) > 0, kinds
-        self._asked, self._degrees = a, degrees
+        self._asked, self._degrees, self._prefix = a, degrees, prefix
         surface = mesh._surface
         self._told = joins_of(surface.weld, surface.keep_seams, surface.walls)
         for name in set(self._options).intersection(values()).difference(_TOLD_BY_RUNS):
@@ -175,7 +180,7 @@ class Wanted:
         params.min_distance, params.existing_count, params.stop_count = run_distance, 0, 0
         return JobFrame.found("geodisk_job_frame_of", self.mesh._handle.value, byref(params))
 
-    def warn(self, samples: Samples, prefix: str = "") -> None:
+    def warn(self, samples: Samples) -> None:
         """Shows warnings about the samples that were made."""
         found = oddities_of_set(
             samples,
@@ -188,21 +193,25 @@ class Wanted:
             self._avoids,
             self._degrees if samples.report["lacks_features"] else 0,
         )
-        warn([e.GeodiskWarning(f"{prefix}{one}", one.kind, one.count) for one in found])
-        warn_of_whole_mask(self._mask, prefix)
+        warn([*found, *self._oddities_of(samples)], self._prefix)
+
+    def _oddities_of(self, samples: Samples) -> Iterator[e.GeodiskWarning]:
+        """Returns what is odd about arguments that the program has not."""
+        if self._mask is not None and self._mask.size and self._mask.all():
+            yield e.GeodiskWarning("face_mask leaves out no triangle", "mask_of_all", 1)
         if self._lacks_classes:
-            text = f"{prefix}existing: the samples have no class, so they get class 0"
-            warn([e.GeodiskWarning(text, "no_classes", self._existing)])
-        if self._classes is not None and self._classes.count > 1 and len(samples) > 0:
-            made = np.bincount(samples.columns["class"], minlength=self._classes.count)
+            text = "existing: the samples have no class, so they get class 0"
+            yield e.GeodiskWarning(text, "no_classes", self._existing)
+        if self._classes is None or self._classes.count < 2:
+            return
+        made = np.bincount(samples.columns["class"], minlength=self._classes.count)
+        if len(samples) > 0:
             for number in np.flatnonzero(made == 0):
-                text = f"{prefix}class {number} has no sample"
-                warn([e.GeodiskWarning(text, "empty_class", 1)])
+                yield e.GeodiskWarning(f"class {number} has no sample", "empty_class", 1)
         if self._class_counts is not None:
-            made = np.bincount(samples.columns["class"], minlength=len(self._class_counts))
             for number in np.flatnonzero(made < self._class_counts):
                 text = f"class {number} has {made[number]} of {self._class_counts[number]} samples"
-                warn([e.GeodiskWarning(f"{prefix}{text}", "few_of_class", int(made[number]))])
+                yield e.GeodiskWarning(text, "few_of_class", int(made[number]))
 
 
 def vertices_at(samples: Samples, surface: Surface) -> NDArray[np.uint32]:
@@ -255,7 +264,9 @@ def record_of(given: Mapping[str, Any]) -> Record:
     return Record(given["texture"], given["normals"], given["frames"], given["up"])
 
 
-def wanted_of(vertices: Any, faces: Any, record: Record, given: Mapping[str, Any]) -> Wanted:
+def wanted_of(
+    vertices: Any, faces: Any, record: Record, given: Mapping[str, Any], prefix: str = ""
+) -> Wanted:
     """Returns what arguments of :func:`sample` ask for, by name, on a mesh that is read for `record`."""
 
     def read_mesh() -> Mesh:
@@ -266,9 +277,10 @@ def wanted_of(vertices: Any, faces: Any, record: Record, given: Mapping[str, Any
             **{name: given[name] for name in _OF_MESH},
             attributes=attributes_with(given["attributes"], vertices, *named),
             record=record,
+            prefix=prefix,
         )
 
-    return Wanted(read_mesh, given)
+    return Wanted(read_mesh, given, prefix)
 
 
 def sample_one(given: Mapping[str, Any]) -> Samples:
