@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import geodisk
-from geodisk._rules import rules
+from geodisk._values import rules
 
 CORNERS = np.array([[1, 1, 1], [1, -1, -1], [-1, 1, -1], [-1, -1, 1]], float)
 TETRAHEDRON = [[0, 1, 2], [0, 3, 1], [0, 2, 3], [1, 3, 2]]

@@ -27,15 +27,19 @@ from ._errors import (
     OutOfMemory,
 )
 from ._farthest import FarthestOrder, farthest_order
-from ._geodesics import GeodesicPath, disk_radii, geodesic_distances, geodesic_path
+from ._geodesics import (
+    GeodesicPath,
+    disk_radii,
+    geodesic_distances,
+    geodesic_path,
+    outside_faces,
+)
 from ._library import version
 from ._mesh import Mesh
 from ._neighbours import Neighbours, neighbours
-from ._outside import outside_faces
 from ._picture import Picture, render
 from ._reading import read
-from ._sample import Sample
-from ._samples import Samples
+from ._samples import Sample, Samples
 from ._sampling import sample, sample_many
 from ._transfer import transfer
 from ._update import update

@@ -6,11 +6,12 @@ import os
 import subprocess
 import sys
 
-from . import _cpu, _place
+from . import _cpu
+from . import _library as c
 
 
 def main() -> int:
-    path = _place.find("bin/geodisk.exe" if sys.platform == "win32" else "bin/geodisk")
+    path = c.find("bin/geodisk.exe" if sys.platform == "win32" else "bin/geodisk")
     if path is None:
         print("geodisk: this package was installed without the program geodisk", file=sys.stderr)
         return 127

@@ -11,10 +11,9 @@ from ._arrays import real
 from ._devices import DeviceLike
 from ._oddities import oddities_of_set, warn
 from ._results import samples_of
-from ._rules import check_fields
 from ._running import ProgressCallback, Runs
 from ._samples import Samples
-from ._values import check_exact, check_pool, distance_of, flag, integer, seed_of
+from ._values import check_exact, check_fields, check_pool, distance_of, flag, integer, seed_of
 
 
 def sample_box(

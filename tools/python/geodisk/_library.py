@@ -5,13 +5,13 @@ from __future__ import annotations
 import ctypes
 import json
 import os
+import pathlib
 import sys
 from ctypes import addressof, byref, c_char_p, c_int32, c_size_t, c_void_p, sizeof
 from typing import Any, Mapping
 
 from numpy.typing import NDArray
 
-from . import _place
 from . import _structs as s
 from ._errors import BY_STATUS, Error
 from ._wording import in_python
@@ -19,11 +19,20 @@ from ._wording import in_python
 _NAMES = {"win32": "geodisk_python.dll", "darwin": "libgeodisk_python.dylib"}
 
 
+def find(name: str) -> str | None:
+    """Path of a file of the package. An editable installation has binaries apart from the modules."""
+    for folder in sys.modules[__package__].__path__:
+        path = pathlib.Path(folder, name)
+        if path.exists():
+            return str(path)
+    return None
+
+
 def _load() -> ctypes.CDLL:
     """Loads the library that lies beside this module, or that GEODISK_LIBRARY names."""
     name = _NAMES.get(sys.platform, "libgeodisk_python.so")
     named = os.environ.get("GEODISK_LIBRARY")
-    path = named or _place.find(name) or name
+    path = named or find(name) or name
     try:
         library = ctypes.CDLL(path)
     except OSError as error:

@@ -19,7 +19,6 @@ from ._attributes import check_finite, interpolated, values_of
 from ._conversion import converted
 from ._files import complete
 from ._job import Job, JobFrame
-from ._sample import Sample
 from ._surface import Surface
 from ._values import choice, flag, integer, number, numbers_of, path_of
 from ._writing import (
@@ -40,6 +39,31 @@ if TYPE_CHECKING:
 
     from ._mesh import Mesh
     from ._record import Record
+
+@dataclass(frozen=True, eq=False)
+class Sample:
+    """One sample of :class:`Samples`, which iteration and an index give.
+
+    Attributes
+    ----------
+    point, normal, barycentric : ndarray of float64, or None
+    face_index, polygon_index : int or None
+    radius : float
+    order : int
+    columns : dict of int
+    attributes : dict of float, int or ndarray
+    """
+
+    point: NDArray[np.float64] | None
+    normal: NDArray[np.float64] | None
+    face_index: int | None
+    barycentric: NDArray[np.float64] | None
+    polygon_index: int | None
+    radius: float
+    order: int
+    columns: dict[str, int] = field(default_factory=dict)
+    attributes: dict[str, Any] = field(default_factory=dict)
+
 
 _COLUMNS = (
     "points",

@@ -11,11 +11,10 @@ from numpy.typing import ArrayLike
 from ._classes import ClassesLike
 from ._devices import DeviceLike
 from ._existing import AvoidLike, ExistingLike
-from ._many import sample_each
 from ._protocols import Faces, MeshLike
 from ._running import ProgressCallback
 from ._samples import Samples
-from ._wanted import sample_one
+from ._wanted import sample_each, sample_one
 
 
 def sample(

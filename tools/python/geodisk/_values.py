@@ -1,17 +1,21 @@
-"""Numbers that the functions that sample take."""
+"""Checks of arguments that are no arrays, and of which of them exclude each other."""
 
 from __future__ import annotations
 
+import functools
 import math
 import operator
 import os
 import reprlib
 import secrets
-from typing import Any, Iterable
+from ctypes import byref
+from typing import Any, Iterable, Mapping
 
 import numpy as np
 
 from . import _errors as e
+from . import _library as c
+from . import _structs as s
 
 
 def flag(value: object, name: str) -> bool:
@@ -177,3 +181,53 @@ def distance_of(
     if not (distance > 0 and math.isfinite(distance)):
         raise e.invalid(f"the minimum distance is {distance}, not positive")
     return distance
+
+
+def degrees_of(features: float) -> float:
+    """Returns the angle from which on edges are features, checked."""
+    degrees = math.nan if isinstance(features, bool) else number(features, "features")
+    if not 1 <= degrees <= 180:
+        raise e.invalid(f"features is {features!r}, not an angle from 1 to 180 degrees")
+    return degrees
+
+
+def levels_of(order: str, levels: int | None, factor: float | None) -> tuple[int, float] | None:
+    """Returns the number of levels of a progressive order and their factor; None for other orders.
+
+    The number is 0 if it follows from the samples expected.
+    """
+    if order != "progressive":
+        if levels is not None or factor is not None:
+            name = "levels" if levels is not None else "level_factor"
+            raise e.invalid(f"{name} is for order='progressive'")
+        return None
+    count = 0 if levels is None else integer(levels, "levels", 2**32)
+    if levels is not None and not 1 <= count <= 32:
+        raise e.invalid(f"levels is {count}, not from 1 to 32")
+    ratio = 2.0 if factor is None else number(factor, "level_factor")
+    if not 1.1 <= ratio <= 8:
+        raise e.invalid(f"level_factor is {ratio:g}, not from 1.1 to 8")
+    return count, ratio
+
+
+@functools.lru_cache(maxsize=None)
+def rules() -> tuple[tuple[str, str, str], ...]:
+    """Pairs of fields that exclude each other, and the reason."""
+    found: list[tuple[str, str, str]] = []
+    while True:
+        rule = s.Rule()
+        try:
+            c.call("geodisk_request_rule", len(found), byref(rule))
+        except e.InvalidArgument:
+            return tuple(found)
+        found.append((rule.field.decode(), rule.other.decode(), rule.reason.decode()))
+
+
+def check_fields(given: Mapping[str, str | None]) -> None:
+    """Raises for two fields that exclude each other.
+
+    `given` has the parameter that sets each field, as it was given; None for a field that is not set.
+    """
+    for field, other, reason in rules():
+        if given.get(field) and given.get(other):
+            raise e.invalid(f"{given[field]} and {given[other]} exclude each other: {reason}")
