@@ -67,13 +67,14 @@ def test_each_function_has_its_types():
 
 def test_structs_keep_what_they_point_to():
     points, inner = np.arange(6.0), _structs.SurfaceParams(seed=7)
-    address, kept = points.ctypes.data, [weakref.ref(points), weakref.ref(inner)]
+    names = (ctypes.c_char_p * 1)(b"uv")
+    address, kept = points.ctypes.data, [weakref.ref(one) for one in (points, inner, names)]
     params = _structs.CellParams(samples=points, sample_count=6, face_mask=None)
-    request = _structs.Request(params=inner)
+    request, source = _structs.Request(params=inner), _structs.SourceParams(attributes=names)
     assert params.samples == address and request.params == ctypes.addressof(inner)
-    del points, inner
+    del points, inner, names
     gc.collect()
     assert all(one() is not None for one in kept)
-    del params, request
+    del params, request, source
     gc.collect()
     assert all(one() is None for one in kept)

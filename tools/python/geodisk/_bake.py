@@ -13,12 +13,11 @@ from numpy.typing import NDArray
 from . import _errors as e
 from . import _library as c
 from . import _structs as s
-from ._background import interruptible
 from ._devices import name_of
 from ._existing import points_of
 from ._files import bytes_of, complete
 from ._inputs import run
-from ._mesh import Mesh, created, surface_from
+from ._mesh import Mesh, created
 from ._samples import Samples
 from ._searching import search
 from ._source import MeshFile, Source, read_file
@@ -175,21 +174,19 @@ def _texture_of(
         )
     else:
         file = mesh._file
-    path, how = file.path, file._asdict()
-    del how["path"]
     try:
-        source = interruptible(lambda stop: read_file(path, stop, has_uvs=True, **how))
+        source = read_file(file, has_uvs=True)
     except e.MeshRejected as error:
         raise e.invalid(str(error)) from None
     if not isinstance(mesh, Mesh):
-        return source, created(surface_from(source, source.vertices, False, False)), path
+        return source, created(source.surface), file.path
     surface = mesh._surface  # Which walls may have cut since.
     places = surface.coordinates()[: surface.own_vertex_count()]
-    is_same = np.array_equal(source.corners, surface.own_corners()) and np.array_equal(
-        source.vertices, places
-    )
-    if not is_same:
-        raise e.invalid(f"{path}: changed since the mesh was read")
+    if not (
+        np.array_equal(source.surface.own_corners(), surface.own_corners())
+        and np.array_equal(source.surface.vertices, places)
+    ):
+        raise e.invalid(f"{file.path}: changed since the mesh was read")
     if surface.walls:
         source.leave_out(surface.repeats_vertex())
-    return source, mesh._handle, path
+    return source, mesh._handle, file.path

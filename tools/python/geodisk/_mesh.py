@@ -20,9 +20,9 @@ from ._oddities import oddities_of, warn
 from ._polygons import Polygons, from_rows
 from ._protocols import Faces, MeshLike
 from ._record import NOTHING, Record, check_record
-from ._source import MeshFile, Source, absolute, read_file, split
+from ._source import MeshFile, Source, read_file, split
 from ._surface import Surface
-from ._values import flag, names, text, weld_of
+from ._values import flag, names, path_of, text, weld_of
 from ._walls import cut
 
 
@@ -147,24 +147,17 @@ class Mesh:
         if faces is None and isinstance(vertices, (str, os.PathLike)):
             if edge_lengths is not None:
                 raise TypeError("edge_lengths need faces given as arrays, not a file")
-            path = vertices
-            source = interruptible(
-                lambda stop: read_file(
-                    path,
-                    stop,
-                    weld=weld,
-                    keep_seams=keep_seams,
-                    attributes=attributes,
-                    columns=columns,
-                    mesh_format=mesh_format,
-                    allow_outside=allow_outside,
-                    has_normals=_record.normals == "file",
-                    has_uvs=_record.texture is not None and not _record.has_materials(),
-                    has_materials=_record.has_materials(),
-                )
+            file = MeshFile(path_of(vertices), weld, keep_seams, mesh_format, allow_outside)
+            source = read_file(
+                file,
+                attributes=attributes,
+                columns=columns,
+                has_normals=_record.normals == "file",
+                has_uvs=_record.texture is not None and not _record.has_materials(),
+                has_materials=_record.has_materials(),
             )
-            surface = surface_from(source, source.vertices, weld, keep_seams)
-            self._file = MeshFile(absolute(path), weld, keep_seams, mesh_format, allow_outside)
+            surface = source.surface
+            self._file = file.absolute()
         else:
             if columns or mesh_format is not None:
                 raise TypeError("columns and mesh_format are for meshes from files")
@@ -187,10 +180,10 @@ class Mesh:
             elif isinstance(given, Polygons):
                 if edge_lengths is not None:
                     raise e.invalid("with edge lengths, all faces must be triangles")
-                polygons, places = given, Surface(points, None).coordinates()
-                source = interruptible(lambda stop: split(places, polygons, weld, keep_seams, stop))
-                surface = surface_from(source, points, weld, keep_seams)
-                surface = dataclasses.replace(surface, given_faces=len(polygons))
+                source = split(Surface(points, None).coordinates(), given, weld, keep_seams)
+                surface = dataclasses.replace(
+                    source.surface, vertices=points, given_faces=len(given)
+                )
             else:
                 surface = Surface(points, given, edge_lengths, weld, keep_seams)
             if attributes:
@@ -283,34 +276,16 @@ class Mesh:
         return copied
 
 
-def surface_from(source: Source, vertices: Any, weld: bool | float, keep_seams: bool) -> Surface:
-    """Returns the surface that a source is, where `vertices` are. Its vertices are joined already."""
-    return Surface(
-        vertices,
-        source.triangles,
-        weld=weld,
-        keep_seams=keep_seams,
-        is_joined=True,
-        polygons=source.polygons,
-        attributes=source.attributes,
-        joined=source.joined,
-        columns=source.columns,
-        corners=source.corners if source.joined is not None else None,
-        is_y_up=source.is_y_up,
-    )
-
-
 def joined_surface(
     vertices: Any, faces: Any, weld: bool | float, keep_seams: bool
 ) -> tuple[Surface, int]:
     """Returns a surface of triangles whose vertices are joined, and how many edges of it are."""
     plain = Surface(vertices, faces, weld=weld, keep_seams=keep_seams, is_joined=True)
-    places, rows = plain.coordinates(), from_rows(plain.indices())
-    source = interruptible(lambda stop: split(places, rows, weld, keep_seams, stop))
-    joined = source.joined
+    corners = plain.indices()
+    source = split(plain.coordinates(), from_rows(corners), weld, keep_seams)
+    joined = source.surface.joined
     if joined is None:
         return plain, 0
-    corners = plain.indices()
     surface = dataclasses.replace(plain, faces=joined[corners], corners=corners, joined=joined)
     return surface, source.joined_edges
 

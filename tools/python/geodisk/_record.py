@@ -15,7 +15,6 @@ from numpy.typing import NDArray
 
 from . import _errors as e
 from . import _library as c
-from ._background import interruptible
 from ._polygons import from_rows
 from ._source import split
 from ._surface import Surface
@@ -186,6 +185,4 @@ def _record(
 def _source_of(surface: Surface) -> c.Handle:
     """Returns a source of a mesh that was not read from a file."""
     faces = from_rows(surface.indices())
-    weld, keep_seams = surface.weld, surface.keep_seams
-    points = surface.coordinates()
-    return interruptible(lambda stop: split(points, faces, weld, keep_seams, stop)).handle
+    return split(surface.coordinates(), faces, surface.weld, surface.keep_seams).handle

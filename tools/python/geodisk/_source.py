@@ -5,7 +5,6 @@ from __future__ import annotations
 import ctypes
 import json
 import os
-from dataclasses import dataclass
 from typing import Any, NamedTuple, Sequence
 
 import numpy as np
@@ -14,51 +13,24 @@ from numpy.typing import NDArray
 from . import _library as c
 from . import _structs as s
 from ._attributes import Attribute
+from ._background import interruptible
 from ._polygons import Polygons
-from ._values import path_of
-
-_BUILTIN = "builtin:"
+from ._surface import Surface
 
 
-@dataclass(frozen=True, eq=False)
-class Source:
-    """What was read.
+class Source(NamedTuple):
+    """What was read."""
 
-    Attributes
-    ----------
-    vertices : ndarray of float64, shape (v, d)
-    triangles : ndarray of uint32, shape (f, 3)
-    polygons : ndarray of uint32, shape (f,), or None
-        The file's face of each triangle, where the numbers differ.
-    attributes : dict of Attribute
-    handle : Handle
-        Has the memory of these arrays, and warnings of the reader.
-    joined : ndarray of uint32, shape (v,), or None
-        The lowest vertex that each one is joined with, where any are.
-    joined_edges : int
-    columns : dict of ndarray of uint32, shape (f,)
-    corners : ndarray of uint32, shape (f, 3)
-        The triangles before vertices were joined.
-    is_y_up : bool
-        True for a file of a format in which y points up.
-    """
-
-    vertices: NDArray[np.float64]
-    triangles: NDArray[np.uint32]
-    polygons: NDArray[np.uint32] | None
-    attributes: dict[str, Attribute]
-    handle: c.Handle
-    joined: NDArray[np.uint32] | None
+    surface: Surface  #: In the memory of `handle`. Its vertices are joined already.
+    handle: c.Handle  #: Has warnings of the reader as well.
     joined_edges: int
-    columns: dict[str, NDArray[np.uint32]]
-    corners: NDArray[np.uint32]
-    is_y_up: bool
 
     def leave_out(self, faces: NDArray[np.bool_]) -> None:
         """Makes triangles none, in the memory of the library, as walls do."""
-        self.triangles.flags.writeable = True
-        self.triangles[faces] = self.triangles[faces, :1]
-        self.triangles.flags.writeable = False
+        triangles = self.surface.faces
+        triangles.flags.writeable = True
+        triangles[faces] = triangles[faces, :1]
+        triangles.flags.writeable = False
 
 
 class MeshFile(NamedTuple):
@@ -70,64 +42,45 @@ class MeshFile(NamedTuple):
     mesh_format: str | None = None
     allow_outside: bool = False
 
+    def is_builtin(self) -> bool:
+        return self.path.startswith("builtin:")
 
-def absolute(path: str | os.PathLike[str]) -> str:
-    """Returns the path of a mesh file that other working folders do not change."""
-    name = path_of(path)
-    return name if name.startswith(_BUILTIN) else os.path.abspath(name)
+    def absolute(self) -> MeshFile:
+        """Returns the same file, for other working folders too."""
+        return self if self.is_builtin() else self._replace(path=os.path.abspath(self.path))
 
 
 def read_file(
-    path: str | os.PathLike[str],
-    stop: ctypes.c_int32,
+    file: MeshFile,
     *,
-    weld: bool | float = False,
-    keep_seams: bool = False,
     attributes: Sequence[str] = (),
     columns: Sequence[str] = (),
-    mesh_format: str | None = None,
-    allow_outside: bool = False,
     has_normals: bool = False,
     has_uvs: bool = False,
     has_materials: bool = False,
 ) -> Source:
-    """Reads a mesh file with the readers of the program.
-
-    Raises
-    ------
-    OSError
-        For a file that is not there or may not be read.
-    MeshRejected
-        For a file that holds no mesh, or a damaged one.
-    """
-    name = path_of(path)
-    if not name.startswith(_BUILTIN):
-        os.stat(name)  # Raises Python's own errors.
-        if not os.access(name, os.R_OK):
-            raise PermissionError(13, "Permission denied", name)
+    """Reads a mesh file with the readers of the program. Raises Python's own errors if it cannot be read."""
+    if not file.is_builtin():
+        os.stat(file.path)
+        if not os.access(file.path, os.R_OK):
+            raise PermissionError(13, "Permission denied", file.path)
     joined = ",".join(columns)  # Which the library splits, and checks each name.
     encoded = (ctypes.c_char_p * len(attributes))(*(one.encode() for one in attributes))
     params = s.SourceParams(
-        path=os.fsencode(name),
-        attributes=ctypes.addressof(encoded),
+        path=os.fsencode(file.path),
+        attributes=encoded,
         attribute_count=len(attributes),
         columns=joined.encode(),
-        mesh_format=None if mesh_format is None else mesh_format.encode(),
+        mesh_format=None if file.mesh_format is None else file.mesh_format.encode(),
         has_normals=has_normals,
         has_uvs=has_uvs,
         has_materials=has_materials,
-        allow_outside=allow_outside,
+        allow_outside=file.allow_outside,
     )
-    return _read(params, stop, weld, keep_seams, joined.split(",") if joined else ())
+    return _read(params, file.weld, file.keep_seams, joined.split(",") if joined else ())
 
 
-def split(
-    vertices: NDArray[Any],
-    polygons: Polygons,
-    weld: bool | float,
-    keep_seams: bool,
-    stop: ctypes.c_int32,
-) -> Source:
+def split(vertices: NDArray[Any], polygons: Polygons, weld: bool | float, keep_seams: bool) -> Source:
     """Splits polygons into triangles as the readers do."""
     positions = np.ascontiguousarray(vertices, np.float64)
     polygons.check(len(positions))
@@ -139,29 +92,32 @@ def split(
         face_ends=polygons.ends,
         face_count=len(polygons.ends),
     )
-    return _read(params, stop, weld, keep_seams)
+    return _read(params, weld, keep_seams)
 
 
 def _read(
     params: s.SourceParams,
-    stop: ctypes.c_int32,
     weld: bool | float,
     keep_seams: bool,
     columns: Sequence[str] = (),
 ) -> Source:
-    params.stop = ctypes.addressof(stop)
     params.keep_seams = keep_seams
     if weld is not False:
         params.weld = 1
         params.weld_distance = 0.0 if weld is True else float(weld)
-    handle = c.Handle("source", "geodisk_source_read", ctypes.byref(params))
-    told = json.loads(c.run("describe", {"source": handle})[0])
-    count = told["triangle_count"]
 
-    def view(address: int, *shape: int, dtype: Any = np.uint32) -> NDArray[Any] | None:
+    def read(stop: ctypes.c_int32) -> c.Handle:
+        params.stop = ctypes.addressof(stop)
+        return c.Handle("source", "geodisk_source_read", ctypes.byref(params))
+
+    handle = interruptible(read)
+    told = json.loads(c.run("describe", {"source": handle})[0])
+    count, vertex_count = told["triangle_count"], told["vertex_count"]
+
+    def view(address: int, *shape: int, dtype: Any = np.uint32) -> Any:
         return view_of(address, shape, handle, dtype) if address else None
 
-    polygons = view(told["polygons"], count)
+    polygons, joined = view(told["polygons"], count), view(told["joined"], vertex_count)
     attributes = {}
     for one in told["attributes"]:
         shape = (one["count"],) if one["components"] == 1 else (one["count"], one["components"])
@@ -173,20 +129,20 @@ def _read(
             is_light=one["is_light"],
             polygons=polygons,
         )
-    return Source(
-        vertices=view_of(
-            told["positions"], (told["vertex_count"], told["dimension"]), handle, np.float64
-        ),
-        triangles=view_of(told["triangles"], (count, 3), handle),
+    surface = Surface(
+        view_of(told["positions"], (vertex_count, told["dimension"]), handle, np.float64),
+        view_of(told["triangles"], (count, 3), handle),
+        weld=weld,
+        keep_seams=keep_seams,
+        is_joined=True,
         polygons=polygons,
         attributes=attributes,
-        handle=handle,
-        joined=view(told["joined"], told["vertex_count"]),
-        joined_edges=told["joined_edges"],
+        joined=joined,
         columns={name: view_of(at, (count,), handle) for name, at in zip(columns, told["columns"])},
-        corners=view_of(told["corners"], (count, 3), handle),
+        corners=None if joined is None else view_of(told["corners"], (count, 3), handle),
         is_y_up=told["is_y_up"],
     )
+    return Source(surface, handle, told["joined_edges"])
 
 
 def view_of(

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import re
 from ctypes import (
+    Array,
     CDLL,
     CFUNCTYPE,
     POINTER,
@@ -79,7 +80,7 @@ class Struct(Structure):
         address: Any = getattr(value, "_as_parameter_", None)
         if isinstance(value, np.ndarray):
             address = value.ctypes.data
-        elif isinstance(value, Structure):
+        elif isinstance(value, (Structure, Array)):
             address = addressof(value)
         if address is not None:
             self.__dict__.setdefault("_kept", {})[name] = value

@@ -22,54 +22,23 @@ def vertex_number(value: Any) -> int:
 
 @dataclass(frozen=True, eq=False)
 class Surface:
-    """What a mesh is made of. Arrays of the caller are kept by reference.
+    """What a mesh is made of. Arrays of the caller are kept by reference."""
 
-    Attributes
-    ----------
-    vertices : array_like of float, shape (v, d), or int
-        Their number where there are lengths.
-    faces : array_like of int, shape (f, 3)
-        Triangles.
-    edge_lengths : array_like of float, shape (f, 3), optional
-    weld : bool or float
-    keep_seams : bool
-    is_joined : bool
-        True if vertices were joined by `weld` as the mesh was read.
-    polygons : ndarray of uint32, shape (f,), optional
-        The caller's face of each triangle, where the numbers differ.
-    given_faces : int, optional
-        Number of the caller's faces, where it is known.
-    attributes : dict of Attribute
-        Read from a file.
-    columns : dict of ndarray of uint32, shape (f,)
-        Read from a file.
-    joined : ndarray of uint32, shape (v,), optional
-        The lowest vertex that each one was joined with as the mesh was read.
-    corners : ndarray of uint32, shape (f, 3), optional
-        The faces before vertices were joined as the mesh was read, or copied at walls.
-    is_y_up : bool
-        True for a file of a format in which y points up.
-    copied : ndarray of uint32, shape (k,), optional
-        The vertex that each one of the last k is a copy of, where walls cut.
-    walls : str
-        What was cut, as headers tell it.
-    """
-
-    vertices: Any
-    faces: Any
-    edge_lengths: Any = None
+    vertices: Any  #: Shape (v, d); or their number where there are lengths.
+    faces: Any  #: Triangles, shape (f, 3).
+    edge_lengths: Any = None  #: Shape (f, 3).
     weld: bool | float = False
     keep_seams: bool = False
-    polygons: NDArray[np.uint32] | None = None
-    attributes: dict[str, Attribute] = field(default_factory=dict)
-    joined: NDArray[np.uint32] | None = None
-    columns: dict[str, NDArray[np.uint32]] = field(default_factory=dict)
-    corners: NDArray[np.uint32] | None = None
-    is_y_up: bool = False
-    copied: NDArray[np.uint32] | None = None
-    walls: str = ""
-    is_joined: bool = False
-    given_faces: int | None = None
+    is_joined: bool = False  #: True if vertices were joined by `weld` as the mesh was read.
+    polygons: NDArray[np.uint32] | None = None  #: The caller's face of each triangle, if other.
+    given_faces: int | None = None  #: Number of the caller's faces, where it is known.
+    attributes: dict[str, Attribute] = field(default_factory=dict)  #: Read from a file.
+    columns: dict[str, NDArray[np.uint32]] = field(default_factory=dict)  #: Read from a file.
+    joined: NDArray[np.uint32] | None = None  #: The lowest vertex that each was joined with.
+    corners: NDArray[np.uint32] | None = None  #: Faces before vertices were joined or copied.
+    is_y_up: bool = False  #: True for a file of a format in which y points up.
+    copied: NDArray[np.uint32] | None = None  #: What each of the last vertices copies, at walls.
+    walls: str = ""  #: What was cut, as headers tell it.
 
     def indices(self) -> NDArray[Any]:
         """Returns the faces as uint32 or uint16."""
