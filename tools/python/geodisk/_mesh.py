@@ -248,11 +248,7 @@ class Mesh:
     @property
     def info(self) -> dict[str, int | float]:
         """Counts of vertices, faces, components, boundary edges and the like."""
-        return {
-            name: getattr(self._info, name)
-            for name, *_ in s.MeshInfo._fields_
-            if name != "struct_size"
-        }
+        return dict(self._info.items())
 
     def __repr__(self) -> str:
         return f"<geodisk.Mesh of {self._info.faces} faces, area {self.area:.6g}>"

@@ -86,6 +86,11 @@ class Struct(Structure):
             self.__dict__.setdefault("_kept", {})[name] = value
         super().__setattr__(name, value if address is None else address)
 
+    def items(self) -> Iterator[tuple[str, Any]]:
+        """Returns the names and values of the fields but for the size."""
+        names = (name for name, *_ in self._fields_)
+        return ((name, getattr(self, name)) for name in names if name != "struct_size")
+
 
 def __getattr__(name: str) -> Any:
     """Returns a struct."""
