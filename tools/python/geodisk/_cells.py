@@ -113,7 +113,7 @@ def cells(
     >>> halves.edges.tolist()
     [[0, 1]]
     """
-    on = mesh_of(mesh, None, None, False)
+    on = mesh_of(mesh)
     points = points_of(on._handle, samples, "samples", is_needed=True)
     mask = None if face_mask is None else mask_of(on._surface, face_mask)
     params = s.CellParams(

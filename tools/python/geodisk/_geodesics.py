@@ -156,7 +156,8 @@ def geodesic_distances(
     [0.0, 1.0, 1.4142, 1.0]
     """
     mesh, after = _mesh_and_after(
-        vertices, faces, edge_lengths, weld, keep_seams, mesh_format, allow_outside
+        vertices, faces, edge_lengths=edge_lengths, weld=weld, keep_seams=keep_seams,
+        mesh_format=mesh_format, allow_outside=allow_outside,
     )
     if after is not None and sources is not None:
         raise TypeError("a mesh and sources are given, and sources again")
@@ -242,7 +243,8 @@ def disk_radii(
     [0.36]
     """
     mesh, after = _mesh_and_after(
-        vertices, faces, edge_lengths, weld, keep_seams, mesh_format, allow_outside
+        vertices, faces, edge_lengths=edge_lengths, weld=weld, keep_seams=keep_seams,
+        mesh_format=mesh_format, allow_outside=allow_outside,
     )
     if after is not None:  # As in (mesh, sources, area).
         if sources is not None and area is not None:
@@ -314,7 +316,8 @@ def geodesic_path(
     (1.4142, [[1.0, 0.0, 0.0], [0.5, 0.5, 0.0], [0.0, 1.0, 0.0]])
     """
     mesh, after = _mesh_and_after(
-        vertices, faces, edge_lengths, weld, keep_seams, mesh_format, allow_outside
+        vertices, faces, edge_lengths=edge_lengths, weld=weld, keep_seams=keep_seams,
+        mesh_format=mesh_format, allow_outside=allow_outside,
     )
     if after is not None:  # As in (mesh, start, end).
         if end is not None:
@@ -383,9 +386,7 @@ def outside_faces(
     >>> geodisk.outside_faces(*nested).tolist()
     [True, True, True, True, False, False, False, False]
     """
-    mesh = mesh_of(
-        vertices, faces, None, False, mesh_format=mesh_format, allow_outside=allow_outside
-    )
+    mesh = mesh_of(vertices, faces, mesh_format=mesh_format, allow_outside=allow_outside)
     share = number(share, "share")
     if not 0 <= share <= 1:
         raise e.invalid(f"share is {share}, not from 0 to 1")
@@ -408,24 +409,11 @@ def _query(mesh: Mesh, sources: Any) -> s.DistanceParams:
     return params
 
 
-def _mesh_and_after(
-    vertices: Any,
-    faces: Any,
-    edge_lengths: Any,
-    weld: Any,
-    keep_seams: Any,
-    mesh_format: Any,
-    allow_outside: Any,
-) -> tuple[Mesh, Any]:
+def _mesh_and_after(vertices: Any, faces: Any, **how: Any) -> tuple[Mesh, Any]:
     """Returns the mesh, and the argument in the place of faces after a whole mesh, or None."""
-    after = None
-    if is_mesh(vertices) and faces is not None:
-        after, faces = faces, None
-    mesh = mesh_of(
-        vertices, faces, edge_lengths, weld, keep_seams,
-        mesh_format=mesh_format, allow_outside=allow_outside,
-    )
-    return mesh, after
+    if is_mesh(vertices):
+        return mesh_of(vertices, **how), faces
+    return mesh_of(vertices, faces, **how), None
 
 
 def _set_end(params: Any, mesh: Mesh, end: Any, name: str, field: str) -> None:

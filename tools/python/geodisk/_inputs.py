@@ -11,11 +11,11 @@ from numpy.typing import ArrayLike, NDArray
 from . import _errors as e
 from . import _library as c
 from ._background import interruptible
-from ._mesh import mesh_of
+from ._mesh import is_joined_by, mesh_of
 from ._protocols import Faces, MeshLike
 from ._samples import Samples
 from ._surface import Surface
-from ._values import flag, number, weld_of
+from ._values import number
 from ._writing import columns_of, header_of
 
 
@@ -25,7 +25,7 @@ def surface_of(
     faces: Faces | None,
     edge_lengths: ArrayLike | None,
     weld: bool | float,
-    keep_seams: bool = False,
+    keep_seams: bool,
 ) -> Surface | None:
     """The surface that arguments name, else the one of the samples; None for samples in a box."""
     if not isinstance(samples, Samples):
@@ -36,9 +36,10 @@ def surface_of(
     if vertices is not None:
         if samples.face_index is None and samples.extents is not None:
             raise e.invalid("samples in a box lie on no mesh")
-        return mesh_of(vertices, faces, edge_lengths, weld, keep_seams)._surface
-    is_joined = weld_of(weld) is not False or flag(keep_seams, "keep_seams")
-    if faces is not None or edge_lengths is not None or is_joined:
+        return mesh_of(
+            vertices, faces, edge_lengths=edge_lengths, weld=weld, keep_seams=keep_seams
+        )._surface
+    if is_joined_by(weld, keep_seams) or faces is not None or edge_lengths is not None:
         raise TypeError(
             "faces, edge_lengths, weld and keep_seams are of a mesh whose vertices are given"
         )

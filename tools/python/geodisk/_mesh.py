@@ -340,44 +340,40 @@ def is_mesh(source: Any) -> bool:
     return isinstance(source, (Mesh, str, os.PathLike)) or is_object(source)
 
 
+def is_joined_by(weld: bool | float, keep_seams: bool) -> bool:
+    """Returns whether arguments say how vertices are joined."""
+    return weld_of(weld) is not False or flag(keep_seams, "keep_seams")
+
+
 def mesh_of(
     vertices: ArrayLike | MeshLike,
-    faces: Faces | None,
-    edge_lengths: ArrayLike | None,
-    weld: bool | float,
-    keep_seams: bool = False,
-    columns: str | Sequence[str] = (),
-    mesh_format: str | None = None,
-    attributes: str | Sequence[str] = (),
+    faces: Faces | None = None,
+    *,
     record: Record = NOTHING,
-    allow_outside: bool = False,
     prefix: str = "",
+    **how: Any,
 ) -> Mesh:
-    """Returns the mesh that the arguments of a function name, read for `record`."""
+    """Returns the mesh that arguments of a function name, those of :class:`Mesh`, read for `record`."""
     if not isinstance(vertices, Mesh):
-        return Mesh(
-            vertices,
-            faces,
-            edge_lengths=edge_lengths,
-            weld=weld,
-            keep_seams=keep_seams,
-            columns=columns,
-            mesh_format=mesh_format,
-            attributes=attributes,
-            allow_outside=allow_outside,
-            _record=record,
-            _prefix=prefix,
-        )
-    is_joined = weld_of(weld) is not False or flag(keep_seams, "keep_seams")
-    if faces is not None or edge_lengths is not None or is_joined:
+        return Mesh(vertices, faces, **how, _record=record, _prefix=prefix)
+    is_joined = is_joined_by(how.get("weld", False), how.get("keep_seams", False))
+    if faces is not None or how.get("edge_lengths") is not None or is_joined:
         raise TypeError("a geodisk.Mesh has its faces, lengths and welds already")
-    if names(columns, "columns") or names(attributes, "attributes") or mesh_format is not None:
+    read = [names(how.get(name, ()), name) for name in ("columns", "attributes")]
+    if any(read) or how.get("mesh_format") is not None:
         raise TypeError(
             "a geodisk.Mesh has its columns already; give columns, attributes and mesh_format to it"
         )
     record.check_no_file()
     record.check(vertices._surface)
     return vertices
+
+
+def joins_for(to: Any, surface: Surface) -> dict[str, Any]:
+    """Returns how vertices of `to` are joined, as those of a surface are; nothing for a Mesh."""
+    if isinstance(to, Mesh):
+        return {}
+    return {"weld": surface.weld, "keep_seams": surface.keep_seams}
 
 
 def attributes_with(

@@ -140,7 +140,7 @@ def neighbours(
     1.0
     """
     mesh = mesh_of(
-        vertices, faces, edge_lengths, weld, keep_seams,
+        vertices, faces, edge_lengths=edge_lengths, weld=weld, keep_seams=keep_seams,
         mesh_format=mesh_format, allow_outside=allow_outside,
     )
     params = s.NeighbourParams(

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 from . import _errors as e
 from ._inherited import Wanted
 from ._inputs import places_of, run, surface_of
-from ._mesh import Mesh, created, is_mesh, mesh_of, posed
+from ._mesh import Mesh, created, is_mesh, joins_for, mesh_of, posed
 from ._protocols import Faces, MeshLike
 from ._record import Record, recorded
 from ._samples import Samples
@@ -103,15 +103,14 @@ def transfer(
 
     def make(record: Record, read: Sequence[str]) -> Mesh:
         if is_mesh(to):
-            joins = (False, False) if isinstance(to, Mesh) else (own.weld, own.keep_seams)
             return mesh_of(
-                to, None, None, *joins, attributes=read, record=record, allow_outside=allow_outside
+                to, **joins_for(to, own), attributes=read, record=record, allow_outside=allow_outside
             )
         if read:
             raise TypeError("attributes are for meshes from files")
         if own.walls:
             return posed(own, to, record)
-        return Mesh(to, own.faces, weld=own.weld, keep_seams=own.keep_seams, _record=record)
+        return Mesh(to, own.faces, **joins_for(to, own), _record=record)
 
     mesh, record = wanted.mesh(samples, (), make)
     target = mesh._surface

@@ -23,7 +23,7 @@ from ._existing import AvoidLike, ExistingLike, avoided_of, existing_of, points_
 from ._inherited import Wanted
 from ._inputs import surface_of
 from ._job import FOLLOWED, MASK_DIGEST, Job, JobFrame, joins_of
-from ._mesh import Mesh, is_mesh, keys_of, mask_of, mesh_of
+from ._mesh import Mesh, is_mesh, joins_for, keys_of, mask_of, mesh_of
 from ._protocols import Faces, MeshLike
 from ._radii import one_of, radii_of
 from ._record import Record, check_record, coloured, recorded
@@ -400,7 +400,7 @@ def _mesh_before(
             samples,
             tuple(name for name in samples.attributes if name not in ("frames", "cover", "row")),
             lambda record, read: mesh_of(
-                path, None, None, weld, keep_seams, attributes=read, record=record,
+                path, weld=weld, keep_seams=keep_seams, attributes=read, record=record,
                 allow_outside=allow_outside,
             ),
         )
@@ -437,9 +437,8 @@ def _edited_mesh(
 
     def make(record: Record, read: Sequence[str]) -> Mesh:
         if to is not None and is_mesh(to):
-            joins = (False, False) if isinstance(to, Mesh) else (source.weld, source.keep_seams)
             return mesh_of(
-                to, to_faces, None, *joins, attributes=read, record=record,
+                to, to_faces, **joins_for(to, source), attributes=read, record=record,
                 allow_outside=allow_outside,
             )
         own = _named(source, read)
@@ -449,9 +448,7 @@ def _edited_mesh(
             mesh._surface = dataclasses.replace(source, attributes=own)
             return mesh
         corners = source.own_corners() if to_faces is None else to_faces
-        mesh = Mesh(
-            to, corners, weld=source.weld, keep_seams=source.keep_seams, _record=record
-        )
+        mesh = Mesh(to, corners, **joins_for(to, source), _record=record)
         if to_faces is None:
             columns = {name: x for name, x in source.columns.items() if name != "part"}
             mesh._surface = dataclasses.replace(
