@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import ctypes
-import dataclasses
 from ctypes import byref
 from dataclasses import dataclass
 from typing import Any
@@ -123,37 +122,13 @@ def farthest_order(
         raise e.invalid(f"count is {count}, not from 1 to {len(points)}, the number of samples")
     if integer(start, "start", 2**32 - 1) >= len(points):
         raise e.invalid(f"start is {start}, not from 0 to {len(points) - 1}")
-    if existing is None:
-        return order_on(handle, points, count, start, 0, device, progress)
-    if start != 0:
-        raise e.invalid("start and existing exclude each other: existing points come first")
-    before = points_of(handle, existing, "existing")
-    k = len(before)
-    order = order_on(
-        handle,
-        np.concatenate([before, points]),
-        None if count is None else k + count,
-        0,
-        k,
-        device,
-        progress,
-    )
-    return dataclasses.replace(
-        order, indices=order.indices[k:] - np.uint32(k), distances=order.distances[k:]
-    )
-
-
-def order_on(
-    handle: c.Handle,
-    points: NDArray[Any],
-    count: int | None,
-    start: int,
-    existing: int,
-    device: DeviceLike | None,
-    progress: bool | ProgressCallback,
-) -> FarthestOrder:
-    """Returns the order of points on the library's mesh, the first `existing` of which come first."""
-    size = len(points) if count is None else int(count)
+    size, k = len(points) if count is None else int(count), 0
+    if existing is not None:
+        if start != 0:
+            raise e.invalid("start and existing exclude each other: existing points come first")
+        before = points_of(handle, existing, "existing")
+        k = len(before)
+        points, size = np.concatenate([before, points]), k + size
     indices, distances = np.empty(size, np.uint32), np.empty(size, np.float32)
     info = s.FarthestInfo()
     params = s.FarthestParams(
@@ -161,7 +136,7 @@ def order_on(
         sample_count=len(points),
         count=size,
         start=start,
-        existing=existing,
+        existing=k,
     )
 
     def find(sampler: ctypes.c_void_p, hear: Any) -> None:
@@ -178,4 +153,6 @@ def order_on(
         )
 
     searched(name_of(device), progress, find)
-    return FarthestOrder(indices, distances, info.cover, info.error, info.searches)
+    return FarthestOrder(
+        indices[k:] - np.uint32(k), distances[k:], info.cover, info.error, info.searches
+    )

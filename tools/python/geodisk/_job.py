@@ -51,6 +51,12 @@ def options() -> dict[str, Any]:
     return {one.name: one.default for one in keywords if one.name not in _PLAIN}
 
 
+def is_chosen(name: str, value: Any) -> bool:
+    """Returns True for a value that a parameter does not have by itself."""
+    usual = options()[name]
+    return value is not None if usual is None else bool(value != usual)
+
+
 #: Entries of headers for options of another name, or that sample() has not.
 _OTHERS = {
     "mask": "face_mask",

@@ -17,11 +17,11 @@ from ._oddities import warn
 
 @dataclass(frozen=True)
 class Radii:
-    """The library's radii."""
+    """The library's radii; none by default."""
 
-    handle: c.Handle
+    handle: c.Handle | None = None
     #: Distances given and told, as a part of that of two samples with the largest radius.
-    distance_part: float
+    distance_part: float = 1.0
 
 
 def one_of(density: ArrayLike | None, radius_factor: ArrayLike | None) -> str | None:
@@ -35,11 +35,11 @@ def one_of(density: ArrayLike | None, radius_factor: ArrayLike | None) -> str | 
 
 def radii_of(
     mesh: Mesh, density: ArrayLike | None, radius_factor: ArrayLike | None, prefix: str = ""
-) -> Radii | None:
+) -> Radii:
     """Returns the radii that a density or factors give, if any; warnings begin with `prefix`."""
     name = one_of(density, radius_factor)
     if name is None:
-        return None
+        return Radii()
     given = density if name == "density" else radius_factor
     assert given is not None
     values = mesh._surface.vertex_values(given, name)

@@ -19,13 +19,13 @@ from . import _structs as s
 from ._arrays import mask_digest
 from ._attributes import Attribute
 from ._devices import DeviceLike, name_of
-from ._existing import AvoidLike, ExistingLike, avoided_of, existing_of, points_of
+from ._existing import AvoidLike, ExistingLike, avoided_of, points_of
 from ._inherited import Wanted
 from ._inputs import surface_of
-from ._job import FOLLOWED, MASK_DIGEST, Job, JobFrame, joins_of
-from ._mesh import Mesh, is_mesh, joins_for, keys_of, mask_of, mesh_of
+from ._job import FOLLOWED, MASK_DIGEST, Job, JobFrame, is_chosen, joins_of
+from ._mesh import Mesh, is_mesh, joins_for, mesh_of
 from ._protocols import Faces, MeshLike
-from ._radii import one_of, radii_of
+from ._radii import one_of
 from ._record import Record, check_record, coloured, recorded
 from ._results import samples_of
 from ._running import ProgressCallback
@@ -33,6 +33,7 @@ from ._samples import Samples
 from ._searching import searched
 from ._surface import Surface
 from ._values import check_pool, listed
+from ._wanted import OnMesh
 from ._writing import SELECTION
 
 
@@ -146,7 +147,7 @@ def update(
         "avoid": avoid,
     }
     _check_radii(job, density, radius_factor)
-    chosen = {name: x for name, x in given.items() if x is not None}
+    chosen = _without_empties({name: x for name, x in given.items() if x is not None})
     edited = dataclasses.replace(job, **chosen)
     _check_joins(samples, before_edit)
     old = _Side(before_edit, job, samples)
@@ -190,7 +191,7 @@ def update(
     made = searched(name_of(device), progress, find)
     there = samples_of(made, samples.seed, mesh._surface, given=samples.min_distance)
     there.report["options"] = [
-        name for name in FOLLOWED if _is_chosen(name, getattr(edited, name))
+        name for name in FOLLOWED if is_chosen(name, getattr(edited, name))
     ]
     there.report["update"] = {
         name: getattr(info, name) for name in ("rounds", "faces", "uploaded", "removed", "added")
@@ -233,45 +234,31 @@ class _Side:
         self, mesh: Mesh, job: Job, samples: Samples, before: _Side | None = None
     ) -> None:
         self.mesh = mesh
-        radii = radii_of(mesh, job.density, job.radius_factor)
-        keys = None if job.face_keys is None else keys_of(mesh, job.face_keys)
-        mask = None if job.face_mask is None else mask_of(mesh._surface, job.face_mask)
-        self.mask_digest = "" if mask is None else mask_digest(mask)
-        has_existing = job.existing is not None and not _is_empty(job.existing)
-        kept = existing_of(mesh._handle, job.existing if has_existing else None)
-        avoided, avoid_radii = avoided_of(
-            mesh._handle, None if _avoids_nothing(job.avoid) else job.avoid
-        )
+        on = OnMesh(mesh, job)
+        self.mask_digest = "" if on.mask is None else mask_digest(on.mask)
+        kept = on.existing
+        avoided, avoid_radii = avoided_of(mesh._handle, job.avoid)
         #: By faces and weights, since positions are those before an edit.
         self.existing = None if job.existing is None else (kept["face"], kept["weights"])
         self.avoid: AvoidLike | None = None
         if job.avoid is not None:
             self.avoid = (avoided["face"], avoided["weights"]), avoid_radii
-        distance = samples.min_distance / (1.0 if radii is None else radii.distance_part)
-        if radii is not None and before is not None and before.part != radii.distance_part:
+        self.part = on.part
+        distance = samples.min_distance / self.part
+        if before is not None and before.part != self.part:
             raise e.invalid(
                 "the density has another largest or least value than before, by which all radii go, so "
                 "all samples change; sample the mesh again"
             )
-        self.part: float = 1.0 if radii is None else radii.distance_part
         frame = samples._frame
         exact = job.distance if frame is None else frame.min_distance()  # Before it was rounded.
         if exact is not None:
             if not math.isclose(exact, distance, rel_tol=1e-12):
                 raise e.invalid(f"these samples were not made {samples.min_distance} apart")
             distance = exact
-        self._params = s.SurfaceParams(
-            min_distance=distance,
-            seed=samples.seed,
-            pool_ratio=float(job.pool_ratio),
-            radii=None if radii is None else radii.handle,
-            face_keys=keys,
-            face_mask=mask,
-            existing=kept,
-            existing_count=len(kept),
-            avoid=avoided,
-            avoid_radii=avoid_radii,
-            avoid_count=len(avoided),
+        assert samples.seed is not None
+        self._params = on.params(
+            distance, samples.seed, (avoided, avoid_radii), pool_ratio=float(job.pool_ratio)
         )
 
     def arguments(self) -> tuple[Any, Any]:
@@ -325,28 +312,26 @@ def _parameters(before: Mapping[str, Any] | None) -> dict[str, Any]:
         raise TypeError(f"before has {unknown[0]!r}, none of {', '.join(FOLLOWED)}")
     if "pool_ratio" in before:
         check_pool(None, before["pool_ratio"])
-    return dict(before)
+    return _without_empties(before)
 
 
-def _is_chosen(name: str, value: Any) -> bool:
-    if name == "existing" and value is not None:
-        return not _is_empty(value)
-    if name == "avoid" and value is not None:
-        return not _avoids_nothing(value)
-    return bool(value != 20) if name == "pool_ratio" else value is not None
+def _without_empties(given: Mapping[str, Any]) -> dict[str, Any]:
+    """Returns parameters with None for existing samples and points to avoid of which there are none."""
+    found, avoid = dict(given), given.get("avoid")
+    if _is_empty(given.get("existing")):
+        found["existing"] = None
+    if isinstance(avoid, (tuple, list)) and len(avoid) == 2 and _is_empty(avoid[0]):
+        found["avoid"] = None
+    return found
 
 
-def _is_empty(points: ExistingLike) -> bool:
+def _is_empty(points: Any) -> bool:
     if isinstance(points, (tuple, list)) and len(points) == 2:
         faces = listed(points[0])
         return faces is not None and len(faces) == 0
     if isinstance(points, np.ndarray):
         return points.shape[:1] == (0,)
     return isinstance(points, (Samples, list)) and len(points) == 0
-
-
-def _avoids_nothing(avoid: AvoidLike | None) -> bool:
-    return isinstance(avoid, (tuple, list)) and len(avoid) == 2 and _is_empty(avoid[0])
 
 
 def _check_radii(job: Job, density: ArrayLike | None, radius_factor: ArrayLike | None) -> None:
@@ -371,11 +356,7 @@ def _check_inherited(old: Mesh, new: Mesh, job: Job, chosen: Mapping[str, Any]) 
 
     if not np.array_equal(old._surface.own_corners(), new._surface.own_corners()):
         for name in ("face_keys", "face_mask", "existing", "avoid"):
-            value = getattr(job, name)
-            is_none = name in ("existing", "avoid") and value is not None and _is_empty(
-                value if name == "existing" else value[0]
-            )
-            if value is not None and not is_none and name not in chosen:
+            if getattr(job, name) is not None and name not in chosen:
                 fail(name, "faces")
     if old._surface.vertex_count() != new._surface.vertex_count():
         for name in ("density", "radius_factor"):

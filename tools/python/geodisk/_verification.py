@@ -17,7 +17,7 @@ from ._inputs import option, run, surface_of
 from ._mesh import created, mask_of
 from ._oddities import warn
 from ._protocols import Faces, MeshLike
-from ._radii import one_of, radii_on
+from ._radii import Radii, one_of, radii_on
 from ._samples import Samples
 from ._surface import Surface
 from ._values import flag, number
@@ -229,7 +229,7 @@ def verify(
     if surface is not None:
         _warn_of_walls(samples, surface)
     handle = None if surface is None else created(surface)
-    radii = None
+    radii = Radii()
     given = radius_factor if density is None else density
     if varying and surface is not None and handle is not None and given is not None:
         values = surface.vertex_values(given, varying)
@@ -245,14 +245,14 @@ def verify(
         handle,
         tolerance,
         {
-            "radii": None if radii is None else radii.handle,
+            "radii": radii.handle,
             "face_mask": mask,
             "avoid": points,
             "avoid_radii": point_radii,
         },
         min_distance=option(min_distance, "min_distance"),
         maximal=maximal,
-        distance_part=1.0 if radii is None else radii.distance_part,
+        distance_part=radii.distance_part,
         avoided=len(points),
     )
     report = json.loads(told)

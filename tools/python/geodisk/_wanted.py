@@ -18,7 +18,17 @@ from . import _structs as s
 from ._arrays import mask_digest
 from ._classes import Classes, ClassPlaces, has_classes, values_of
 from ._existing import existing_of
-from ._job import FOLLOWED, MASK_DIGEST, Job, JobFrame, joins_of, options, told_text, values
+from ._job import (
+    FOLLOWED,
+    MASK_DIGEST,
+    Job,
+    JobFrame,
+    is_chosen,
+    joins_of,
+    options,
+    told_text,
+    values,
+)
 from ._mesh import Mesh, attributes_with, keys_of, mask_of, mesh_of
 from ._oddities import oddities_of_set, warn
 from ._radii import one_of, radii_of
@@ -43,6 +53,35 @@ from ._values import (
 )
 
 T = TypeVar("T")
+
+
+class OnMesh:
+    """Parameters that updates follow, as the library takes them on a mesh."""
+
+    def __init__(self, mesh: Mesh, given: Any, prefix: str = "") -> None:
+        self._radii = radii_of(mesh, given.density, given.radius_factor, prefix)
+        self.part = self._radii.distance_part
+        self._keys = None if given.face_keys is None else keys_of(mesh, given.face_keys)
+        self.mask = None if given.face_mask is None else mask_of(mesh._surface, given.face_mask)
+        self.existing = existing_of(mesh._handle, given.existing)
+
+    def params(
+        self, distance: float, seed: int, avoid: tuple[NDArray[Any], NDArray[np.float64]], **others: Any
+    ) -> s.SurfaceParams:
+        """Returns them with the distance of the run, and with points to avoid and their radii."""
+        return s.SurfaceParams(
+            min_distance=distance,
+            seed=seed,
+            radii=self._radii.handle,
+            face_keys=self._keys,
+            face_mask=self.mask,
+            existing=self.existing,
+            existing_count=len(self.existing),
+            avoid=avoid[0],
+            avoid_radii=avoid[1],
+            avoid_count=len(avoid[0]),
+            **others,
+        )
 
 
 class Wanted:
@@ -72,7 +111,7 @@ class Wanted:
         choice(a.metric, "metric", s.METRICS)
         choice(a.order, "order", ("dart", "progressive", "farthest"))
         radii_name = one_of(a.density, a.radius_factor)
-        self._options = [name for name, usual in options().items() if _is_other(given[name], usual)]
+        self._options = [name for name in options() if is_chosen(name, given[name])]
         check_fields(
             {
                 **{name: name for name in self._options},
@@ -91,10 +130,8 @@ class Wanted:
         if a.metric != "geodesic" and mesh._surface.walls:
             named = f"metric='{a.metric}' and walls"
             raise e.invalid(f"{named} exclude each other: walls are for paths along the surface")
-        radii = radii_of(mesh, a.density, a.radius_factor, prefix)
-        keys = None if a.face_keys is None else keys_of(mesh, a.face_keys)
-        mask = None if a.face_mask is None else mask_of(mesh._surface, a.face_mask)
-        kept = existing_of(mesh._handle, a.existing)
+        on = OnMesh(mesh, a, prefix)
+        kept = on.existing
         places = ClassPlaces(
             mesh,
             kinds,
@@ -105,19 +142,11 @@ class Wanted:
         )
         if a.count is not None and len(kept) >= a.count:
             raise e.invalid(f"count is {a.count}, but {len(kept)} existing samples count too")
-        part = 1.0 if radii is None else radii.distance_part
-        self._params = params = s.SurfaceParams(
-            min_distance=0.0 if distance is None else distance / part,
-            seed=seed,
-            radii=None if radii is None else radii.handle,
-            face_keys=keys,
-            face_mask=mask,
+        self._params = params = on.params(
+            0.0 if distance is None else distance / on.part,
+            seed,
+            (places.points, places.radii),
             metric=s.METRICS[a.metric],
-            existing=kept,
-            existing_count=len(kept),
-            avoid=places.points,
-            avoid_radii=places.radii,
-            avoid_count=len(places.points),
             **params_numbers,
         )
         own_classes = None
@@ -146,7 +175,7 @@ class Wanted:
         if in_levels is not None:
             self.request.levels, self.request.level_factor = in_levels
 
-        self._distance, self._part, self._seed, self._mask = distance, part, seed, mask
+        self._distance, self._part, self._seed, self._mask = distance, on.part, seed, on.mask
         self._existing, self._avoids, self._classes = len(kept), len(places.points) > 0, kinds
         self._asked, self._degrees, self._prefix = a, degrees, prefix
         surface = mesh._surface
@@ -262,11 +291,6 @@ def _numbers_in(struct: Any, given: Mapping[str, Any]) -> dict[str, int | float]
         elif kind is c_int32:
             found[field] = int(flag(given[name], name))
     return found
-
-
-def _is_other(value: Any, usual: Any) -> bool:
-    """Returns True for a value that a parameter does not have by itself."""
-    return value is not None if usual is None else bool(value != usual)
 
 
 _OF_MESH = ("edge_lengths", "weld", "keep_seams", "columns", "mesh_format", "allow_outside")
