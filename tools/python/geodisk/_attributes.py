@@ -15,29 +15,14 @@ from ._arrays import array_of
 
 @dataclass(frozen=True, eq=False)
 class Attribute:
-    """An attribute of a mesh file.
+    """An attribute of a mesh file."""
 
-    Attributes
-    ----------
-    values : ndarray of float64, shape (m,) or (m, k)
-    corners : ndarray of uint32, shape (f, 3), or None
-        The value of each corner of a triangle. None if faces have the values.
-    of_vertices : bool
-        True if the values are those of the vertices, in order.
-    is_whole : bool
-        True for integers, which are not interpolated.
-    is_light : bool
-        True for colours that are amounts of light, which sRGB encodes once they are interpolated.
-    polygons : ndarray of uint32, shape (f,), or None
-        The face of each triangle, where the numbers differ.
-    """
-
-    values: NDArray[np.float64]
-    corners: NDArray[np.uint32] | None
-    of_vertices: bool
-    is_whole: bool
-    is_light: bool
-    polygons: NDArray[np.uint32] | None
+    values: NDArray[np.float64]  #: Shape (m,) or (m, k).
+    corners: NDArray[np.uint32] | None  #: The value of each corner; None if faces have the values.
+    of_vertices: bool  #: True if the values are those of the vertices, in order.
+    is_whole: bool  #: True for integers, which are not interpolated.
+    is_light: bool  #: True for amounts of light, which sRGB encodes once they are interpolated.
+    polygons: NDArray[np.uint32] | None  #: The face of each triangle, where the numbers differ.
 
     def array(self) -> NDArray[np.float64]:
         """Returns the values of vertices, of the corners of triangles, or of triangles."""

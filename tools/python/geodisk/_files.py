@@ -19,13 +19,7 @@ def complete(path: str) -> Iterator[BinaryIO]:
     """Gives a file to write, which takes the place of `path` once all of it is on the disk.
 
     Follows links, and keeps the permissions and the owner of a file that is replaced. What
-    is there stays as it was when writing fails.
-
-    Raises
-    ------
-    OSError
-        For what cannot be replaced as a whole: folders, devices and pipes, files that are
-        write-protected, and those that have further names (hard links).
+    is there stays as it was when writing fails. Raises OSError for what cannot be replaced as a whole.
     """
     target = os.path.realpath(path)
     replaced = _replaced(path, target)

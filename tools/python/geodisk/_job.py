@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike
 
 from . import _errors as e
 from . import _library as c
+from ._surface import Surface
 
 #: Entry of headers that tells a mask from others.
 MASK_DIGEST = "mask_digest"
@@ -81,28 +82,23 @@ def values() -> tuple[str, ...]:
     return (*plain, "features", "kept_of", "weld", "keep_seams", "walls", MASK_DIGEST)
 
 
-def joins_of(weld: bool | float, keep_seams: bool, walls: str = "") -> dict[str, str]:
+def joins_of(surface: Surface) -> dict[str, str]:
     """Returns how a mesh was joined and cut, as headers tell it."""
-    told = {}
+    told, weld = {}, surface.weld
     if weld is not False:
-        told["weld"] = "exact" if weld is True or weld == 0 else exact_text(weld)
-    if keep_seams:
+        told["weld"] = "exact" if weld is True or weld == 0 else told_text(weld)
+    if surface.keep_seams:
         told["keep_seams"] = "yes"
-    if walls:
-        told["walls"] = walls
+    if surface.walls:
+        told["walls"] = surface.walls
     return told
 
 
 def told_text(value: bool | float | str) -> str:
-    """Returns a value as headers tell it."""
+    """Returns a value as headers tell it, and as the program writes it."""
     if isinstance(value, (bool, str)):
         return value if isinstance(value, str) else "yes"
-    return exact_text(value)
-
-
-def exact_text(number: float) -> str:
-    """Returns a number as the program writes it."""
-    return repr(float(number)).removesuffix(".0")
+    return repr(float(value)).removesuffix(".0")
 
 
 @dataclass(frozen=True)

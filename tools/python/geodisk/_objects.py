@@ -56,13 +56,7 @@ _VTK_FACES = {5, 7, 9}  # VTK_TRIANGLE, VTK_POLYGON, VTK_QUAD.
 
 
 def arrays_of(source: Any) -> Parts:
-    """Returns vertices, faces and values.
-
-    Raises
-    ------
-    TypeError
-        For what is no mesh, with advice how to make one of it.
-    """
+    """Returns vertices, faces and values. Raises TypeError with advice for what is no mesh."""
     for has, convert in _KINDS:
         if has(source):
             return convert(source)

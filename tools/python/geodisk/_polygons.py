@@ -14,18 +14,10 @@ from ._arrays import array_of, indices
 
 @dataclass(frozen=True, eq=False)
 class Polygons:
-    """Polygons by the vertices of all their corners.
+    """Polygons by the vertices of all their corners."""
 
-    Attributes
-    ----------
-    corners : ndarray of uint32
-        Vertices of the first face, then of the second, and so on.
-    ends : ndarray of uint64
-        For each face, the end of its corners.
-    """
-
-    corners: NDArray[np.uint32]
-    ends: NDArray[np.uint64]
+    corners: NDArray[np.uint32]  #: Vertices of the first face, then of the second, and so on.
+    ends: NDArray[np.uint64]  #: For each face, the end of its corners.
 
     def __len__(self) -> int:
         return len(self.ends)

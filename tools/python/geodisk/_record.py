@@ -1,4 +1,7 @@
-"""What samples get of their mesh besides attributes: normals, colours of a texture, frames."""
+"""What samples get of their mesh besides attributes: normals, colours of a texture, frames.
+
+Samples that update() and transfer() make inherit it.
+"""
 
 from __future__ import annotations
 
@@ -8,17 +11,19 @@ import json
 import numbers
 import os
 import reprlib
-from typing import TYPE_CHECKING, Any
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, Callable, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
 
 from . import _errors as e
 from . import _library as c
+from ._oddities import warn
 from ._polygons import from_rows
 from ._source import split
 from ._surface import Surface
-from ._values import choice, number, path_of, text
+from ._values import choice, names, number, path_of, text
 
 if TYPE_CHECKING:
     from ._mesh import Mesh
@@ -29,18 +34,12 @@ _AUTO = "auto"
 
 
 class Record:
-    """What to add.
+    """What to add."""
 
-    Attributes
-    ----------
-    texture : str or None
-        Path of an image, or "auto" for the materials of the mesh.
-    normals : {"face", "file", "smooth"}
-    frames : str or None
-        Style of frames, as files spell it; None for no frames.
-    up : {"x", "y", "z"} or None
-        Axis that frames keep to, where they do; None for that of the mesh.
-    """
+    texture: str | None  #: Path of an image, or "auto" for the materials of the mesh.
+    normals: str
+    frames: str | None  #: Style of frames, as files spell it.
+    up: str | None  #: Axis that frames keep to, where they do; None for that of the mesh.
 
     def __init__(
         self,
@@ -186,3 +185,78 @@ def _source_of(surface: Surface) -> c.Handle:
     """Returns a source of a mesh that was not read from a file."""
     faces = from_rows(surface.indices())
     return split(surface.coordinates(), faces, surface.weld, surface.keep_seams).handle
+
+
+@dataclass(frozen=True)
+class Inherited:
+    """Arguments of update() or transfer(); None where the samples say it."""
+
+    texture: str | os.PathLike[str] | None
+    normals: str | None
+    frames: bool | float | str | None
+    up: str | None
+    attributes: str | Sequence[str] | None = None
+    has_colours: bool = False  #: Whether what is made keeps the colours of a texture already.
+
+    def given(self) -> Record:
+        """Returns what the caller asks for."""
+        frames = False if self.frames is None else self.frames
+        normals = "face" if self.normals is None else self.normals
+        return Record(self.texture, normals, frames, None if self.frames is None else self.up)
+
+    def inherited(self, samples: Samples) -> Record:
+        """Returns what the caller asks for, and else what the samples had."""
+        given, had = self.given(), record_of(samples)
+        texture = had.texture if self.texture is None and not self.has_colours else given.texture
+        normals = had.normals if self.normals is None else given.normals
+        frames = had if self.frames is None else given
+        up = frames.up if self.up is None else self.up
+        return Record(texture, normals, frames.frames or False, up)
+
+    def mesh(
+        self, samples: Samples, own: Sequence[str], make: Callable[[Record, Sequence[str]], Mesh]
+    ) -> tuple[Mesh, Record]:
+        """Returns a mesh and its record: all that is wanted, or what the mesh has of it.
+
+        `make` returns the mesh to move to, read for a record and attributes. `own` names the
+        attributes to read if the caller does not say it.
+        """
+        given, wanted = self.given(), self.inherited(samples)
+        listed = () if self.attributes is None else names(self.attributes, "attributes")
+        inherited = own if self.attributes is None else listed
+        less = _without_file(wanted, given)
+        for record, read in ((wanted, inherited), (less, inherited), (less, listed)):
+            try:
+                return make(record, read), record
+            except (TypeError, e.InvalidArgument, e.MeshRejected):
+                pass  # What the caller asks for raises below.
+        return make(given, listed), given
+
+    def warn_of_lost(self, before: Samples, after: Samples) -> None:
+        """Shows what the samples had, and have no longer."""
+        columns = before.columns.keys() - after.columns.keys() - {"existing"}
+        lost = [f"columns[{name!r}]" for name in columns]
+        if self.attributes is None:
+            own = before.attributes.keys() - after.attributes.keys() - {"cover", "row"}
+            own -= {"frames"} if self.frames is not None else set()
+            lost += [f"attributes[{name!r}]" for name in own]
+        had = record_of(before).normals
+        if self.normals is None and had != record_of(after).normals:
+            lost.append(f"normals={had!r}")
+        if lost:
+            message = (
+                f"the samples of this mesh lack {', '.join(sorted(lost))} of those before; give the "
+                "path of its file, or values to interpolate()"
+            )
+            warn([e.GeodiskWarning(message, "not_kept", len(lost))])
+
+
+def record_of(samples: Samples) -> Record:
+    """Returns what samples have of their mesh, as far as they know it."""
+    return samples._record or Record(None, "face", "frames" in samples.attributes)
+
+
+def _without_file(wanted: Record, given: Record) -> Record:
+    """Returns what a mesh of arrays can have, and what the caller asks for."""
+    normals = given.normals if wanted.normals == "file" else wanted.normals
+    return Record(given.texture, normals, wanted.frames or False, wanted.up)

@@ -10,11 +10,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _errors as e
-from ._inherited import Wanted
 from ._inputs import places_of, run, surface_of
 from ._mesh import Mesh, created, is_mesh, joins_for, mesh_of, posed
 from ._protocols import Faces, MeshLike
-from ._record import Record, recorded
+from ._record import Inherited, Record, recorded
 from ._samples import Samples
 from ._surface import Surface
 
@@ -98,7 +97,7 @@ def transfer(
     source = surface_of(samples, vertices, faces, edge_lengths, weld, keep_seams)
     if source is None:
         raise e.invalid("samples in a box have no mesh")
-    wanted = Wanted(texture, normals, frames, up, attributes, has_colours=True)
+    wanted = Inherited(texture, normals, frames, up, attributes, has_colours=True)
     own: Surface = source
 
     def make(record: Record, read: Sequence[str]) -> Mesh:

@@ -16,17 +16,15 @@ from numpy.typing import ArrayLike
 from . import _errors as e
 from . import _library as c
 from . import _structs as s
-from ._arrays import mask_digest
 from ._attributes import Attribute
 from ._devices import DeviceLike, name_of
 from ._existing import AvoidLike, ExistingLike, avoided_of, points_of
-from ._inherited import Wanted
 from ._inputs import surface_of
 from ._job import FOLLOWED, MASK_DIGEST, Job, JobFrame, is_chosen, joins_of
 from ._mesh import Mesh, is_mesh, joins_for, mesh_of
 from ._protocols import Faces, MeshLike
 from ._radii import one_of
-from ._record import Record, check_record, coloured, recorded
+from ._record import Inherited, Record, check_record, coloured, recorded
 from ._results import samples_of
 from ._running import ProgressCallback
 from ._samples import Samples
@@ -130,7 +128,7 @@ def update(
     >>> int(masked.face_index.max())
     2
     """
-    wanted = Wanted(texture, normals, frames, up, attributes)
+    wanted = Inherited(texture, normals, frames, up, attributes)
     wanted.given()  # Raises for what is wrong.
     before_edit = _mesh_before(
         samples, vertices, faces, weld, keep_seams, allow_outside, wanted
@@ -138,15 +136,9 @@ def update(
     if samples.seed is None or not samples.min_distance > 0:
         raise e.invalid("these samples do not know their seed and minimum distance")
     job = _job_of(samples, before)
-    given = {
-        "density": density,
-        "radius_factor": radius_factor,
-        "face_keys": face_keys,
-        "face_mask": face_mask,
-        "existing": existing,
-        "avoid": avoid,
-    }
     _check_radii(job, density, radius_factor)
+    given = dict(density=density, radius_factor=radius_factor, existing=existing, avoid=avoid)
+    given.update(face_keys=face_keys, face_mask=face_mask)
     chosen = _without_empties({name: x for name, x in given.items() if x is not None})
     edited = dataclasses.replace(job, **chosen)
     _check_joins(samples, before_edit)
@@ -189,20 +181,22 @@ def update(
         return c.Handle("samples", "geodisk_updater_samples", updater.value)
 
     made = searched(name_of(device), progress, find)
-    there = samples_of(made, samples.seed, mesh._surface, given=samples.min_distance)
+    file = old.mesh._source if is_moved else mesh._source
+    there = samples_of(
+        made,
+        samples.seed,
+        mesh._surface,
+        given=samples.min_distance,
+        _job=dataclasses.replace(edited, source=file),
+        _told=_told_of(samples, new),
+        _frame=frames_of_run[-1],
+    )
     there.report["options"] = [
         name for name in FOLLOWED if is_chosen(name, getattr(edited, name))
     ]
     there.report["update"] = {
         name: getattr(info, name) for name in ("rounds", "faces", "uploaded", "removed", "added")
     }
-    file = old.mesh._source if is_moved else mesh._source
-    there = dataclasses.replace(
-        there,
-        _job=dataclasses.replace(edited, source=file),
-        _told=_told_of(samples, new),
-        _frame=frames_of_run[-1],
-    )
     there = recorded(there, mesh, record)
     if is_moved:
         there = coloured(there, old.mesh, wanted.inherited(samples).texture)
@@ -219,7 +213,7 @@ def _told_of(samples: Samples, new: _Side) -> dict[str, str]:
 
 def _check_joins(samples: Samples, mesh: Mesh) -> None:
     """Raises if the mesh before is joined in another way than that of the samples."""
-    own = joins_of(mesh._surface.weld, mesh._surface.keep_seams, mesh._surface.walls)
+    own = joins_of(mesh._surface)
     for name in ("weld", "keep_seams", "walls"):
         told = samples._told.get(name)
         if told != own.get(name):
@@ -235,7 +229,7 @@ class _Side:
     ) -> None:
         self.mesh = mesh
         on = OnMesh(mesh, job)
-        self.mask_digest = "" if on.mask is None else mask_digest(on.mask)
+        self.mask_digest = on.mask_digest
         kept = on.existing
         avoided, avoid_radii = avoided_of(mesh._handle, job.avoid)
         #: By faces and weights, since positions are those before an edit.
@@ -371,7 +365,7 @@ def _mesh_before(
     weld: bool | float,
     keep_seams: bool,
     allow_outside: bool,
-    wanted: Wanted,
+    wanted: Inherited,
 ) -> Mesh:
     """Returns the mesh before, with what its file has for samples."""
     is_path = isinstance(vertices, (str, os.PathLike)) and faces is None
@@ -405,7 +399,7 @@ def _edited_mesh(
     to: ArrayLike | MeshLike | None,
     to_faces: Faces | None,
     allow_outside: bool,
-    wanted: Wanted,
+    wanted: Inherited,
 ) -> tuple[Mesh, Record, bool]:
     """Returns the edited mesh, what to add to samples, and whether only positions are given."""
     source = old._surface

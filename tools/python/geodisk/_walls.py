@@ -21,14 +21,7 @@ _TOLD = re.compile("[0-9]+ (faces|edges) [0-9a-f]{8}")
 
 
 def cut(surface: Surface, walls: ArrayLike) -> Surface:
-    """Returns a surface cut along walls, whose seams are joined already where they are to be.
-
-    Parameters
-    ----------
-    surface : Surface
-    walls : array_like of bool, shape (f,), or of int, shape (k, 2)
-        A mask of triangles, or of faces as given; or edges by their vertices.
-    """
+    """Returns a surface cut along walls, whose seams are joined already where they are to be."""
     given = array_of(walls, "walls")
     triangles, vertices = surface.indices(), surface.vertex_count()
     params = s.Walls(

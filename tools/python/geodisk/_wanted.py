@@ -63,6 +63,7 @@ class OnMesh:
         self.part = self._radii.distance_part
         self._keys = None if given.face_keys is None else keys_of(mesh, given.face_keys)
         self.mask = None if given.face_mask is None else mask_of(mesh._surface, given.face_mask)
+        self.mask_digest = "" if self.mask is None else mask_digest(self.mask)
         self.existing = existing_of(mesh._handle, given.existing)
 
     def params(
@@ -175,13 +176,13 @@ class Wanted:
         if in_levels is not None:
             self.request.levels, self.request.level_factor = in_levels
 
-        self._distance, self._part, self._seed, self._mask = distance, on.part, seed, on.mask
+        self._distance, self._seed, self._on = distance, seed, on
         self._existing, self._avoids, self._classes = len(kept), len(places.points) > 0, kinds
         self._asked, self._degrees, self._prefix = a, degrees, prefix
-        surface = mesh._surface
-        self._told = joins_of(surface.weld, surface.keep_seams, surface.walls)
-        for name in set(self._options).intersection(values()).difference(_TOLD_BY_RUNS):
-            self._told[name] = told_text(given[name])
+        self._told = joins_of(mesh._surface)
+        for name in self._options:
+            if name in values() and name not in _TOLD_BY_RUNS:
+                self._told[name] = told_text(given[name])
         followed = {name: given[name] for name in FOLLOWED}
         self._job = Job(distance=None, source=mesh._source, **followed)
 
@@ -193,8 +194,8 @@ class Wanted:
             told["darts"] = str(report["candidates"])
         if self._params.is_maximal:
             told["maximal"] = "certified" if report["is_certified"] else "not certified"
-        if self._mask is not None:
-            told[MASK_DIGEST] = mask_digest(self._mask)
+        if self._on.mask_digest:
+            told[MASK_DIGEST] = self._on.mask_digest
         if report["cut"] and self._class_counts is None:
             told["exact"] = str(report["samples"])
         samples = samples_of(
@@ -202,7 +203,7 @@ class Wanted:
             self._seed,
             self.mesh._surface,
             given=self._distance,
-            distance_part=self._part,
+            distance_part=self._on.part,
             classes=self._classes,
             _job=dataclasses.replace(self._job, distance=run_distance),
             _told=told,
@@ -215,8 +216,8 @@ class Wanted:
 
     def _frame_at(self, run_distance: float) -> JobFrame | None:
         """Returns the frame of a run whose distance samples say rounded, else None."""
-        told = run_distance * self._part if self._distance is None else self._distance
-        if told / self._part == run_distance:
+        told = run_distance * self._on.part if self._distance is None else self._distance
+        if told / self._on.part == run_distance:
             return None
         params = s.SurfaceParams.from_buffer_copy(self._params)
         params.min_distance, params.existing_count, params.stop_count = run_distance, 0, 0
@@ -230,7 +231,7 @@ class Wanted:
             self._asked.count,
             self._params.stop_count,
             self._params.darts,
-            self._mask,
+            self._on.mask,
             self._existing,
             self._avoids,
             self._degrees if samples.report["lacks_features"] else 0,
@@ -239,7 +240,8 @@ class Wanted:
 
     def _oddities_of(self, samples: Samples) -> Iterator[e.GeodiskWarning]:
         """Returns what is odd about arguments that the program has not."""
-        if self._mask is not None and self._mask.size and self._mask.all():
+        mask = self._on.mask
+        if mask is not None and mask.size and mask.all():
             yield e.GeodiskWarning("face_mask leaves out no triangle", "mask_of_all", 1)
         if self._lacks_classes:
             text = "existing: the samples have no class, so they get class 0"
