@@ -135,8 +135,6 @@ class Mesh:
         _record: Record = NOTHING,
         _prefix: str = "",
     ) -> None:
-        source: Source | None = None
-        joined_edges = 0
         told: Sequence[e.MeshWarning] = ()
         left_out: list[e.MeshWarning] = []
         weld, keep_seams = weld_of(weld), flag(keep_seams, "keep_seams")
@@ -156,7 +154,6 @@ class Mesh:
                 has_uvs=_record.texture is not None and not _record.has_materials(),
                 has_materials=_record.has_materials(),
             )
-            surface = source.surface
             self._file = file.absolute()
         else:
             if columns or mesh_format is not None:
@@ -174,32 +171,39 @@ class Mesh:
             if hasattr(points, "__dlpack__"):  # As numpy has it as well.
                 points = array_of(points, "vertices")
             given = faces_of(faces)
-            if walls is not None and edge_lengths is None and not isinstance(given, Polygons):
-                # Before it is cut.
-                surface, joined_edges = joined_surface(points, given, weld, keep_seams)
-            elif isinstance(given, Polygons):
+            if isinstance(given, Polygons):
                 if edge_lengths is not None:
                     raise e.invalid("with edge lengths, all faces must be triangles")
                 source = split(Surface(points, None).coordinates(), given, weld, keep_seams)
-                surface = dataclasses.replace(
-                    source.surface, vertices=points, given_faces=len(given)
-                )
+                source = source.changed(vertices=points, given_faces=len(given))
+            elif walls is not None and edge_lengths is None:
+                source = joined(Surface(points, given, weld=weld, keep_seams=keep_seams, is_joined=True))
             else:
-                surface = Surface(points, given, edge_lengths, weld, keep_seams)
+                source = Source(Surface(points, given, edge_lengths, weld, keep_seams))
             if attributes:
-                found, left_out = attributes_of(values, attributes, surface, len(given))
-                surface = dataclasses.replace(surface, attributes=found)
+                found, left_out = attributes_of(values, attributes, source.surface, len(given))
+                source = source.changed(attributes=found)
         if walls is not None:
-            surface = cut(surface, walls)
-        _record.check(surface)
-        self._source = source.handle if source else None
-        check_record(self, _record)
-        self._prepare(surface, source.joined_edges if source else joined_edges)
-        oddities = oddities_of(self._handle, source.handle if source else None)
-        if walls is not None:
-            oddities = _told_of_walls(oddities)
-        self.warnings = (*told, *left_out, *oddities)
-        warn(self.warnings, _prefix)
+            source = source._replace(surface=cut(source.surface, walls))
+        self._make(source, _record, (*told, *left_out), _prefix)
+
+    def _make(
+        self,
+        source: Source,
+        record: Record,
+        told: Sequence[e.MeshWarning] = (),
+        prefix: str = "",
+    ) -> None:
+        """Makes the mesh, and shows what is odd about it after what readers told."""
+        record.check(source.surface)
+        self._source = source.handle
+        check_record(self, record)
+        self._prepare(source.surface, source.joined_edges)
+        oddities = oddities_of(self._handle, source.handle)
+        if source.surface.walls:
+            oddities = tuple(one for one in oddities if one.kind not in _OF_WALLS)
+        self.warnings = (*told, *oddities)
+        warn(self.warnings, prefix)
 
     def _prepare(self, surface: Surface, joined_edges: int = 0) -> None:
         self._surface = surface
@@ -272,18 +276,15 @@ class Mesh:
         return copied
 
 
-def joined_surface(
-    vertices: Any, faces: Any, weld: bool | float, keep_seams: bool
-) -> tuple[Surface, int]:
-    """Returns a surface of triangles whose vertices are joined, and how many edges of it are."""
-    plain = Surface(vertices, faces, weld=weld, keep_seams=keep_seams, is_joined=True)
+def joined(plain: Surface) -> Source:
+    """Returns a surface of triangles with its vertices joined."""
     corners = plain.indices()
-    source = split(plain.coordinates(), from_rows(corners), weld, keep_seams)
-    joined = source.surface.joined
-    if joined is None:
-        return plain, 0
-    surface = dataclasses.replace(plain, faces=joined[corners], corners=corners, joined=joined)
-    return surface, source.joined_edges
+    source = split(plain.coordinates(), from_rows(corners), plain.weld, plain.keep_seams)
+    vertices = source.surface.joined
+    if vertices is None:
+        return Source(plain)
+    surface = dataclasses.replace(plain, faces=vertices[corners], corners=corners, joined=vertices)
+    return Source(surface, None, source.joined_edges)
 
 
 def posed(surface: Surface, positions: Any, record: Record) -> Mesh:
@@ -295,18 +296,9 @@ def posed(surface: Surface, positions: Any, record: Record) -> Mesh:
         raise e.invalid(f"there are {len(places)} positions for {surface.own_vertex_count()} vertices")
     record.check_no_file()
     moved = dataclasses.replace(surface, vertices=places, edge_lengths=None, attributes={}, columns={})
-    record.check(moved)
     mesh = Mesh.__new__(Mesh)
-    check_record(mesh, record)
-    mesh._prepare(moved)
-    mesh.warnings = _told_of_walls(oddities_of(mesh._handle, None))
-    warn(mesh.warnings)
+    mesh._make(Source(moved), record)
     return mesh
-
-
-def _told_of_walls(found: tuple[e.MeshWarning, ...]) -> tuple[e.MeshWarning, ...]:
-    """Returns what is odd but for what walls make."""
-    return tuple(one for one in found if one.kind not in _OF_WALLS)
 
 
 def created(surface: Surface) -> c.Handle:

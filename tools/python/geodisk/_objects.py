@@ -42,15 +42,7 @@ class Parts(NamedTuple):
 
 
 # Corners of the cells of VTK and meshio that are faces. Others of higher order have the corners first.
-_FACE_CELLS = {
-    "triangle": 3,
-    "quad": 4,
-    "triangle6": 3,
-    "triangle7": 3,
-    "quad8": 4,
-    "quad9": 4,
-}
-
+_FACE_CELLS = {"triangle": 3, "quad": 4, "triangle6": 3, "triangle7": 3, "quad8": 4, "quad9": 4}
 
 _VTK_FACES = {5, 7, 9}  # VTK_TRIANGLE, VTK_POLYGON, VTK_QUAD.
 
@@ -298,10 +290,6 @@ def _from_grid(source: Any) -> Parts:
     return _from_polydata(surface)
 
 
-def _from_blocks(source: Any) -> Parts:
-    return _from_grid(source.combine())
-
-
 def _from_meshio(source: Any) -> Parts:
     parts, used = [], []
     for number, cells in enumerate(source.cells):
@@ -404,10 +392,6 @@ def _from_gifti(image: Any) -> Parts:
         message = f"transform to {space!r} ignored: coordinates are as the file has them"
         warnings.append(e.MeshWarning(message, "transform_ignored", 1))
     return Parts(points.data, parts["triangle"].data, values(), warnings)
-
-
-def _from_nilearn(source: Any) -> Parts:
-    return Parts(source.coordinates, source.faces)
 
 
 def _from_pytorch3d(source: Any) -> Parts:
@@ -543,12 +527,12 @@ _KINDS = (
     (_has("vertices", "cells"), _from_vedo),
     (_has("points", "faces"), _from_polydata),
     (_has("points", "extract_surface"), _from_grid),
-    (_has("n_blocks", "combine"), _from_blocks),
+    (_has("n_blocks", "combine"), lambda source: _from_grid(source.combine())),
     (_has("GetPolys", "GetStrips"), _from_vtk),
     (_has("current_mesh"), _from_pymeshlab),
     (_has("vertex_matrix", "face_matrix"), _from_pymeshlab),
     (_has("darrays", "agg_data"), _from_gifti),
-    (_has("coordinates", "faces"), _from_nilearn),
+    (_has("coordinates", "faces"), lambda source: Parts(source.coordinates, source.faces)),
     (_has("verts_list", "faces_list"), _from_pytorch3d),
     (_has("pos", "face"), _from_pyg),
     (_has("points", "indices"), _from_warp),

@@ -19,7 +19,7 @@ from ._job import JobFrame, option_of, values
 from ._record import Record
 from ._samples import Samples
 from ._values import path_of
-from ._writing import ARRAYS, OWN_COLUMNS, WHOLE_COLUMNS, Header, is_whole
+from ._writing import ARRAYS, MEMBERS, OWN_COLUMNS, WHOLE_COLUMNS, Header, is_whole
 
 Columns = dict[str, NDArray[Any]]
 
@@ -131,9 +131,8 @@ def _from_npz(file: BinaryIO) -> Samples:
         header.update({n: str(archive[n]) for n in ("min_distance", "seed") if n in archive})
         arrays = {name: archive[name] for name in ARRAYS if name in archive}
         columns = {name: archive[name] for name in WHOLE_COLUMNS if name in archive}
-        known = {*ARRAYS, *WHOLE_COLUMNS, "header", "min_distance", "seed"}
         rows = len(next(iter(arrays.values()), ()))
-        others = {name: archive[name] for name in archive if name not in known}
+        others = {name: archive[name] for name in archive if name not in MEMBERS}
         attributes = {
             name: x
             for name, x in others.items()

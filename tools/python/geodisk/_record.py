@@ -181,7 +181,7 @@ def _record(
     return normals, added
 
 
-def _source_of(surface: Surface) -> c.Handle:
+def _source_of(surface: Surface) -> c.Handle | None:
     """Returns a source of a mesh that was not read from a file."""
     faces = from_rows(surface.indices())
     return split(surface.coordinates(), faces, surface.weld, surface.keep_seams).handle

@@ -65,15 +65,7 @@ class Sample:
     attributes: dict[str, Any] = field(default_factory=dict)
 
 
-_COLUMNS = (
-    "points",
-    "normals",
-    "face_index",
-    "barycentric",
-    "polygon_index",
-    "radius",
-    "order",
-)
+_COLUMNS = tuple("points normals face_index barycentric polygon_index radius order".split())
 
 
 def _table(values: ArrayLike, name: str, shape: tuple[int, ...]) -> NDArray[np.float64]:
@@ -87,14 +79,28 @@ def _table(values: ArrayLike, name: str, shape: tuple[int, ...]) -> NDArray[np.f
     return array
 
 
+def _indices(values: ArrayLike, name: str, n: int, dtype: Any = np.uint32) -> NDArray[Any]:
+    """Whole numbers, one for each of n samples."""
+    array = indices(values, name).astype(dtype, copy=False)
+    if array.shape != (n,):
+        has = "have" if name == "face_index" else "has"
+        raise e.invalid(f"{name} {has} the shape {array.shape}, not {(n,)}")
+    return array
+
+
 def _column(values: ArrayLike, name: str, n: int) -> NDArray[np.uint32]:
     """As uint32, one for each of n samples."""
     if name not in WHOLE_COLUMNS:
         raise e.invalid(f"columns: {name!r} is none of {', '.join(WHOLE_COLUMNS)}")
-    array = indices(values, name).astype(np.uint32, copy=False)
-    if array.shape != (n,):
-        raise e.invalid(f"{name} has the shape {array.shape}, not {(n,)}")
-    return array
+    return _indices(values, name, n)
+
+
+def _lengths(values: Any, name: str) -> tuple[float, ...]:
+    """Finite numbers above 0."""
+    lengths = numbers_of(values, name)
+    if not all(length > 0 and math.isfinite(length) for length in lengths):
+        raise e.invalid(f"{name} are {lengths}, not all positive")
+    return lengths
 
 
 def _attribute(values: ArrayLike, name: str, n: int) -> NDArray[Any]:
@@ -235,16 +241,10 @@ class Samples:
         if self.normals is not None:
             keep("normals", _table(self.normals, "normals", (n, 3)))
         if self.face_index is not None and self.barycentric is not None:
-            faces = indices(self.face_index, "face_index").astype(np.uint32, copy=False)
-            if faces.shape != (n,):
-                raise e.invalid(f"face_index have the shape {faces.shape}, not {(n,)}")
-            keep("face_index", faces)
+            keep("face_index", _indices(self.face_index, "face_index", n))
             keep("barycentric", _table(self.barycentric, "barycentric", (n, 3)))
         if self.polygon_index is not None:
-            polygons = indices(self.polygon_index, "polygon_index")
-            if polygons.shape != (n,):
-                raise e.invalid(f"polygon_index has the shape {polygons.shape}, not {(n,)}")
-            keep("polygon_index", polygons.astype(np.uint32, copy=False))
+            keep("polygon_index", _indices(self.polygon_index, "polygon_index", n))
         keep("columns", {name: _column(x, name, n) for name, x in self.columns.items()})
         keep("attributes", {name: _attribute(x, name, n) for name, x in self.attributes.items()})
         distance = number(self.min_distance, "min_distance")
@@ -258,17 +258,10 @@ class Samples:
             keep("radius", _table(self.radius, "radius", (n,)))
             if (self.radius < 0).any():
                 raise e.invalid(f"a radius is {self.radius.min()}, not positive")
-        order = np.arange(n)
-        if self.order is not None:
-            order = indices(self.order, "order").astype(np.int64)
-        if order.shape != (n,):
-            raise e.invalid(f"order has the shape {order.shape}, not {(n,)}")
-        keep("order", order)
+        order = np.arange(n) if self.order is None else self.order
+        keep("order", _indices(order, "order", n, np.int64))
         if self.level_distances is not None:
-            levels = numbers_of(self.level_distances, "level_distances")
-            if not all(distance > 0 and math.isfinite(distance) for distance in levels):
-                raise e.invalid(f"level_distances are {levels}, not all positive")
-            keep("level_distances", levels)
+            keep("level_distances", _lengths(self.level_distances, "level_distances"))
         if self.seed is not None:
             keep("seed", integer(self.seed, "seed", 2**64 - 1))
         keep("periodic", flag(self.periodic, "periodic"))
@@ -277,9 +270,7 @@ class Samples:
             k = len(table) if table.ndim == 2 else 0
             keep("class_distances", _table(table, "class_distances", (k, k)))
         if self.extents is not None:
-            sides = numbers_of(self.extents, "extents")
-            if not all(side > 0 and math.isfinite(side) for side in sides):
-                raise e.invalid(f"extents are {sides}, not all positive")
+            sides = _lengths(self.extents, "extents")
             if self.points is None or self.points.shape[1] != len(sides):
                 raise e.invalid(f"extents are {len(sides)} sides, not one for each coordinate")
             keep("extents", sides)

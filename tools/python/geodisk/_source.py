@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ctypes
+import dataclasses
 import json
 import os
 from typing import Any, NamedTuple, Sequence
@@ -19,11 +20,15 @@ from ._surface import Surface
 
 
 class Source(NamedTuple):
-    """What was read."""
+    """A surface, and what was read with it."""
 
-    surface: Surface  #: In the memory of `handle`. Its vertices are joined already.
-    handle: c.Handle  #: Has warnings of the reader as well.
-    joined_edges: int
+    surface: Surface
+    handle: c.Handle | None = None  #: The reader's, with its warnings and the memory of the surface.
+    joined_edges: int = 0
+
+    def changed(self, **fields: Any) -> Source:
+        """Returns the same with other fields of the surface."""
+        return self._replace(surface=dataclasses.replace(self.surface, **fields))
 
     def leave_out(self, faces: NDArray[np.bool_]) -> None:
         """Makes triangles none, in the memory of the library, as walls do."""

@@ -35,19 +35,12 @@ SELECTION = "selection"
 
 #: Names of columns of whole numbers: what part of its file a triangle lies in, whether the sample
 #: was given, its class, its feature, its level, and the vertex that it is at.
-WHOLE_COLUMNS = (
-    "mesh",
-    "primitive",
-    "node",
-    "material",
-    "group",
-    "part",
-    "existing",
-    "class",
-    "feature",
-    "level",
-    "vertex",
+WHOLE_COLUMNS = tuple(
+    "mesh primitive node material group part existing class feature level vertex".split()
 )
+
+#: Names in NPZ files that are none of attributes.
+MEMBERS = {*ARRAYS, *WHOLE_COLUMNS, "header", "min_distance", "seed"}
 
 
 def header_of(samples: Samples) -> Header:
@@ -105,7 +98,7 @@ def digest_of(faces: NDArray[np.uint32], weights: NDArray[np.float64]) -> str:
 
 def check_names(attributes: dict[str, NDArray[Any]]) -> None:
     """Raises if an attribute has the name of something else that files have."""
-    taken = {*OWN_COLUMNS, *ARRAYS, *WHOLE_COLUMNS, "header", "min_distance", "seed"}
+    taken = {*OWN_COLUMNS, *MEMBERS}
     for name in [*attributes, *columns_of_attributes(attributes)]:
         if name in taken:
             raise e.invalid(
@@ -147,12 +140,7 @@ def columns_of(samples: Samples, as_box: bool) -> dict[str, NDArray[Any]]:
 
 def write_npz(file: BinaryIO, samples: Samples, header: Header) -> None:
     arrays: dict[str, Any] = {
-        "points": samples.points,
-        "normals": samples.normals,
-        "face_index": samples.face_index,
-        "barycentric": samples.barycentric,
-        "radius": samples.radius,
-        "polygon_index": samples.polygon_index,
+        **{name: getattr(samples, name) for name in ARRAYS},
         **samples.columns,
         **samples.attributes,
         "min_distance": np.float64(samples.min_distance),
