@@ -37,11 +37,13 @@
 #include "geodisk/outputs/progress.hpp"
 #include "geodisk/picture_run.hpp"
 #include "geodisk/reports/json.hpp"
+#include "geometry/set_warnings.hpp"
+#include "geometry/shape_warnings.hpp"
+#include "geometry/surface_warnings.hpp"
 #include "picture/png.hpp"
 #include "program/failure.hpp"
 #include "program/interrupt.hpp"
 #include "source.hpp"
-#include "warnings.hpp"
 
 using namespace geodisk;
 using namespace geodisk::tools;
@@ -400,6 +402,74 @@ void read_frame_style(RunningTask& run) {
     run.hand_over(text_of(Json{{"text", text_of(style)}, {"has_up", style.has_world()}}));
 }
 
+bool is_about_seams(const MeshWarning& warning) {
+    return warning.kind == "unwelded" || warning.kind == "near_seams";
+}
+
+/// Warnings about arrays of the caller, of which only the prepared mesh knows.
+std::vector<MeshWarning> array_warnings(const c::Mesh& mesh) {
+    std::vector<MeshWarning> warnings;
+    warn_of_repeated_vertices(warnings, mesh.prepared.statistics().repeated_index_faces, "");
+    MeshFile file;
+    if (mesh.dimension > 0) {
+        file.positions = mesh.positions;
+        file.triangles = mesh.triangles;
+        file.dimension = mesh.dimension;
+        warn_of_shapes(shapes_of(file), file);
+        std::ranges::move(file.warnings, std::back_inserter(warnings));
+        warn_of_near_seams(mesh.view(), mesh.prepared.statistics(), warnings);
+    }
+    file.lengths.resize(1); // No reader has judged the areas.
+    std::ranges::move(surface_warnings(file, mesh.prepared), std::back_inserter(warnings));
+    return warnings;
+}
+
+void warnings_of_mesh(RunningTask& run) {
+    const geodisk_task& task = run.task;
+    const c::Mesh& mesh = *task.mesh->shared;
+    std::vector<MeshWarning> warnings;
+    if (task.source == nullptr) {
+        warnings = array_warnings(mesh);
+    } else {
+        warnings = task.source->mesh.warnings;
+        std::ranges::move(surface_warnings(task.source->mesh, mesh.prepared),
+                          std::back_inserter(warnings));
+    }
+    std::stable_partition(warnings.begin(), warnings.end(), is_about_seams);
+    run.hand_over(warnings);
+}
+
+void warnings_of_set(RunningTask& run) {
+    const geodisk_task& task = run.task;
+    const Json& options = run.options;
+    SampledSet set{.samples = options.at("count"),
+                   .existing = options.at("existing"),
+                   .avoids = options.at("avoids"),
+                   .min_distance = options.at("min_distance"),
+                   .wanted_count = options.at("wanted_count"),
+                   .cut = options.at("cut"),
+                   .stop_count = options.at("stop_count"),
+                   .has_darts = options.at("has_darts"),
+                   .lacks_features = options.at("lacks_features")};
+    if (task.mesh == nullptr) {
+        set.domain = "box";
+    } else {
+        const PreparedMesh& mesh = task.mesh->shared->prepared;
+        const std::size_t masked = task.face_mask != nullptr ? mesh.face_count() : 0;
+        set.bare = parts_without(mesh, std::span(task.faces, set.samples),
+                                 std::span(task.face_mask, masked));
+    }
+    run.hand_over(set_warnings(set));
+}
+
+void warnings_of_drivers(RunningTask& run) {
+    std::vector<MeshWarning> list;
+    for (const std::string& driver : left_out_drivers()) {
+        list.push_back({"left_out_driver", 1, "", left_out_warning(driver), {}});
+    }
+    run.hand_over(list);
+}
+
 void run_named(std::string_view name, RunningTask& run) {
     constexpr std::pair<std::string_view, void (*)(RunningTask&)> kCommands[] = {
         {"describe", &describe},
@@ -412,10 +482,9 @@ void run_named(std::string_view name, RunningTask& run) {
         {"render", &render},
         {"save", &save},
         {"frame_style", &read_frame_style},
-        {"warnings_of_mesh", [](RunningTask& one) { one.hand_over(warnings_of_mesh(one.task)); }},
-        {"warnings_of_set",
-         [](RunningTask& one) { one.hand_over(warnings_of_set(one.task, one.options)); }},
-        {"warnings_of_drivers", [](RunningTask& one) { one.hand_over(warnings_of_drivers()); }},
+        {"warnings_of_mesh", &warnings_of_mesh},
+        {"warnings_of_set", &warnings_of_set},
+        {"warnings_of_drivers", &warnings_of_drivers},
         {"explain_no_device", [](RunningTask& one) {
              one.hand_over(with_driver_fault(one.options.at("message").get<std::string>()));
          }}};
