@@ -156,7 +156,7 @@ def bake(
         view(0, np.int32),
         view(1, np.float32),
         view(2, np.int32),
-        c.ask("geodisk_nearest_error", nearest.value),
+        c.ask("geodisk_nearest_error", nearest),
         int.from_bytes(made[3], sys.byteorder),
     )
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from ctypes import byref
 from dataclasses import dataclass
 
 import numpy as np
@@ -124,9 +123,7 @@ def cells(
         face_mask=mask,
     )
     handle = search("cells", "geodisk_find_cells", on._handle, params, name_of(device), progress)
-    told = s.CellArrays()
-    c.call("geodisk_cells_describe", handle.value, byref(told))
-
+    told = c.filled(s.CellArrays, "geodisk_cells_describe", handle)
     return Cells(
         view_of(told.areas, (told.sample_count,), handle, np.float64),
         view_of(told.edges, (told.edge_count, 2), handle),

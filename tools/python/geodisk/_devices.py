@@ -132,7 +132,7 @@ def _open(name: str) -> c.Handle:
         if name not in _opened:
             options = s.DeviceOptions(device=name.encode())
             with opening(name):
-                _opened[name] = c.Handle("device", "geodisk_device_open", ctypes.byref(options))
+                _opened[name] = c.Handle("device", "geodisk_device_open", options)
             if not name and _is_cpu(_opened[name]):
                 found = _cpu.warnings_of_drivers()
         device = _opened[name]
@@ -141,8 +141,7 @@ def _open(name: str) -> c.Handle:
 
 
 def _is_cpu(device: c.Handle) -> bool:
-    info = s.DeviceInfo()
-    c.call("geodisk_device_describe", device.value, ctypes.byref(info))
+    info = c.filled(s.DeviceInfo, "geodisk_device_describe", device)
     return _TYPES.get(info.type) == "cpu"
 
 
@@ -157,7 +156,7 @@ def _sampler_on(name: str, device: c.Handle) -> Iterator[ctypes.c_void_p]:
     try:
         sampler = idle.pop()
     except IndexError:
-        sampler = c.Handle("sampler", "geodisk_sampler_create", device.value, None)
+        sampler = c.Handle("sampler", "geodisk_sampler_create", device, None)
     is_lost = False
     try:
         yield sampler.value

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import ctypes
-from ctypes import byref
 from dataclasses import dataclass
 from typing import Any
 
@@ -140,17 +139,8 @@ def farthest_order(
     )
 
     def find(sampler: ctypes.c_void_p, hear: Any) -> None:
-        c.call(
-            "geodisk_farthest_order",
-            sampler,
-            handle.value,
-            byref(params),
-            hear,
-            None,
-            indices.ctypes.data,
-            distances.ctypes.data,
-            byref(info),
-        )
+        results = (indices, distances, info)
+        c.call("geodisk_farthest_order", sampler, handle, params, hear, None, *results)
 
     searched(name_of(device), progress, find)
     return FarthestOrder(

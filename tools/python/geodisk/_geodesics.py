@@ -183,13 +183,8 @@ def geodesic_distances(
     listened(
         progress,
         lambda hear: c.call(
-            "geodisk_geodesic_distances",
-            mesh._handle.value,
-            byref(params),
-            hear,
-            None,
-            distances.ctypes.data,
-            None if each else nearest.ctypes.data,
+            "geodisk_geodesic_distances", mesh._handle, params, hear, None, distances,
+            None if each else nearest,
         ),
     )
     if not return_nearest:
@@ -261,13 +256,7 @@ def disk_radii(
     listened(
         progress,
         lambda hear: c.call(
-            "geodisk_disk_radii",
-            mesh._handle.value,
-            byref(params),
-            area,
-            hear,
-            None,
-            radii.ctypes.data,
+            "geodisk_disk_radii", mesh._handle, params, area, hear, None, radii
         ),
     )
     return radii
@@ -329,10 +318,10 @@ def geodesic_path(
     _set_end(params, mesh, start, "start", "from")
     _set_end(params, mesh, end, "end", "to")
     path = interruptible(
-        lambda stop: c.Handle("path", "geodisk_geodesic_path", mesh._handle.value, byref(params))
+        lambda stop: c.Handle("path", "geodisk_geodesic_path", mesh._handle, params)
     )
     count = c_size_t()
-    address = c.ask("geodisk_path_points", path.value, byref(count))
+    address = c.ask("geodisk_path_points", path, byref(count))
     data = string_at(address, count.value * sizeof(s.PathPoint))
     points = np.frombuffer(data, np.dtype(s.PathPoint))
     faces_of, weights = points["face"].copy(), points["weights"].copy()
@@ -340,7 +329,7 @@ def geodesic_path(
     if not isinstance(mesh.vertices, int):
         corners = mesh.vertices[mesh.triangles[faces_of]].astype(np.float64)
         place = np.einsum("nk,nkd->nd", weights, corners)
-    return GeodesicPath(place, c.ask("geodisk_path_length", path.value), faces_of, weights)
+    return GeodesicPath(place, c.ask("geodisk_path_length", path), faces_of, weights)
 
 
 def outside_faces(
@@ -393,9 +382,7 @@ def outside_faces(
     mask = np.empty(mesh._info.faces, np.uint8)
     listened(
         progress,
-        lambda hear: c.call(
-            "geodisk_outside_faces", mesh._handle.value, share, hear, None, mask.ctypes.data
-        ),
+        lambda hear: c.call("geodisk_outside_faces", mesh._handle, share, hear, None, mask),
     )
     return mask.view(np.bool_)
 

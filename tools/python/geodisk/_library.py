@@ -10,6 +10,7 @@ import sys
 from ctypes import addressof, byref, c_char_p, c_int32, c_size_t, c_void_p, sizeof
 from typing import Any, Mapping
 
+import numpy as np
 from numpy.typing import NDArray
 
 from . import _structs as s
@@ -49,8 +50,9 @@ _library = _load()
 
 
 def ask(name: str, *arguments: Any) -> Any:
-    """Calls a function that cannot fail."""
-    return getattr(_library, name)(*arguments)
+    """Calls a function that cannot fail. Takes arrays, structs and objects of the library as pointers."""
+    passed = (x.ctypes.data if isinstance(x, np.ndarray) else x for x in arguments)
+    return getattr(_library, name)(*passed)
 
 
 def sampling_version() -> int:
@@ -68,7 +70,7 @@ _NO_DEVICE = -4
 def call(name: str, *arguments: Any) -> None:
     """Calls a function that can fail; raises what it fails with."""
     error = s.Error()
-    status = ask(name, *arguments, byref(error))
+    status = ask(name, *arguments, error)
     if status != 0:
         kind: str = ask("geodisk_status_name", status).decode()
         element = None if error.element == s.NO_ELEMENT else int(error.element)
@@ -77,6 +79,13 @@ def call(name: str, *arguments: Any) -> None:
             (explained,) = run("explain_no_device", message=message)
             message = explained.decode("utf-8", "replace")
         raise BY_STATUS.get(status, Error)(in_python(message), kind, element)
+
+
+def filled(struct: Any, function: str, *arguments: Any) -> Any:
+    """Returns a struct that a function fills."""
+    made = struct()
+    call(function, *arguments, made)
+    return made
 
 
 class Handle:
@@ -131,7 +140,7 @@ def run(
         except BaseException as raised:  # ctypes would drop it.
             failure.append(raised)
 
-    call("geodisk_run_command", command.encode(), byref(task), s.TAKE_FN(take))
+    call("geodisk_run_command", command.encode(), task, s.TAKE_FN(take))
     if failure:
         raise failure[0]
     return made

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import ctypes
 import dataclasses
 import os
 from typing import Any, Iterable, Sequence
@@ -208,8 +207,7 @@ class Mesh:
     def _prepare(self, surface: Surface, joined_edges: int = 0) -> None:
         self._surface = surface
         self._handle = interruptible(lambda stop: created(surface))
-        self._info = s.MeshInfo()
-        c.call("geodisk_mesh_describe", self._handle.value, ctypes.byref(self._info))
+        self._info = c.filled(s.MeshInfo, "geodisk_mesh_describe", self._handle)
         self._info.joined_edges += joined_edges
 
     @property
@@ -324,7 +322,7 @@ def created(surface: Surface) -> c.Handle:
         lengths = surface.lengths()
         params.edge_lengths = lengths
         params.vertex_count = surface.vertex_count()
-    return c.Handle("mesh", "geodisk_mesh_create", ctypes.byref(params))
+    return c.Handle("mesh", "geodisk_mesh_create", params)
 
 
 def is_mesh(source: Any) -> bool:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from ctypes import byref
 from dataclasses import dataclass
 from typing import Any, Iterator, Union
 
@@ -220,8 +219,7 @@ def _set_within(
 
 def _arrays_of(handle: c.Handle) -> Neighbours:
     """Returns the arrays, which keep the library's object alive."""
-    told = s.NeighbourArrays()
-    c.call("geodisk_neighbours_describe", handle.value, byref(told))
+    told = c.filled(s.NeighbourArrays, "geodisk_neighbours_describe", handle)
     return Neighbours(
         view_of(told.vertices, (told.source_count,), handle) if told.vertices else None,
         view_of(told.offsets, (told.source_count + 1,), handle, np.uint64),

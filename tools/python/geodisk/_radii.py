@@ -55,9 +55,9 @@ def radii_on(mesh: c.Handle, name: str, values: NDArray[Any]) -> Radii:
     handle = c.Handle(
         "radii",
         "geodisk_density_create" if name == "density" else "geodisk_radii_create",
-        mesh.value,
-        values.ctypes.data,
+        mesh,
+        values,
         s.FLOAT32 if values.dtype == np.float32 else s.FLOAT64,
         len(values),
     )
-    return Radii(handle, c.ask("geodisk_radii_min_factor", handle.value) if name == "density" else 1.0)
+    return Radii(handle, c.ask("geodisk_radii_min_factor", handle) if name == "density" else 1.0)

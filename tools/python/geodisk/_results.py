@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import ctypes
 from typing import Any
 
 import numpy as np
@@ -33,16 +32,15 @@ def samples_of(
     of that of the run, see Radii.
     """
     report = report_of(made)
-    count = c.ask("geodisk_samples_count", made.value)
+    count = c.ask("geodisk_samples_count", made)
 
     def table(attribute: int, dtype: Any = np.float64) -> Any:
         """Returns an attribute of all samples; None if they lack it."""
-        width = c.ask("geodisk_samples_width", made.value, attribute)
+        width = c.ask("geodisk_samples_width", made, attribute)
         if width == 0:
             return None
         array: NDArray[Any] = np.empty((count, width), dtype)
-        address, kind = array.ctypes.data, _KINDS[dtype]
-        c.call("geodisk_samples_copy", made.value, attribute, kind, address, 0, count)
+        c.call("geodisk_samples_copy", made, attribute, _KINDS[dtype], array, 0, count)
         return array
 
     def column(attribute: int, dtype: Any = np.uint32) -> Any:
@@ -114,6 +112,4 @@ def _level_distances(distance: float, count: int, factor: float) -> tuple[float,
 
 def report_of(handle: c.Handle) -> dict[str, Any]:
     """Returns how a run went."""
-    report = s.Report()
-    c.call("geodisk_samples_report", handle.value, ctypes.byref(report))
-    return dict(report.items())
+    return dict(c.filled(s.Report, "geodisk_samples_report", handle).items())

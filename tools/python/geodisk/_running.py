@@ -6,7 +6,7 @@ import ctypes
 import sys
 import time
 from collections.abc import Sequence
-from ctypes import addressof, byref
+from ctypes import addressof
 from typing import Any, Callable
 
 import numpy as np
@@ -118,7 +118,7 @@ class Runs:
 
     def serve_box(self, request: s.BoxRequest) -> c.Handle:
         """Returns the samples that a request asks for in a box."""
-        return self._begun(1, "geodisk_start_box_request", byref(request))[0]
+        return self._begun(1, "geodisk_start_box_request", request)[0]
 
     def _begun(self, sets: int, start: str, *arguments: Any) -> list[c.Handle]:
         """Returns the sets of samples of runs that a function of the library begins."""
@@ -141,7 +141,7 @@ class Runs:
         while not made[0]:
             c.call("geodisk_poll", sampler, _PATIENCE, made)
             if not made[0]:
-                c.call("geodisk_sampler_progress", sampler, byref(progress))
+                c.call("geodisk_sampler_progress", sampler, progress)
                 part = progress.decided / max(1, progress.candidates)
                 long_run = long_run if part >= before else None
                 before = part

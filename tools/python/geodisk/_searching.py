@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import ctypes
-from ctypes import byref
 from typing import Any, Callable, TypeVar
 
 from . import _errors as e
@@ -76,6 +75,6 @@ def search(
     """Returns what the function of the library finds on its mesh: an object of this kind."""
 
     def call(sampler: ctypes.c_void_p, hear: Any) -> c.Handle:
-        return c.Handle(kind, function, sampler, mesh.value, byref(params), hear, None)
+        return c.Handle(kind, function, sampler, mesh, params, hear, None)
 
     return searched(device, progress, call)

@@ -113,7 +113,7 @@ def _read(
 
     def read(stop: ctypes.c_int32) -> c.Handle:
         params.stop = ctypes.addressof(stop)
-        return c.Handle("source", "geodisk_source_read", ctypes.byref(params))
+        return c.Handle("source", "geodisk_source_read", params)
 
     handle = interruptible(read)
     told = json.loads(c.run("describe", {"source": handle})[0])

@@ -13,6 +13,7 @@ from ctypes import (
     POINTER,
     Structure,
     addressof,
+    byref,
     c_char,
     c_char_p,
     c_double,
@@ -85,6 +86,11 @@ class Struct(Structure):
         if address is not None:
             self.__dict__.setdefault("_kept", {})[name] = value
         super().__setattr__(name, value if address is None else address)
+
+    @property
+    def _as_parameter_(self) -> Any:
+        """What ctypes passes for this struct."""
+        return byref(self)
 
     def items(self) -> Iterator[tuple[str, Any]]:
         """Returns the names and values of the fields but for the size."""

@@ -7,7 +7,6 @@ import ctypes
 import dataclasses
 import math
 import os
-from ctypes import byref
 from typing import Any, Mapping, Sequence
 
 import numpy as np
@@ -163,22 +162,13 @@ def update(
             *old.arguments(),
             *new.arguments(),
             None if samples._frame is None else samples._frame.to_bytes(),
-            points.ctypes.data,
+            points,
             len(points),
         )
-        c.call(
-            "geodisk_update",
-            updater.value,
-            sampler,
-            *new.arguments(),
-            None,
-            0,
-            hear,
-            None,
-            byref(info),
-        )
-        frames_of_run.append(JobFrame.found("geodisk_updater_frame", updater.value))
-        return c.Handle("samples", "geodisk_updater_samples", updater.value)
+        rest = (None, 0, hear, None, info)
+        c.call("geodisk_update", updater, sampler, *new.arguments(), *rest)
+        frames_of_run.append(JobFrame.found("geodisk_updater_frame", updater))
+        return c.Handle("samples", "geodisk_updater_samples", updater)
 
     made = searched(name_of(device), progress, find)
     file = old.mesh._source if is_moved else mesh._source
@@ -256,7 +246,7 @@ class _Side:
         )
 
     def arguments(self) -> tuple[Any, Any]:
-        return self.mesh._handle.value, byref(self._params)
+        return self.mesh._handle, self._params
 
 
 def _job_of(samples: Samples, before: Mapping[str, Any] | None) -> Job:

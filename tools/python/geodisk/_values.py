@@ -8,7 +8,6 @@ import operator
 import os
 import reprlib
 import secrets
-from ctypes import byref
 from typing import Any, Iterable, Mapping
 
 import numpy as np
@@ -217,7 +216,7 @@ def rules() -> tuple[tuple[str, str, str], ...]:
     while True:
         rule = s.Rule()
         try:
-            c.call("geodisk_request_rule", len(found), byref(rule))
+            c.call("geodisk_request_rule", len(found), rule)
         except e.InvalidArgument:
             return tuple(found)
         found.append((rule.field.decode(), rule.other.decode(), rule.reason.decode()))

@@ -40,9 +40,7 @@ def cut(surface: Surface, walls: ArrayLike) -> Surface:
         told = f"{len(edges)} edges {checksum(np.unique(np.sort(edges, axis=1), axis=0))}"
     made = np.empty((len(triangles), 3), np.uint32)
     copied, count = np.empty(3 * len(triangles), np.uint32), c_size_t()
-    c.call(
-        "geodisk_cut", byref(params), made.ctypes.data, copied.ctypes.data, len(copied), byref(count)
-    )
+    c.call("geodisk_cut", params, made, copied, len(copied), byref(count))
     copied = copied[: count.value].copy()
     return dataclasses.replace(
         surface,

@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses
 import reprlib
 from collections.abc import Sequence
-from ctypes import byref, c_double, c_int32, c_uint32
+from ctypes import c_double, c_int32, c_uint32
 from types import SimpleNamespace
 from typing import Any, Callable, Iterator, Mapping, TypeVar
 
@@ -221,7 +221,7 @@ class Wanted:
             return None
         params = s.SurfaceParams.from_buffer_copy(self._params)
         params.min_distance, params.existing_count, params.stop_count = run_distance, 0, 0
-        return JobFrame.found("geodisk_job_frame_of", self.mesh._handle.value, byref(params))
+        return JobFrame.found("geodisk_job_frame_of", self.mesh._handle, params)
 
     def warn(self, samples: Samples) -> None:
         """Shows warnings about the samples that were made."""
