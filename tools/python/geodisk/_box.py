@@ -11,7 +11,7 @@ from ._arrays import real
 from ._devices import DeviceLike
 from ._oddities import oddities_of_set, warn
 from ._results import samples_of
-from ._running import ProgressCallback, Runs
+from ._running import ProgressCallback, serve_box
 from ._samples import Samples
 from ._values import check_exact, check_fields, check_pool, distance_of, flag, integer, seed_of
 
@@ -82,8 +82,7 @@ def sample_box(
     request = s.BoxRequest(
         params=params, count=0.0 if count is None else count, is_exact=int(exact)
     )
-    with Runs(device, progress) as runs:
-        made = runs.serve_box(request)
+    made = serve_box(device, progress, request)
     samples = samples_of(made, seed, extents=tuple(sides.tolist()), periodic=periodic)
     warn(oddities_of_set(samples, None, count, stop_count, darts))
     return samples

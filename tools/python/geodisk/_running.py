@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
+import contextlib
 import ctypes
 import sys
 import time
 from collections.abc import Sequence
-from ctypes import addressof
-from typing import Any, Callable
+from typing import Any, Callable, Iterator
 
 import numpy as np
 
@@ -78,11 +78,17 @@ class LongRun:
         return f"sampling takes {about} s on this device"
 
 
-def listener_of(progress: bool | ProgressCallback) -> ProgressCallback | None:
-    """Returns what to call with progress, if anything; a Bar for True."""
-    if callable(progress):
-        return progress
-    return Bar() if flag(progress, "progress") else None
+@contextlib.contextmanager
+def listening(progress: bool | ProgressCallback) -> Iterator[ProgressCallback | None]:
+    """Gives what to call with progress, if anything: a Bar for True, which is closed at the end."""
+    report: ProgressCallback | None = progress if callable(progress) else None
+    if report is None and flag(progress, "progress"):
+        report = Bar()
+    try:
+        yield report
+    finally:
+        if isinstance(report, Bar):
+            report.close()
 
 
 def stops(answer: object) -> bool:
@@ -94,62 +100,66 @@ def stops(answer: object) -> bool:
 STOPPED = "the progress callback returned False"
 
 
-class Runs:
-    """Runs one domain after another on a device, and reports progress. A context manager."""
+def serve(
+    device: DeviceLike | None,
+    progress: bool | ProgressCallback,
+    requests: Sequence[tuple[c.Handle, s.Request]],
+) -> list[c.Handle]:
+    """Returns the samples that each request asks for, of a mesh."""
+    given = (s.MeshRequest * len(requests))()
+    for one, (mesh, request) in zip(given, requests):
+        one.struct_size = ctypes.sizeof(s.MeshRequest)
+        one.mesh, one.request = mesh, request
+    return _run(device, progress, len(given), "geodisk_start_requests", given, len(given))
 
-    def __init__(self, device: DeviceLike | None, progress: bool | ProgressCallback) -> None:
-        self._device = name_of(device)
-        self._report = listener_of(progress)
 
-    def __enter__(self) -> Runs:
-        return self
+def serve_box(
+    device: DeviceLike | None, progress: bool | ProgressCallback, request: s.BoxRequest
+) -> c.Handle:
+    """Returns the samples that a request asks for in a box."""
+    return _run(device, progress, 1, "geodisk_start_box_request", request)[0]
 
-    def __exit__(self, *_: Any) -> None:
-        if isinstance(self._report, Bar):
-            self._report.close()
 
-    def serve(self, requests: Sequence[tuple[c.Handle, s.Request]]) -> list[c.Handle]:
-        """Returns the samples that each request asks for, of a mesh."""
-        given = (s.MeshRequest * len(requests))()
-        for one, (mesh, request) in zip(given, requests):
-            one.struct_size = ctypes.sizeof(s.MeshRequest)
-            one.mesh, one.request = mesh.value, addressof(request)
-        return self._begun(len(given), "geodisk_start_requests", given, len(given))
+def _run(
+    device: DeviceLike | None,
+    progress: bool | ProgressCallback,
+    sets: int,
+    start: str,
+    *arguments: Any,
+) -> list[c.Handle]:
+    """Returns the sets of samples of runs that a function of the library begins."""
+    name = name_of(device)
+    with listening(progress) as report, sampler_on(name) as sampler:
+        try:
+            c.call(start, sampler, *arguments)
+            return _polled(sampler, sets, report)
+        except e.DeviceLost:
+            forget(name)
+            raise
+        except BaseException:  # Ctrl-C, or what a callback raises.
+            _end(sampler, sets)
+            raise
 
-    def serve_box(self, request: s.BoxRequest) -> c.Handle:
-        """Returns the samples that a request asks for in a box."""
-        return self._begun(1, "geodisk_start_box_request", request)[0]
 
-    def _begun(self, sets: int, start: str, *arguments: Any) -> list[c.Handle]:
-        """Returns the sets of samples of runs that a function of the library begins."""
-        with sampler_on(self._device) as sampler:
-            try:
-                c.call(start, sampler, *arguments)
-                return self._polled(sampler, sets)
-            except e.DeviceLost:
-                forget(self._device)
-                raise
-            except BaseException:  # Ctrl-C, or what a callback raises.
-                _end(sampler, sets)
-                raise
-
-    def _polled(self, sampler: ctypes.c_void_p, sets: int) -> list[c.Handle]:
-        """Goes on until the samples are there. Python acts on signals in between."""
-        made = (ctypes.c_void_p * sets)()
-        progress, begin, before = s.Progress(), time.monotonic(), 0.0
-        long_run: LongRun | None = LongRun()  # Of the first run: others may be much longer or shorter.
-        while not made[0]:
-            c.call("geodisk_poll", sampler, _PATIENCE, made)
-            if not made[0]:
-                c.call("geodisk_sampler_progress", sampler, progress)
-                part = progress.decided / max(1, progress.candidates)
-                long_run = long_run if part >= before else None
-                before = part
-                if long_run and (message := long_run.note(time.monotonic() - begin, part)):
-                    warn([e.GeodiskWarning(message, "long_run", 1)])
-                if self._report and stops(self._report(part, progress.accepted)):
-                    raise e.Cancelled(STOPPED, "cancelled")
-        return [c.Handle.of("samples", value) for value in made]
+def _polled(
+    sampler: ctypes.c_void_p, sets: int, report: ProgressCallback | None
+) -> list[c.Handle]:
+    """Goes on until the samples are there. Python acts on signals in between."""
+    made = (ctypes.c_void_p * sets)()
+    progress, begin, before = s.Progress(), time.monotonic(), 0.0
+    long_run: LongRun | None = LongRun()  # Of the first run: others may be much longer or shorter.
+    while not made[0]:
+        c.call("geodisk_poll", sampler, _PATIENCE, made)
+        if not made[0]:
+            c.call("geodisk_sampler_progress", sampler, progress)
+            part = progress.decided / max(1, progress.candidates)
+            long_run = long_run if part >= before else None
+            before = part
+            if long_run and (message := long_run.note(time.monotonic() - begin, part)):
+                warn([e.GeodiskWarning(message, "long_run", 1)])
+            if report and stops(report(part, progress.accepted)):
+                raise e.Cancelled(STOPPED, "cancelled")
+    return [c.Handle.of("samples", value) for value in made]
 
 
 def _end(sampler: ctypes.c_void_p, sets: int) -> None:

@@ -10,14 +10,13 @@ from . import _library as c
 from . import _structs as s
 from ._background import interruptible
 from ._devices import forget, sampler_on
-from ._running import STOPPED, Bar, ProgressCallback, listener_of, stops
+from ._running import STOPPED, ProgressCallback, listening, stops
 
 T = TypeVar("T")
 
 
 def listened(progress: bool | ProgressCallback, call: Callable[[Any], T]) -> T:
     """Returns `call(callback)`, where the library calls the callback with its progress."""
-    report = listener_of(progress)
     failure: list[BaseException] = []
 
     def work(stop: ctypes.c_int32) -> T:
@@ -34,13 +33,11 @@ def listened(progress: bool | ProgressCallback, call: Callable[[Any], T]) -> T:
         return call(s.PROGRESS_FN(hear))
 
     try:
-        found = interruptible(work)
+        with listening(progress) as report:
+            found = interruptible(work)
     except e.Cancelled:
         if not failure:
             raise e.Cancelled(STOPPED, "cancelled") from None
-    finally:
-        if isinstance(report, Bar):
-            report.close()
     if failure:  # Also of the last call, which stops nothing.
         raise failure[0]
     return found

@@ -34,7 +34,7 @@ from ._oddities import oddities_of_set, warn
 from ._radii import one_of, radii_of
 from ._record import Record, recorded
 from ._results import report_of, samples_of
-from ._running import Runs
+from ._running import serve
 from ._samples import Samples
 from ._surface import Surface
 from ._values import (
@@ -326,8 +326,7 @@ def sample_one(given: Mapping[str, Any]) -> Samples:
     """Returns the samples that arguments of :func:`sample` ask for, by name."""
     record = record_of(given)
     wanted = wanted_of(given["vertices"], given["faces"], record, given)
-    with Runs(given["device"], given["progress"]) as runs:
-        (made,) = runs.serve([(wanted.mesh._handle, wanted.request)])
+    (made,) = serve(given["device"], given["progress"], [(wanted.mesh._handle, wanted.request)])
     samples = wanted.samples_of(made)
     wanted.warn(samples)
     return recorded(samples, wanted.mesh, record)
@@ -360,9 +359,12 @@ def sample_each(given: Mapping[str, Any]) -> list[Samples]:
     wanted = [_named(i, wanted_at) for i in range(n)]
     if not wanted:
         return []
-    with Runs(given["device"], given["progress"]) as runs:
+
+    def run(_: int = 0) -> list[c.Handle]:
         requests = [(one.mesh._handle, one.request) for one in wanted]
-        made = runs.serve(requests) if n > 1 else _named(0, lambda _: runs.serve(requests))
+        return serve(given["device"], given["progress"], requests)
+
+    made = run() if n > 1 else _named(0, run)
 
     def result_at(i: int) -> Samples:
         samples = wanted[i].samples_of(made[i])
