@@ -24,11 +24,11 @@ _ALL = 255  # The class of points that keep out all classes.
 
 
 class Classes:
-    """The classes of a run: factors of the minimum distance, and distances where a table has them."""
+    """The classes of a run: factors of the minimum distance."""
 
     def __init__(self, classes: ClassesLike) -> None:
         table = real(classes, "classes").astype(np.float64) + 0.0  # -0 is 0.
-        self.distances: NDArray[np.float64] | None = None
+        self.largest: float | None = None  #: Largest distance of a table.
         if table.ndim == 0:
             if not 1 <= table <= _MAX or table != int(table):
                 raise e.invalid(f"classes is {classes!r}, not a number from 1 to {_MAX}, or a table")
@@ -37,22 +37,12 @@ class Classes:
             np.fill_diagonal(factors, 1)
         else:
             _check(table)
-            self.distances = table
+            self.largest = float(table.max())
             factors = table / table.max()
         self.count = len(factors)
         self.exact_factors = factors
         #: As the library takes them.
         self.factors = np.where(factors == 0, 0, np.maximum(factors, _MIN_FACTOR)).astype(np.float32)
-
-    @property
-    def largest(self) -> float | None:
-        """The largest distance of the table; None without one."""
-        return None if self.distances is None else float(self.distances.max())
-
-    @property
-    def density(self) -> float:
-        """How many times as many samples fit as with one distance for all."""
-        return float((1 / np.diag(self.factors) ** 2).sum())
 
     def counts_of(self, counts: Any) -> NDArray[np.uint32]:
         """Returns the number of samples of each class to keep, as the library takes it."""

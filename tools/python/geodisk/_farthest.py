@@ -14,8 +14,7 @@ from . import _library as c
 from . import _structs as s
 from ._devices import DeviceLike, name_of
 from ._existing import ExistingLike, points_of
-from ._inputs import surface_of
-from ._mesh import Mesh, created
+from ._inputs import mesh_under
 from ._protocols import Faces, MeshLike
 from ._running import ProgressCallback
 from ._samples import Samples
@@ -112,10 +111,10 @@ def farthest_order(
     >>> len(few), bool(geodisk.verify(few, min_distance=0.7 * float(order.distances[3])))
     (4, True)
     """
-    surface = surface_of(samples, vertices, faces, edge_lengths, weld, keep_seams)
-    if surface is None:
+    mesh = mesh_under(samples, vertices, faces, edge_lengths, weld, keep_seams)
+    if mesh is None:
         raise e.invalid("samples in a box lie on no mesh")
-    handle = vertices._handle if isinstance(vertices, Mesh) else created(surface)
+    handle = mesh._handle
     points = points_of(handle, samples, "samples", True)
     if count is not None and not 1 <= integer(count, "count", 2**32 - 1) <= len(points):
         raise e.invalid(f"count is {count}, not from 1 to {len(points)}, the number of samples")

@@ -11,23 +11,22 @@ from numpy.typing import ArrayLike, NDArray
 from . import _errors as e
 from . import _library as c
 from ._background import interruptible
-from ._mesh import is_joined_by, mesh_of
+from ._mesh import Mesh, is_joined_by, mesh_of, prepared
 from ._protocols import Faces, MeshLike
 from ._samples import Samples
-from ._surface import Surface
 from ._values import number
 from ._writing import columns_of, header_of
 
 
-def surface_of(
+def mesh_under(
     samples: Samples,
     vertices: ArrayLike | MeshLike | None,
     faces: Faces | None,
     edge_lengths: ArrayLike | None,
     weld: bool | float,
     keep_seams: bool,
-) -> Surface | None:
-    """The surface that arguments name, else the one of the samples; None for samples in a box."""
+) -> Mesh | None:
+    """Returns the mesh that arguments name, else that of the samples; None for samples in a box."""
     if not isinstance(samples, Samples):
         raise TypeError(
             f"samples are a geodisk.Samples, as geodisk.read has them of a file, not "
@@ -38,14 +37,14 @@ def surface_of(
             raise e.invalid("samples in a box lie on no mesh")
         return mesh_of(
             vertices, faces, edge_lengths=edge_lengths, weld=weld, keep_seams=keep_seams
-        )._surface
+        )
     if is_joined_by(weld, keep_seams) or faces is not None or edge_lengths is not None:
         raise TypeError(
             "faces, edge_lengths, weld and keep_seams are of a mesh whose vertices are given"
         )
     if samples._surface is None and samples.extents is None:
         raise e.invalid("these samples do not know their mesh, so it has to be given")
-    return samples._surface
+    return None if samples._surface is None else prepared(samples._surface)
 
 
 def run(

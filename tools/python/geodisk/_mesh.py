@@ -299,6 +299,14 @@ def posed(surface: Surface, positions: Any, record: Record) -> Mesh:
     return mesh
 
 
+def prepared(surface: Surface) -> Mesh:
+    """Returns the mesh of samples that were made on a surface. What is odd was shown then."""
+    mesh = Mesh.__new__(Mesh)
+    mesh._prepare(surface)
+    mesh.warnings = ()
+    return mesh
+
+
 def created(surface: Surface) -> c.Handle:
     """Returns the library's mesh."""
     corners = surface.indices()

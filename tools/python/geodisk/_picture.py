@@ -12,8 +12,7 @@ from numpy.typing import ArrayLike
 from . import _errors as e
 from ._devices import DeviceLike, name_of, opening
 from ._files import complete
-from ._inputs import option, run, surface_of
-from ._mesh import created
+from ._inputs import mesh_under, option, run
 from ._protocols import Faces, MeshLike
 from ._samples import Samples
 from ._values import flag, listed, number, path_of, pixels, text
@@ -118,7 +117,7 @@ def render(
     >>> geodisk.render(samples, size=(320, 240))
     <geodisk.Picture of 320 x 240 pixels>
     """
-    surface = surface_of(samples, vertices, faces, None, weld, keep_seams)
+    mesh = mesh_under(samples, vertices, faces, None, weld, keep_seams)
     width, height = pixels(size, 16)
     options: dict[str, Any] = {
         "size": f"{width}x{height}",
@@ -132,7 +131,7 @@ def render(
         "device": name_of(device),
     }
     with opening(name_of(device)):
-        (png,) = run("render", samples, None if surface is None else created(surface), **options)
+        (png,) = run("render", samples, None if mesh is None else mesh._handle, **options)
     return Picture(png)
 
 

@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _errors as e
-from ._inputs import places_of, run, surface_of
-from ._mesh import Mesh, created, is_mesh, joins_for, mesh_of, posed
+from ._inputs import mesh_under, places_of, run
+from ._mesh import Mesh, is_mesh, joins_for, mesh_of, posed
 from ._protocols import Faces, MeshLike
 from ._record import Inherited, Record, recorded
 from ._samples import Samples
@@ -94,11 +94,11 @@ def transfer(
     >>> bool(larger.min_distance >= 0.8), np.allclose(larger.points, 2 * samples.points)
     (True, True)
     """
-    source = surface_of(samples, vertices, faces, edge_lengths, weld, keep_seams)
+    source = mesh_under(samples, vertices, faces, edge_lengths, weld, keep_seams)
     if source is None:
         raise e.invalid("samples in a box have no mesh")
+    own = source._surface
     wanted = Inherited(texture, normals, frames, up, attributes, has_colours=True)
-    own: Surface = source
 
     def make(record: Record, read: Sequence[str]) -> Mesh:
         if is_mesh(to):
@@ -113,9 +113,9 @@ def transfer(
 
     mesh, record = wanted.mesh(samples, (), make)
     target = mesh._surface
-    _check_faces(source, target)
+    _check_faces(own, target)
     dimension = target.dimension()
-    made = run("transfer", samples, created(source), tolerance, {"to": mesh._handle})
+    made = run("transfer", samples, source._handle, tolerance, {"to": mesh._handle})
     placed: dict[str, Any] = {}
     if samples.face_index is None:
         placed["face_index"], placed["barycentric"] = places_of(*made[:2])

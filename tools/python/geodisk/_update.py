@@ -18,7 +18,7 @@ from . import _structs as s
 from ._attributes import Attribute
 from ._devices import DeviceLike, name_of
 from ._existing import AvoidLike, ExistingLike, avoided_of, points_of
-from ._inputs import surface_of
+from ._inputs import mesh_under
 from ._job import FOLLOWED, MASK_DIGEST, Job, JobFrame, is_chosen, joins_of
 from ._mesh import Mesh, is_mesh, joins_for, mesh_of
 from ._protocols import Faces, MeshLike
@@ -370,17 +370,12 @@ def _mesh_before(
             ),
         )
         return mesh
-    surface = surface_of(samples, vertices, faces, None, weld, keep_seams)
-    if surface is None:
+    found = mesh_under(samples, vertices, faces, None, weld, keep_seams)
+    if found is None:
         raise e.invalid("samples in a box have no mesh")
-    if isinstance(vertices, Mesh):
-        return vertices
-    mesh = Mesh.__new__(Mesh)
-    mesh._prepare(surface)
-    mesh.warnings = ()  # They were shown when the samples were made.
     if vertices is None and samples._job is not None:
-        mesh._source = samples._job.source
-    return mesh
+        found._source = samples._job.source
+    return found
 
 
 def _edited_mesh(

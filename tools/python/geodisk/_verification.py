@@ -11,10 +11,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _errors as e
-from . import _library as c
 from ._existing import POINT, AvoidLike, avoided_of
-from ._inputs import option, run, surface_of
-from ._mesh import created, mask_of
+from ._inputs import mesh_under, option, run
+from ._mesh import Mesh, mask_of
 from ._oddities import warn
 from ._protocols import Faces, MeshLike
 from ._radii import Radii, one_of, radii_on
@@ -210,7 +209,8 @@ def verify(
     """
     maximal = flag(maximal, "maximal")
     varying = one_of(density, radius_factor)
-    surface = surface_of(samples, vertices, faces, edge_lengths, weld, keep_seams)
+    mesh = mesh_under(samples, vertices, faces, edge_lengths, weld, keep_seams)
+    surface = None if mesh is None else mesh._surface
     if min_distance is not None:
         min_distance = number(min_distance, "min_distance")
         if not (min_distance > 0 and math.isfinite(min_distance)):
@@ -228,21 +228,20 @@ def verify(
         raise e.invalid("face_mask leaves out all faces")
     if surface is not None:
         _warn_of_walls(samples, surface)
-    handle = None if surface is None else created(surface)
     radii = Radii()
     given = radius_factor if density is None else density
-    if varying and surface is not None and handle is not None and given is not None:
+    if varying and mesh is not None and surface is not None and given is not None:
         values = surface.vertex_values(given, varying)
         corners = surface.indices()
         small = corners[values[corners] < 0.001]
         if varying == "radius_factor" and small.size > 0:
             raise e.invalid(f"the {varying} of vertex {small[0]} is {values[small[0]]}, below 0.001")
-        radii = radii_on(handle, varying, values)
-    points, point_radii = _avoided_on(handle, surface, avoid)
+        radii = radii_on(mesh._handle, varying, values)
+    points, point_radii = _avoided_on(mesh, avoid)
     (told,) = run(
         "verify",
         samples,
-        handle,
+        None if mesh is None else mesh._handle,
         tolerance,
         {
             "radii": radii.handle,
@@ -286,13 +285,13 @@ def verify(
 
 
 def _avoided_on(
-    mesh: c.Handle | None, surface: Surface | None, avoid: AvoidLike | None
+    mesh: Mesh | None, avoid: AvoidLike | None
 ) -> tuple[NDArray[Any], NDArray[np.float64]]:
     """Returns points to avoid and their radii, which have to be right."""
-    if mesh is None or surface is None or avoid is None:
+    if mesh is None or avoid is None:
         return np.empty(0, POINT), np.empty(0)
-    points, radii = avoided_of(mesh, avoid)
-    count = len(surface.indices())
+    points, radii = avoided_of(mesh._handle, avoid)
+    count = len(mesh.triangles)
     if (outside := points["face"] >= count).any():
         first = int(np.argmax(outside))
         raise e.invalid(
