@@ -13,7 +13,8 @@ from ._oddities import oddities_of_set, warn
 from ._results import samples_of
 from ._running import ProgressCallback, serve_box
 from ._samples import Samples
-from ._values import check_exact, check_fields, check_pool, distance_of, flag, integer, seed_of
+from ._values import check_exact, check_fields, check_pool, distance_of, seed_of
+from ._wanted import numbers_in
 
 
 def sample_box(
@@ -50,39 +51,29 @@ def sample_box(
     >>> samples.points.shape[1]
     3
     """
-    darts = integer(darts, "darts", 2**32 - 1)
+    given = dict(locals())
+    numbers = numbers_in(s.BoxParams, given)
+    darts, stop_count = int(numbers["darts"]), int(numbers["stop_count"])
     distance = distance_of(min_distance, radius, count, darts)
-    periodic = flag(periodic, "periodic")
     sides = np.array(real(extents, "extents"), np.float64, order="C")
     if sides.ndim != 1:
         raise e.invalid("extents must be one number per dimension")
     if not 1 <= len(sides) <= 6:
         raise e.invalid(f"extents has {len(sides)} dimensions, not 1 to 6")
     seed = seed_of(seed)
-    stop_count = integer(stop_count, "stop_count", 2**32 - 1)
     check_exact(exact, count)
     check_pool(count, pool_ratio, darts)
-    check_fields(
-        {
-            "is_exact": "exact" if exact else None,
-            "darts": "darts" if darts else None,
-            "stop_count": "stop_count" if stop_count else None,
-        }
-    )
+    names = {"is_exact": "exact", "darts": "darts", "stop_count": "stop_count"}
+    check_fields({field: name if given[name] else None for field, name in names.items()})
     params = s.BoxParams(
         extents=sides,
         dimension=len(sides),
-        is_periodic=int(periodic),
-        min_distance=0.0 if distance is None else distance,
+        min_distance=distance or 0.0,
         seed=seed,
-        pool_ratio=float(pool_ratio),
-        darts=darts,
-        stop_count=stop_count,
+        **numbers,
     )
-    request = s.BoxRequest(
-        params=params, count=0.0 if count is None else count, is_exact=int(exact)
-    )
+    request = s.BoxRequest(params=params, count=count or 0.0, is_exact=int(exact))
     made = serve_box(device, progress, request)
-    samples = samples_of(made, seed, extents=tuple(sides.tolist()), periodic=periodic)
+    samples = samples_of(made, seed, extents=tuple(sides.tolist()), periodic=bool(periodic))
     warn(oddities_of_set(samples, None, count, stop_count, darts))
     return samples

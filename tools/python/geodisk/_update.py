@@ -139,15 +139,11 @@ def update(
     given = dict(density=density, radius_factor=radius_factor, existing=existing, avoid=avoid)
     given.update(face_keys=face_keys, face_mask=face_mask)
     chosen = _without_empties({name: x for name, x in given.items() if x is not None})
-    edited = dataclasses.replace(job, **chosen)
     _check_joins(samples, before_edit)
     old = _Side(before_edit, job, samples)
     if samples._told.get(MASK_DIGEST, old.mask_digest) != old.mask_digest:
         raise e.invalid("the samples were made with another face_mask; give it as it was")
-    if existing is None:
-        edited = dataclasses.replace(edited, existing=old.existing)
-    if avoid is None:
-        edited = dataclasses.replace(edited, avoid=old.avoid)
+    edited = dataclasses.replace(job, **{**old.heritage, **chosen})
     mesh, record, is_moved = _edited_mesh(samples, old.mesh, to, to_faces, allow_outside, wanted)
     _check_inherited(old.mesh, mesh, job, chosen)
     new = _Side(mesh, edited, samples, old)
@@ -211,23 +207,20 @@ def _check_joins(samples: Samples, mesh: Mesh) -> None:
             raise e.invalid(f"the samples were made {made}; give the mesh before in the same way")
 
 
-class _Side:
+class _Side(OnMesh):
     """A mesh and its parameters as the library takes them."""
 
     def __init__(
         self, mesh: Mesh, job: Job, samples: Samples, before: _Side | None = None
     ) -> None:
+        super().__init__(mesh, job)
         self.mesh = mesh
-        on = OnMesh(mesh, job)
-        self.mask_digest = on.mask_digest
-        kept = on.existing
-        avoided, avoid_radii = avoided_of(mesh._handle, job.avoid)
-        #: By faces and weights, since positions are those before an edit.
-        self.existing = None if job.existing is None else (kept["face"], kept["weights"])
-        self.avoid: AvoidLike | None = None
-        if job.avoid is not None:
-            self.avoid = (avoided["face"], avoided["weights"]), avoid_radii
-        self.part = on.part
+        kept, (avoided, radii) = self.existing, avoided_of(mesh._handle, job.avoid)
+        #: What others inherit, by faces and weights, since positions are those before an edit.
+        self.heritage = {
+            "existing": None if job.existing is None else (kept["face"], kept["weights"]),
+            "avoid": None if job.avoid is None else ((avoided["face"], avoided["weights"]), radii),
+        }
         distance = samples.min_distance / self.part
         if before is not None and before.part != self.part:
             raise e.invalid(
@@ -241,8 +234,8 @@ class _Side:
                 raise e.invalid(f"these samples were not made {samples.min_distance} apart")
             distance = exact
         assert samples.seed is not None
-        self._params = on.params(
-            distance, samples.seed, (avoided, avoid_radii), pool_ratio=float(job.pool_ratio)
+        self._params = self.params(
+            distance, samples.seed, (avoided, radii), pool_ratio=float(job.pool_ratio)
         )
 
     def arguments(self) -> tuple[Any, Any]:

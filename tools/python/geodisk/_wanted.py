@@ -96,8 +96,8 @@ class Wanted:
     ) -> None:
         a = SimpleNamespace(**given)
         min_distance = a.min_distance
-        params_numbers = _numbers_in(s.SurfaceParams, given)
-        request_numbers = _numbers_in(s.Request, given)
+        params_numbers = numbers_in(s.SurfaceParams, given)
+        request_numbers = numbers_in(s.Request, given)
         darts = int(params_numbers["darts"])
         kinds = None if a.classes is None else Classes(a.classes)
         if kinds is not None and kinds.largest is not None:
@@ -144,7 +144,7 @@ class Wanted:
         if a.count is not None and len(kept) >= a.count:
             raise e.invalid(f"count is {a.count}, but {len(kept)} existing samples count too")
         self._params = params = on.params(
-            0.0 if distance is None else distance / on.part,
+            (distance or 0.0) / on.part,
             seed,
             (places.points, places.radii),
             metric=s.METRICS[a.metric],
@@ -161,7 +161,7 @@ class Wanted:
         #: As the library takes it.
         self.request = s.Request(
             params=params,
-            count=0.0 if a.count is None else a.count,
+            count=a.count or 0.0,
             order=s.ORDERS[a.order],
             features=degrees,
             **request_numbers,
@@ -279,7 +279,7 @@ _OWN = {"min_distance", "seed", "metric", "count", "order", "features", "levels"
 _TOLD_BY_RUNS = {"darts", "stop_count", "exact", "maximal", "order"}
 
 
-def _numbers_in(struct: Any, given: Mapping[str, Any]) -> dict[str, int | float]:
+def numbers_in(struct: Any, given: Mapping[str, Any]) -> dict[str, int | float]:
     """Returns the fields of a struct that parameters of the same names tell, checked."""
     found: dict[str, int | float] = {}
     for field, kind in struct._fields_:
