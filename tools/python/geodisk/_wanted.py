@@ -88,11 +88,11 @@ class OnMesh:
 class Wanted:
     """Samples of one mesh that are asked for. Parameters are those of :func:`sample`.
 
-    Warnings begin with `prefix`.
+    The mesh is read for `record`. Warnings begin with `prefix`.
     """
 
     def __init__(
-        self, read_mesh: Callable[[], Mesh], given: Mapping[str, Any], prefix: str = ""
+        self, vertices: Any, faces: Any, record: Record, given: Mapping[str, Any], prefix: str = ""
     ) -> None:
         a = SimpleNamespace(**given)
         min_distance = a.min_distance
@@ -127,10 +127,18 @@ class Wanted:
         in_levels = levels_of(a.order, a.levels, a.level_factor)
         degrees = 0.0 if a.features is None else degrees_of(a.features)
 
-        self.mesh = mesh = read_mesh()
+        named = (a.density, a.radius_factor, *values_of(a.class_densities))
+        self.mesh = mesh = mesh_of(
+            vertices,
+            faces,
+            **{name: given[name] for name in _OF_MESH},
+            attributes=attributes_with(a.attributes, vertices, *named),
+            record=record,
+            prefix=prefix,
+        )
         if a.metric != "geodesic" and mesh._surface.walls:
-            named = f"metric='{a.metric}' and walls"
-            raise e.invalid(f"{named} exclude each other: walls are for paths along the surface")
+            both = f"metric='{a.metric}' and walls"
+            raise e.invalid(f"{both} exclude each other: walls are for paths along the surface")
         on = OnMesh(mesh, a, prefix)
         kept = on.existing
         places = ClassPlaces(
@@ -176,7 +184,7 @@ class Wanted:
         if in_levels is not None:
             self.request.levels, self.request.level_factor = in_levels
 
-        self._distance, self._seed, self._on = distance, seed, on
+        self._distance, self._seed, self._on, self._record = distance, seed, on, record
         self._existing, self._avoids, self._classes = len(kept), len(places.points) > 0, kinds
         self._asked, self._degrees, self._prefix = a, degrees, prefix
         self._told = joins_of(mesh._surface)
@@ -187,7 +195,7 @@ class Wanted:
         self._job = Job(distance=None, source=mesh._source, **followed)
 
     def samples_of(self, made: c.Handle) -> Samples:
-        """Returns the samples that were made, in the order asked for."""
+        """Returns the samples that were made, in the order asked for, after warnings about them."""
         report = report_of(made)
         run_distance, told = report["min_distance"], dict(self._told)
         if self._params.darts:
@@ -212,7 +220,8 @@ class Wanted:
         samples.report["options"] = self._options
         if self.request.at_vertices:
             samples.columns["vertex"] = vertices_at(samples, self.mesh._surface)
-        return samples
+        self._warn(samples)
+        return recorded(samples, self.mesh, self._record)
 
     def _frame_at(self, run_distance: float) -> JobFrame | None:
         """Returns the frame of a run whose distance samples say rounded, else None."""
@@ -223,7 +232,7 @@ class Wanted:
         params.min_distance, params.existing_count, params.stop_count = run_distance, 0, 0
         return JobFrame.found("geodisk_job_frame_of", self.mesh._handle, params)
 
-    def warn(self, samples: Samples) -> None:
+    def _warn(self, samples: Samples) -> None:
         """Shows warnings about the samples that were made."""
         found = oddities_of_set(
             samples,
@@ -272,6 +281,8 @@ def vertices_at(samples: Samples, surface: Surface) -> NDArray[np.uint32]:
     return vertices
 
 
+_OF_MESH = ("edge_lengths", "weld", "keep_seams", "columns", "mesh_format", "allow_outside")
+
 #: Numbers of structs that parameters of the same names do not tell alone.
 _OWN = {"min_distance", "seed", "metric", "count", "order", "features", "levels", "level_factor"}
 
@@ -295,41 +306,16 @@ def numbers_in(struct: Any, given: Mapping[str, Any]) -> dict[str, int | float]:
     return found
 
 
-_OF_MESH = ("edge_lengths", "weld", "keep_seams", "columns", "mesh_format", "allow_outside")
-
-
 def record_of(given: Mapping[str, Any]) -> Record:
     """Returns what arguments of :func:`sample` add to samples."""
     return Record(given["texture"], given["normals"], given["frames"], given["up"])
 
 
-def wanted_of(
-    vertices: Any, faces: Any, record: Record, given: Mapping[str, Any], prefix: str = ""
-) -> Wanted:
-    """Returns what arguments of :func:`sample` ask for, by name, on a mesh that is read for `record`."""
-
-    def read_mesh() -> Mesh:
-        named = (given["density"], given["radius_factor"], *values_of(given["class_densities"]))
-        return mesh_of(
-            vertices,
-            faces,
-            **{name: given[name] for name in _OF_MESH},
-            attributes=attributes_with(given["attributes"], vertices, *named),
-            record=record,
-            prefix=prefix,
-        )
-
-    return Wanted(read_mesh, given, prefix)
-
-
 def sample_one(given: Mapping[str, Any]) -> Samples:
     """Returns the samples that arguments of :func:`sample` ask for, by name."""
-    record = record_of(given)
-    wanted = wanted_of(given["vertices"], given["faces"], record, given)
+    wanted = Wanted(given["vertices"], given["faces"], record_of(given), given)
     (made,) = serve(given["device"], given["progress"], [(wanted.mesh._handle, wanted.request)])
-    samples = wanted.samples_of(made)
-    wanted.warn(samples)
-    return recorded(samples, wanted.mesh, record)
+    return wanted.samples_of(made)
 
 
 #: Parameters of :func:`sample_many` that have a number for each mesh.
@@ -354,7 +340,7 @@ def sample_each(given: Mapping[str, Any]) -> list[Samples]:
 
     def wanted_at(i: int) -> Wanted:
         alone = {**given, **{name: x[i] for name, x in own.items()}}
-        return wanted_of(*_parts_of(several[i]), record, alone, _prefix(i))
+        return Wanted(*_parts_of(several[i]), record, alone, _prefix(i))
 
     wanted = [_named(i, wanted_at) for i in range(n)]
     if not wanted:
@@ -365,13 +351,7 @@ def sample_each(given: Mapping[str, Any]) -> list[Samples]:
         return serve(given["device"], given["progress"], requests)
 
     made = run() if n > 1 else _named(0, run)
-
-    def result_at(i: int) -> Samples:
-        samples = wanted[i].samples_of(made[i])
-        wanted[i].warn(samples)
-        return recorded(samples, wanted[i].mesh, record)
-
-    return [_named(i, result_at) for i in range(n)]
+    return [_named(i, lambda i: wanted[i].samples_of(made[i])) for i in range(n)]
 
 
 def _prefix(index: int) -> str:
