@@ -154,7 +154,7 @@ def test_options():
     assert walled.info["joined_edges"] == 3 * len(FACES)
     kept = geodisk.Mesh(*soup, keep_seams=True)
     assert kept.info["joined_edges"] == 0 and kept.info["components"] == len(FACES)
-    with pytest.raises(geodisk.InvalidArgument, match="contradict"):
+    with pytest.raises(geodisk.InvalidArgument, match="^weld and keep_seams contradict"):
         geodisk.Mesh(*soup, keep_seams=True, weld=True)
     plane = geodisk.sample([[0, 0], [1, 0], [0, 1]], [[0, 1, 2]], min_distance=0.1)
     assert plane.points.shape[1] == 2 and plane.normals is None

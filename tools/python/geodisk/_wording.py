@@ -17,11 +17,12 @@ _OPTION = re.compile(r"(?<![^\s(])--([a-z]+(?:-[a-z]+)*?)(?:-[ab])?(?![\w./-])")
 
 
 def in_python(message: str) -> str:
-    """Returns the message with the parameters that are meant by options.
+    """Returns the message with the parameters that are meant by options, and by fields of C.
 
     Leaves out advice on options that no function has.
     """
     message = re.sub(r" \(see geodisk \w+ --help\)", "", message)
+    message = re.sub(r"\b(?:params|request)->", "", message)
     said, *advice = message.split("; ")
     kept = [said, *(clause for clause in advice if set(_OPTION.findall(clause)) <= _PARAMETERS.keys())]
 
