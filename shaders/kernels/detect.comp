@@ -75,14 +75,8 @@ void hand_in_slot() {
     slots[lane.slot].active_conflicts = lane.active_conflicts;
     slots[lane.slot].longest_chain = lane.longest_chain;
     lane.phase = kPhaseIdle;
-    ++own_disks.disks;
-    own_disks.windows += lane.pushed;
-    own_disks.tested += lane.tested;
-    own_disks.max_waiting = max(own_disks.max_waiting, lane.max_waiting);
-    own_disks.max_windows = max(own_disks.max_windows, lane.pushed);
-    own_disks.max_vertices = max(own_disks.max_vertices, lane.vertices);
-    own_disks.max_conflicts =
-        max(own_disks.max_conflicts, lane.idle_conflicts + lane.active_conflicts);
+    add_disk(lane.pushed, lane.tested, lane.max_waiting, lane.vertices,
+             lane.idle_conflicts + lane.active_conflicts);
     complete_one();
 }
 
@@ -356,7 +350,7 @@ void work_on(uint index) {
     load_face();
     for (uint i = 0u; i < push.step_budget && overflow == 0u; ++i) {
         step();
-        ++own_disks.steps;
+        ++own_steps;
         if (lane.phase == kPhaseIdle && !slots_left()) {
             break;
         }
@@ -390,7 +384,7 @@ void main() {
     uint index = gl_GlobalInvocationID.x;
     keep_constants();
     trips = 0u;
-    own_disks = kNoDisks;
+    begin_disks();
     if (index < push.lanes && atomic_load(control.incomplete) > 0u &&
         atomic_load(control.overflow) == 0u) {
         work_on(index);

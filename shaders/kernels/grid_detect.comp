@@ -244,9 +244,9 @@ void find_conflicts(uint slot) {
     load_own(slot);
     for (uint i = 0u; i < push.step_budget && running(); ++i) {
         trip();
-        ++own_disks.steps;
+        ++own_steps;
     }
-    own_disks.steps = max(own_disks.steps, 1u);
+    own_steps = max(own_steps, 1u);
     slots[slot].idle_conflicts = idle_conflicts;
     slots[slot].active_conflicts = active_conflicts;
     slots[slot].turn = turn;
@@ -257,8 +257,7 @@ void find_conflicts(uint slot) {
     if (overflow != 0u) {
         atomicOr(control.overflow, overflow);
     } else if (!running() && block_conflicts(slot)) {
-        own_disks = DiskTotals(own_disks.steps, 1u, rows_visited, tested, 0u, rows_visited, 0u,
-                               idle_conflicts + active_conflicts);
+        add_disk(rows_visited, tested, 0u, 0u, idle_conflicts + active_conflicts);
         complete(slot);
     }
 }
@@ -266,7 +265,7 @@ void find_conflicts(uint slot) {
 void main() {
     uint slot = gl_GlobalInvocationID.x;
     keep_constants();
-    own_disks = kNoDisks;
+    begin_disks();
     if (slot < control.slots_used && atomic_load(control.overflow) == 0u &&
         slots[slot].phase == kSlotReady) {
         if (is_void(slot)) {

@@ -404,13 +404,7 @@ void hand_in_slot() {
     slots[group.slot].active_conflicts = group.active_conflicts;
     slots[group.slot].longest_chain = group.longest_chain;
     slots[group.slot].phase = kSlotListed;
-    ++own_disks.disks;
-    own_disks.windows += group.pushed;
-    own_disks.tested += group.tested;
-    own_disks.max_waiting = max(own_disks.max_waiting, group.max_waiting);
-    own_disks.max_windows = max(own_disks.max_windows, group.pushed);
-    own_disks.max_vertices = max(own_disks.max_vertices, group.vertices);
-    own_disks.max_conflicts = max(own_disks.max_conflicts, group.conflicts);
+    add_disk(group.pushed, group.tested, group.max_waiting, group.vertices, group.conflicts);
     complete_one();
     group.phase = kGroupIdle;
 }
@@ -482,7 +476,7 @@ void main() {
     uint index = gl_WorkGroupID.x;
     bool is_first = gl_LocalInvocationID.x == 0u;
     keep_constants();
-    own_disks = kNoDisks;
+    begin_disks();
     overflow = 0u;
     begin_step();
     if (is_first) {
@@ -556,7 +550,7 @@ void main() {
         works = group_works;
     }
     if (is_first && index < push.lanes) {
-        own_disks.steps = kGroupStepCost * steps;
+        own_steps = kGroupStepCost * steps;
         if (group_overflow != 0u) {
             atomicOr(control.overflow, told_overflow());
         }

@@ -15,28 +15,36 @@ struct DiskTotals {
 
 const DiskTotals kNoDisks = DiskTotals(0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u);
 
-DiskTotals own_disks; // of this invocation
 shared DiskTotals group_disks;
+uint own_steps; // of this invocation
 
-// Adds up the totals. Every invocation of the group must call it.
-void sum_disks() {
-    bool is_first = gl_LocalInvocationID.x == 0u;
-    if (is_first) {
+// Begins to add up. Every invocation of the group must call it.
+void begin_disks() {
+    own_steps = 0u;
+    if (gl_LocalInvocationID.x == 0u) {
         group_disks = kNoDisks;
     }
     barrier();
-    if (own_disks.steps > 0u) {
-        atomicAdd(group_disks.steps, own_disks.steps);
-        atomicAdd(group_disks.disks, own_disks.disks);
-        atomicAdd(group_disks.windows, own_disks.windows);
-        atomicAdd(group_disks.tested, own_disks.tested);
-        atomicMax(group_disks.max_waiting, own_disks.max_waiting);
-        atomicMax(group_disks.max_windows, own_disks.max_windows);
-        atomicMax(group_disks.max_vertices, own_disks.max_vertices);
-        atomicMax(group_disks.max_conflicts, own_disks.max_conflicts);
+}
+
+// Adds a disk that is complete.
+void add_disk(uint windows, uint tested, uint waiting, uint vertices, uint conflicts) {
+    atomicAdd(group_disks.disks, 1u);
+    atomicAdd(group_disks.windows, windows);
+    atomicAdd(group_disks.tested, tested);
+    atomicMax(group_disks.max_waiting, waiting);
+    atomicMax(group_disks.max_windows, windows);
+    atomicMax(group_disks.max_vertices, vertices);
+    atomicMax(group_disks.max_conflicts, conflicts);
+}
+
+// Tells the totals. Every invocation of the group must call it.
+void sum_disks() {
+    if (own_steps > 0u) {
+        atomicAdd(group_disks.steps, own_steps);
     }
     barrier();
-    if (is_first && group_disks.steps > 0u) {
+    if (gl_LocalInvocationID.x == 0u && group_disks.steps > 0u) {
         atomicAdd(control.steps, group_disks.steps);
         atomicAdd(control.disks, group_disks.disks);
         GEODISK_ADD_WIDE(control.windows_low, control.windows_high, group_disks.windows)
