@@ -110,7 +110,7 @@ TEST_CASE("wrong arguments are told of") {
     check_wrong("", surface); // No distance.
     params.min_distance = 0.3;
     params.pool_ratio = 0.5;
-    check_wrong("", surface);
+    check_wrong("the pool ratio must be 1 to 10,000, not 0.5", surface);
     params.pool_ratio = 0;
     params.metric = 7;
     check_wrong("metric", surface);

@@ -5,6 +5,7 @@
 #include <limits>
 #include <numeric>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "device_run.hpp"
@@ -225,11 +226,16 @@ TEST_SUITE("several") {
         SampleParams bad = good;
         bad.min_distance = -1;
         CHECK(surfaces_refusal({{&ball, good}, {&ball, good}, {&ball, bad}}) ==
-              "surface 2: the minimum distance must be a positive finite number");
-        for (const double scale : {0.0, -1.0, std::numeric_limits<double>::infinity(),
-                                   std::numeric_limits<double>::quiet_NaN()}) {
-            CHECK(surfaces_refusal({{&ball, good, scale}}) ==
-                  "surface 0: the scale must be a positive finite number");
+              "surface 2: the minimum distance must be a positive finite number, not -1");
+        const std::pair<double, std::string> scales[] = {
+            {0.0, "0"},
+            {-1.0, "-1"},
+            {std::numeric_limits<double>::infinity(), "inf"},
+            {std::numeric_limits<double>::quiet_NaN(), "nan"},
+        };
+        for (const auto& scale : scales) {
+            CHECK(surfaces_refusal({{&ball, good, scale.first}}) ==
+                  "surface 0: the scale must be a positive finite number, not " + scale.second);
         }
         SampleParams thrown = good;
         thrown.darts = 100;

@@ -309,6 +309,7 @@ TEST_CASE("boxes: count and distance belong together") {
 }
 
 TEST_CASE("boxes: what cannot be sampled is named") {
+    check_refused(unit_box(2, -1.5), "positive finite number, not -1.5");
     check_refused(unit_box(0, 0.1), "1 to 6 sides, not 0");
     check_refused(unit_box(7, 0.1), "1 to 6 sides, not 7");
     for (const double distance : {0.0, -1.0, std::nan(""), HUGE_VAL}) {
@@ -321,7 +322,7 @@ TEST_CASE("boxes: what cannot be sampled is named") {
     }
     BoxParams box = unit_box(2, 0.1);
     box.pool_ratio = 0.5;
-    check_refused(box, "pool ratio");
+    check_refused(box, "the pool ratio must be 1 to 10,000, not 0.5");
     check_refused(unit_box(1, 1e-8), "side 1 is 1e+08 times as long");
     check_refused(unit_box(2, 1e-300), "side 1 is 1e+300 times as long");
     check_refused(unit_box(4, 1e-4), "candidates, the maximum is");

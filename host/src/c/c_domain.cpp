@@ -12,6 +12,7 @@
 
 #include "c/c_call.hpp"
 #include "engine/domain/stages.hpp"
+#include "support/number_text.hpp"
 #include "support/try.hpp"
 
 namespace geodisk::c {
@@ -66,7 +67,8 @@ Result<Done> fill(const geodisk_mesh* mesh, const geodisk_surface_params& given,
     }
     if (given.class_factors != nullptr) {
         if (given.class_count < 2 || given.class_count > kMaxClasses) {
-            return wrong("params->class_count is not from 2 to 8");
+            return wrong("params->class_count is " + std::to_string(given.class_count) +
+                         ", not from 2 to 8");
         }
         part.class_factors.assign(given.class_factors,
                                   given.class_factors + given.class_count * given.class_count);
@@ -124,7 +126,7 @@ Result<Done> keep(Result<Domain> made, std::shared_ptr<DomainState> state,
 
 Result<Done> check_count(double count) {
     if (!(count >= 1) || !(count <= kMaxCandidates)) {
-        return wrong("count is not from 1 to 4294967295");
+        return wrong("count is " + exact_text(count) + ", not from 1 to 4294967295");
     }
     return Done{};
 }
@@ -142,7 +144,8 @@ Result<BoxParams> box_of(const geodisk_box_params* params) {
         return wrong("params->extents is NULL");
     }
     if (given->dimension < 1 || given->dimension > kMaxBoxDimensions) {
-        return wrong("params->dimension is not from 1 to 6");
+        return wrong("params->dimension is " + std::to_string(given->dimension) +
+                     ", not from 1 to 6");
     }
     BoxParams box;
     box.extents.assign(given->extents, given->extents + given->dimension);

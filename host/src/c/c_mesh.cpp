@@ -14,6 +14,7 @@
 #include <geodisk/weld.hpp>
 
 #include "c/c_call.hpp"
+#include "support/number_text.hpp"
 #include "support/try.hpp"
 
 namespace geodisk::c {
@@ -190,10 +191,10 @@ Result<std::vector<double>> values_on(const Mesh& mesh, const std::vector<double
     for (std::size_t v = 0; v < given.size(); ++v) {
         if (mesh.joined[v] != v && !(given[v] >= least && given[v] <= most)) {
             return Error{Status::invalid_argument,
-                         most > 1 ? "the density of vertex " + std::to_string(v) +
-                                        " is not 0 or positive, and finite"
-                                  : "the radius factor of vertex " + std::to_string(v) +
-                                        " is not from 0.001 to 1",
+                         most > 1 ? "the density of vertex " + std::to_string(v) + " is " +
+                                        exact_text(given[v]) + ", not 0 or positive, and finite"
+                                  : "the radius factor of vertex " + std::to_string(v) + " is " +
+                                        exact_text(given[v]) + ", not from 0.001 to 1",
                          v};
         }
     }

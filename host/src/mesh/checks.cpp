@@ -70,7 +70,7 @@ Result<Done> check_layout(const IndexView& triangles) {
 
 Result<Done> check_shape(const MeshView& mesh) {
     if (mesh.dimension < 2 || mesh.dimension > kMaxDimensions) {
-        return invalid("the dimension must be 2 to 8");
+        return invalid("the dimension must be 2 to 8, not " + std::to_string(mesh.dimension));
     }
     if ((mesh.positions.is_packed() && mesh.positions.count() % mesh.dimension != 0) ||
         mesh.triangles.size() % 3 != 0) {
@@ -248,7 +248,7 @@ Result<Done> check_area(double area, double extent) {
 
 Result<Done> check_threads(const ThreadOptions& threads) {
     if (threads.max_threads == 0) {
-        return invalid("max_threads must be at least 1");
+        return invalid("max_threads must be at least 1, not 0");
     }
     return Done{};
 }

@@ -11,6 +11,7 @@
 #include "mesh/joined_vertices.hpp"
 #include "mesh/position_table.hpp"
 #include "support/guard.hpp"
+#include "support/number_text.hpp"
 #include "support/try.hpp"
 
 namespace geodisk {
@@ -190,7 +191,9 @@ std::vector<std::uint32_t> join_equal(const MeshView& mesh, VertexSets& sets) {
 Result<WeldedMesh> weld(const MeshView& mesh, double epsilon) noexcept {
     return guarded([&]() -> Result<WeldedMesh> {
         if (!(epsilon >= 0) || !std::isfinite(epsilon)) {
-            return Error{Status::invalid_argument, "epsilon must be finite and not negative"};
+            return Error{Status::invalid_argument,
+                         "epsilon must be finite and not negative, but it is " +
+                             exact_text(epsilon)};
         }
         GEODISK_TRY(check_mesh(mesh));
         VertexSets sets(mesh.vertex_count());

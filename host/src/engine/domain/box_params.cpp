@@ -49,7 +49,8 @@ Result<Done> check_sides(const BoxParams& box) {
     for (std::size_t axis = 0; axis < box.extents.size(); ++axis) {
         if (!is_length(box.extents[axis])) {
             return invalid("side " + std::to_string(axis + 1) +
-                           " of the box must be a positive finite number");
+                           " of the box must be a positive finite number, not " +
+                           exact_text(box.extents[axis]));
         }
         if (!(box.extents[axis] / box.min_distance <= kLongestSide)) {
             return invalid("the minimum distance is too small for this box: side " +
@@ -106,10 +107,11 @@ double distance_for_count(const BoxParams& box, double count) noexcept {
 Result<std::uint32_t> pool_size(const BoxParams& box) noexcept {
     return guarded([&]() -> Result<std::uint32_t> {
         if (!(box.min_distance > 0) || !std::isfinite(box.min_distance)) {
-            return invalid("the minimum distance must be a positive finite number");
+            return invalid("the minimum distance must be a positive finite number, not " +
+                           exact_text(box.min_distance));
         }
         if (!(box.pool_ratio >= 1 && box.pool_ratio <= 10000)) {
-            return invalid("the pool ratio must be 1 to 10,000");
+            return invalid("the pool ratio must be 1 to 10,000, not " + exact_text(box.pool_ratio));
         }
         GEODISK_TRY(check_sides(box));
         const Stages stages = stages_of(box);

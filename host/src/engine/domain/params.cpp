@@ -132,10 +132,11 @@ double packing_density(double area, double min_distance, double count) noexcept 
 
 Result<Done> check_params(const PreparedMesh& mesh, const SampleParams& params) {
     if (!(params.min_distance > 0) || !std::isfinite(params.min_distance)) {
-        return invalid("the minimum distance must be a positive finite number");
+        return invalid("the minimum distance must be a positive finite number, not " +
+                       exact_text(params.min_distance));
     }
     if (!(params.pool_ratio >= 1 && params.pool_ratio <= 10000)) {
-        return invalid("the pool ratio must be 1 to 10,000");
+        return invalid("the pool ratio must be 1 to 10,000, not " + exact_text(params.pool_ratio));
     }
     if (params.radii != nullptr && params.radii->face_count() != mesh.face_count()) {
         return invalid("the radii are of a mesh with " +

@@ -18,6 +18,7 @@
 #include "records.h"
 #include "support/guard.hpp"
 #include "support/invalid.hpp"
+#include "support/number_text.hpp"
 #include "support/try.hpp"
 
 namespace geodisk {
@@ -116,7 +117,7 @@ Result<PlacedSurface> place(const SurfacePart& part) {
         return invalid("there is no mesh");
     }
     if (!(part.scale > 0) || !std::isfinite(part.scale)) {
-        return invalid("the scale must be a positive finite number");
+        return invalid("the scale must be a positive finite number, not " + exact_text(part.scale));
     }
     SampleParams params = part.params;
     params.min_distance /= part.scale;
